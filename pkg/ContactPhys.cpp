@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <ContactPhys.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_SnowMat_TimberMat_SnowPhys)(Ip2_SnowMat_SnowMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(
+        Law2_ManifoldGeom_SnowPhys_Linear));
+
+namespace {
+
+	const RoundedPolyhedron& shapeOf(const Body& body) { return *static_cast<RoundedPolyhedron*>(body.shape.get()); }
+
+	/// A fixed body counts as infinitely heavy.
+	Real massOf(const Body& body) { return body.state->blockedDOFs == State::DOF_ALL ? std::numeric_limits<Real>::infinity() : body.state->mass; }
+
+	void setPair(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
+	{
+		phys.mass         = timber::reduced(massOf(b1), massOf(b2));
+		phys.friction     = std::min(friction1, friction2);
+		phys.shearRatio   = shearRatio;
+		phys.dampingRatio = dampingRatio;
+		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
+	}
+
+	/// Relative motion at a contact point, from the velocities that led to the present placement.
+	timber::PointMotion motionAt(const Vector3r& x, const State& s1, const State& s2)
+	{
+		return { s2.vel + s2.angVel.cross(x - s2.pos) - s1.vel - s1.angVel.cross(x - s1.pos), (s1.angVel + s2.angVel) / 2 };
+	}
+
+	bool boundsOverlap(const Body& b1, const Body& b2)
+	{
+		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
+	}
+
+	/// Elastic step of all points of a pair. States of features that no longer meet go; their energy is booked as lost.
+	template <class Law> void pairStep(const Law& law, const ManifoldGeom& geom, ManifoldPhys& phys, const State& s1, const State& s2, Real dt, timber::NormalForm form)
+	{
+		const timber::PairProperties    pair = phys.properties();
+		std::vector<timber::PointState> next(geom.points.size());
+		Real                            lost = 0;
+		auto                            old  = phys.states.begin();
+		const auto                      drop = [&](const timber::PointState& s) { lost += law.energy(s.overlap) + timber::shearEnergy(s, pair); };
+		for (size_t k = 0; k < next.size(); ++k) {
+			const timber::ContactPoint& point = geom.points[k];
+			while (old != phys.states.end() && old->id < point.id)
+				drop(*old++);
+			const bool isNew = old == phys.states.end() || !(old->id == point.id);
+			if (isNew) next[k].id = point.id;
+			else
+				next[k] = *old++;
+			const timber::PointMotion motion = motionAt(point.position, s1, s2);
+			timber::elasticStep(law, pair, point, motion, dt, isNew, form, next[k]);
+			if (isNew) {
+				const Real approached = math::min(next[k].overlap, math::max(Real(0), Real(-motion.velocity.dot(point.normal) * dt)));
+				lost -= law.energy(next[k].overlap) - law.energy(approached);
+			}
+		}
+		while (old != phys.states.end())
+			drop(*old++);
+		phys.states.swap(next);
+		phys.lostEnergy = lost;
+	}
+
+	/// Returns false when the pair is out of reach for good: no points, nothing lost, bounding boxes apart.
+	template <class Phys> bool lawStep(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
+	{
+		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
+		Phys&               phys = *static_cast<Phys*>(p);
+		const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+		if (geom.points.empty() && phys.states.empty()) {
+			phys.lostEnergy = 0;
+			return boundsOverlap(b1, b2);
+		}
+		pairStep(phys.law(), geom, phys, *b1.state, *b2.state, scene->dt, form);
+		return true;
+	}
+
+} // namespace
+
+boost::python::list ManifoldPhys::pyStates() const
+{
+	boost::python::list all;
+	for (const timber::PointState& s : states)
+		all.append(boost::python::make_tuple(s.id.bits, Real(s.normal), Vector3r(s.shear), Vector3r(s.dashpot)));
+	return all;
+}
+
+void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+{
+	if (I->phys) return;
+	const TimberMat &     t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
+	const Body &          b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	shared_ptr<TimberPhys> phys(new TimberPhys);
+	const Real            poisson = (t1.poisson + t2.poisson) / 2;
+	setPair(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
+	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
+	phys->radius  = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
+	I->phys       = phys;
+}
+
+void Ip2_SnowMat_TimberMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+{
+	if (I->phys) return;
+	const bool          snowFirst = dynamic_cast<SnowMat*>(m1.get());
+	const SnowMat&      snow      = *static_cast<SnowMat*>((snowFirst ? m1 : m2).get());
+	const TimberMat&    timber    = *static_cast<TimberMat*>((snowFirst ? m2 : m1).get());
+	const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	shared_ptr<SnowPhys> phys(new SnowPhys);
+	setPair(*phys, b1, b2, snow.friction, timber.friction, 1, dampingRatio);
+	phys->stiffness = snow.stiffnessPerMass * (snowFirst ? b1 : b2).state->mass;
+	I->phys         = phys;
+}
+
+void Ip2_SnowMat_SnowMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+{
+	if (I->phys) return;
+	const SnowMat &     s1 = *static_cast<SnowMat*>(m1.get()), &s2 = *static_cast<SnowMat*>(m2.get());
+	const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	shared_ptr<SnowPhys> phys(new SnowPhys);
+	setPair(*phys, b1, b2, s1.friction, s2.friction, 1, dampingRatio);
+	phys->stiffness = math::min(s1.stiffnessPerMass * b1.state->mass, s2.stiffnessPerMass * b2.state->mass);
+	I->phys         = phys;
+}
+
+bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
+{
+	return lawStep<TimberPhys>(g.get(), p.get(), I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
+}
+
+bool Law2_ManifoldGeom_SnowPhys_Linear::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
+{
+	return lawStep<SnowPhys>(g.get(), p.get(), I, scene, timber::NormalForm::Closed);
+}
+
+} // namespace yade

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The elements in YADE's own viewer.
+#pragma once
+#ifdef YADE_OPENGL
+#include <RoundedPolyhedron.hpp>
+
+namespace yade {
+
+class Gl1_RoundedPolyhedron : public GlShapeFunctor {
+public:
+	void go(const shared_ptr<Shape>&, const shared_ptr<State>&, bool wire, const GLViewInfo&) override;
+	RENDERS(RoundedPolyhedron);
+	// clang-format off
+	YADE_CLASS_BASE_DOC(Gl1_RoundedPolyhedron, GlShapeFunctor, "Draws a :yref:`RoundedPolyhedron` with its sharp edges.");
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Gl1_RoundedPolyhedron);
+
+} // namespace yade
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <GroundMotionEngine.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((GroundMotionEngine));
+
+void GroundMotionEngine::postLoad(GroundMotionEngine&)
+{
+	if (acceleration.empty()) return;
+	if (!(step > 0)) throw std::invalid_argument("GroundMotionEngine.step = " + std::to_string(step) + ": it must be > 0");
+	for (size_t k = 0; k < acceleration.size(); ++k)
+		if (!acceleration[k].allFinite()) throw std::invalid_argument("GroundMotionEngine.acceleration[" + std::to_string(k) + "] is not finite");
+}
+
+Vector3r GroundMotionEngine::at(Real time) const
+{
+	const Real place = (time - start) / step;
+	if (!(place >= 0) || place > acceleration.size() - 1) return Vector3r::Zero();
+	const size_t k     = math::min(size_t(place), acceleration.size() - 1);
+	const Real   share = place - k;
+	const Vector3r next = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];
+	return scale * ((1 - share) * acceleration[k] + share * next);
+}
+
+Vector3r GroundMotionEngine::freeMomentum() const
+{
+	Vector3r sum = Vector3r::Zero();
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b && b->state->blockedDOFs != State::DOF_ALL) sum += b->state->mass * b->state->vel;
+	return sum;
+}
+
+void GroundMotionEngine::action()
+{
+	const Vector3r momentum = freeMomentum();
+	work -= scene->dt * lastAcceleration.dot(lastMomentum + momentum) / 2;
+	lastMomentum     = momentum;
+	lastAcceleration = at(scene->time);
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b && b->state->blockedDOFs != State::DOF_ALL) scene->forces.addForce(b->getId(), -b->state->mass * lastAcceleration);
+}
+
+} // namespace yade

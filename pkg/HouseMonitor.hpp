@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Watches a run: storey drift, breaks, energies; and stops it when a number is no longer finite.
+#pragma once
+#include <ContactForces.hpp>
+#include <GroundMotionEngine.hpp>
+#include <JointEngine.hpp>
+
+namespace yade {
+
+class HouseMonitor : public GlobalEngine {
+	Real     kineticEnergy() const;
+	Real     gravityEnergy() const;
+	Vector3r meanDisplacement(int level) const;
+	int      brokenJoints() const;
+	void     record();
+	template <class E> E* find() const
+	{
+		for (const shared_ptr<Engine>& e : scene->engines)
+			if (E* found = dynamic_cast<E*>(e.get())) return found;
+		return nullptr;
+	}
+
+public:
+	void action() override;
+	/// Terms of the energy balance at this moment, see ``yade_timber.energy``. [J]
+	boost::python::dict energy();
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
+		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean horizontal displacement of the bodies of the level above it minus that of the level below, over the storey's height. "
+		"Stands between :yref:`ContactForces` and the integrator, where positions, forces and energies belong to the same instant.",
+		((Real, interval, 0.01, , "Simulated time between samples. [s]"))
+		((Real, storeyHeight, 2.73, , "Height that drifts refer to. [m] (paper, section 3.4)"))
+		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Gravity, for its potential energy. [m/s2]"))
+		((vector<int>, bodies, , , "Ids of the bodies that mark levels. [-]"))
+		((vector<int>, levels, , , "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
+		((int, storeys, 0, , "Number of levels. [-]"))
+		((Real, tiltDrift, 0.1, , "Drift at which a storey counts as tilted. [-]"))
+		((Real, tiltTime, NaN, , "When the first storey drift passed tiltDrift. [s]"))
+		((string, tiltDirection, , , "ns or ew: direction of the drift that passed tiltDrift first. [-]"))
+		((Real, collapseTime, NaN, , "When a level had come down by half a storey. [s]"))
+		((vector<Real>, peak, , , "Largest drift so far: north-south and east-west of storey 1, of storey 2, ... [-]"))
+		((Real, nextSample, 0, Attr::readonly, "Simulated time of the next sample. [s]"))
+		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
+		,
+		.def("columns", &HouseMonitor::pyColumns, "Names of the columns of rows, with units. [-]")
+		.def("energy", &HouseMonitor::energy, "Terms of the energy balance now. [J]")
+	);
+	// clang-format on
+	boost::python::list pyColumns() const;
+};
+REGISTER_SERIALIZABLE(HouseMonitor);
+
+class HealthCheck : public GlobalEngine {
+public:
+	void action() override;
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine, "Stops a run with an error that names the body and the step when a position or velocity is not finite or a speed is beyond all physics.",
+		((int, every, 100, , "Steps between checks. [-]"))
+		((Real, speedLimit, 200, , "Largest believable speed of a body. [m/s]")));
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(HealthCheck);
+
+} // namespace yade

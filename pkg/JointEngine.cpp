@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <JointEngine.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((TimberJoint)(JointBreak)(JointEngine));
+
+void TimberJoint::postLoad(TimberJoint&)
+{
+	if (anchors1.empty()) return;
+	if (anchors2.empty()) return; // attributes are set one after the other
+	if (anchors1.size() != anchors2.size()) throw std::invalid_argument("TimberJoint: anchors1 and anchors2 must have the same length");
+	broken.resize(anchors1.size(), 0);
+	forces.resize(anchors1.size(), Vector3r::Zero());
+	stretches.resize(anchors1.size(), 0);
+}
+
+timber::SpringForce TimberJoint::spring(size_t k, const State& s1, const State& s2, Vector3r& end1, Vector3r& end2) const
+{
+	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
+	end1             = s1.pos + s1.ori * anchors1[k];
+	end2             = s2.pos + s2.ori * anchors2[k];
+	return timber::springForce({ share * kn, share * ks }, end2 - end1, s1.ori * normal);
+}
+
+boost::python::list TimberJoint::pySprings() const
+{
+	boost::python::list all;
+	for (size_t k = 0; k < broken.size(); ++k) {
+		boost::python::dict one;
+		one["force"]   = Vector3r(forces[k]);
+		one["stretch"] = stretches[k];
+		one["broken"]  = bool(broken[k]);
+		all.append(one);
+	}
+	return all;
+}
+
+int JointEngine::append(const shared_ptr<TimberJoint>& joint)
+{
+	joints.push_back(joint);
+	return int(joints.size()) - 1;
+}
+
+boost::python::list JointEngine::pyJoints() const
+{
+	boost::python::list all;
+	for (const auto& j : joints)
+		all.append(j);
+	return all;
+}
+
+boost::python::list JointEngine::pyBreaks() const
+{
+	boost::python::list all;
+	for (const auto& b : breaks)
+		all.append(b);
+	return all;
+}
+
+void JointEngine::listActive()
+{
+	active.clear();
+	known = joints.size();
+	for (size_t k = 0; k < joints.size(); ++k)
+		if (!joints[k]->isFinished()) active.push_back(k);
+}
+
+void JointEngine::breakSpring(size_t joint, size_t spring, const timber::SpringForce& f)
+{
+	static const char* const     names[] = { "tension", "compression", "shear" };
+	const shared_ptr<JointBreak> entry(new JointBreak);
+	entry->time   = scene->time;
+	entry->joint  = int(joint);
+	entry->spring = int(spring);
+	entry->cause  = names[int(timber::breakCause(f))];
+	entry->force  = f.force.norm();
+	breaks.push_back(entry);
+	released += f.energy;
+	joints[joint]->broken[spring]    = 1;
+	joints[joint]->forces[spring]    = Vector3r::Zero();
+	joints[joint]->stretches[spring] = 0;
+}
+
+void JointEngine::act(size_t index)
+{
+	TimberJoint &                    joint = *joints[index];
+	const State &                    s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	std::vector<timber::SpringForce> springs(joint.broken.size());
+	std::vector<Vector3r>            ends1(springs.size()), ends2(springs.size());
+	Real                             sum = 0;
+	for (size_t k = 0; k < springs.size(); ++k) {
+		if (joint.broken[k]) continue;
+		springs[k] = joint.spring(k, s1, s2, ends1[k], ends2[k]);
+		sum += springs[k].force.norm();
+	}
+	Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
+	for (size_t k = 0; k < springs.size(); ++k) {
+		if (joint.broken[k]) continue;
+		const Vector3r f = springs[k].force;
+		if ((joint.perJoint ? sum : f.norm()) > joint.strength) {
+			breakSpring(index, k, springs[k]);
+			continue;
+		}
+		joint.forces[k]    = f;
+		joint.stretches[k] = (ends2[k] - ends1[k]).norm();
+		elasticNow += springs[k].energy;
+		force += f;
+		torque1 += (ends1[k] - s1.pos).cross(f);
+		torque2 -= (ends2[k] - s2.pos).cross(f);
+	}
+	scene->forces.addForce(joint.id1, force);
+	scene->forces.addTorque(joint.id1, torque1);
+	scene->forces.addForce(joint.id2, -force);
+	scene->forces.addTorque(joint.id2, torque2);
+}
+
+void JointEngine::action()
+{
+	if (known != joints.size()) listActive();
+	elasticLast         = elasticNow;
+	elasticNow          = 0;
+	const size_t before = breaks.size();
+	for (const size_t index : active)
+		act(index);
+	if (breaks.size() != before) listActive();
+}
+
+} // namespace yade

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Breakable joints between two bodies (paper, sections 2.4 and 3.2).
+#pragma once
+#include <kernel/joint_law.hpp>
+#include <pch.hpp>
+
+namespace yade {
+
+class TimberJoint : public Serializable {
+public:
+	void postLoad(TimberJoint&);
+	/// One of the springs, from the placements of the two bodies. `count` share the joint's stiffness if it is per joint.
+	timber::SpringForce spring(size_t k, const State& s1, const State& s2, Vector3r& end1, Vector3r& end2) const;
+	bool                isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
+	boost::python::list pySprings() const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in both (paper, section 4: at the four corners of the contact area). It acts beside contact.",
+		((Body::id_t, id1, -1, , "First body. [-]"))
+		((Body::id_t, id2, -1, , "Second body. [-]"))
+		((vector<Vector3r>, anchors1, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 1. [m]"))
+		((vector<Vector3r>, anchors2, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 2. [m]"))
+		((Vector3r, normal, Vector3r(0, 0, 1), , "Unit normal of the contact area in the frame of body 1, towards body 2. [-]"))
+		((Real, kn, NaN, , "Normal stiffness, of each spring or of the whole joint, see perJoint. [N/m] (paper, Table 1)"))
+		((Real, ks, NaN, , "Tangential stiffness, likewise. [N/m] (paper, Table 1)"))
+		((Real, strength, NaN, , "P_max, of each spring or of the whole joint. [N] (paper, section 3.2)"))
+		((bool, perJoint, false, , "Whether stiffness and strength belong to the joint: each spring has its share of the stiffness and all break when the sum of their forces exceeds the strength. [-]"))
+		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
+		((string, name, , , "Name of the joint, for reports. [-]"))
+		((vector<int>, broken, , , "1 for each broken spring, else 0. [-]"))
+		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
+		((vector<Real>, stretches, , Attr::readonly, "Distance of the two ends of each spring in the last step. [m]")),
+		,
+		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
+		.add_property("isFinished", &TimberJoint::isFinished, "Whether all springs are broken. [-]")
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(TimberJoint);
+
+class JointBreak : public Serializable {
+public:
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(JointBreak, Serializable, "A spring that broke.",
+		((Real, time, NaN, , "Simulated time. [s]"))
+		((int, joint, -1, , "Index of the joint in the engine. [-]"))
+		((int, spring, -1, , "Index of the spring in the joint. [-]"))
+		((string, cause, , , "tension, compression or shear. [-]"))
+		((Real, force, NaN, , "Force of the spring when it broke. [N]")));
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(JointBreak);
+
+class JointEngine : public GlobalEngine {
+	std::vector<size_t> active; ///< joints with springs left
+	size_t              known = 0; ///< joints seen when `active` was made
+
+	void listActive();
+	void act(size_t joint);
+	void breakSpring(size_t joint, size_t spring, const timber::SpringForce&);
+
+public:
+	void                action() override;
+	int                 append(const shared_ptr<TimberJoint>&);
+	boost::python::list pyJoints() const;
+	boost::python::list pyBreaks() const;
+	Real                elastic() const { return (elasticNow + elasticLast) / 2; }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a spring whose force exceeds the strength breaks and never acts again.",
+		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
+		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
+		((Real, released, 0, , "Energy that was stored in springs when they broke. [J]"))
+		((Real, elasticNow, 0, Attr::hidden, "[J]"))
+		((Real, elasticLast, 0, Attr::hidden, "[J]")),
+		,
+		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its index. [-]")
+		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
+		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order. [-]")
+		.add_property("elastic", &JointEngine::elastic, "Elastic energy of the springs between the last two steps. [J]")
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(JointEngine);
+
+} // namespace yade

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <RoundedPolyhedron.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((RoundedPolyhedron)(Bo1_RoundedPolyhedron_Aabb)(TimberMat)(SnowMat));
+
+namespace {
+	void requirePositive(const char* name, Real value, const char* range = "> 0")
+	{
+		if (!(value > 0) || !std::isfinite(value)) throw std::invalid_argument(string(name) + " = " + std::to_string(value) + ": it must be finite and " + range);
+	}
+	void requireFriction(Real value)
+	{
+		if (!(value >= 0) || !std::isfinite(value)) throw std::invalid_argument("friction = " + std::to_string(value) + ": it must be finite and >= 0");
+	}
+}
+
+void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
+{
+	if (vertices.empty()) return; // default-constructed
+	if (!(radius >= 0)) throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius) + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
+	geometry = timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius);
+	radius   = geometry.radius;
+	volume   = timber::massProperties(geometry.sharp).volume;
+}
+
+boost::python::tuple RoundedPolyhedron::massProperties() const
+{
+	const timber::MassProperties p = timber::massProperties(geometry.sharp);
+	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia), Quaternionr(timber::principalAxes(p.inertia)));
+}
+
+boost::python::list RoundedPolyhedron::faces() const
+{
+	boost::python::list all;
+	for (const timber::Face& face : geometry.sharp.faces) {
+		boost::python::list corners;
+		for (const int k : face.corners)
+			corners.append(k);
+		all.append(corners);
+	}
+	return all;
+}
+
+void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
+{
+	const timber::RoundedPolyhedron& body = static_cast<RoundedPolyhedron*>(shape.get())->geometry;
+	if (!bound) bound = shared_ptr<Bound>(new Aabb);
+	const Matrix3r turn = se3.orientation.toRotationMatrix();
+	Vector3r       low  = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;
+	for (const Vector3r& v : body.core.vertices) {
+		const Vector3r x = turn * v;
+		low              = low.cwiseMin(x);
+		high             = high.cwiseMax(x);
+	}
+	const Vector3r grow = Vector3r::Constant(body.radius + margin);
+	bound->min          = se3.position + low - grow;
+	bound->max          = se3.position + high + grow;
+}
+
+void TimberMat::postLoad(TimberMat&)
+{
+	requirePositive("TimberMat.young", young);
+	requirePositive("TimberMat.density", density);
+	if (!(poisson > -1 && poisson <= 0.5)) throw std::invalid_argument("TimberMat.poisson = " + std::to_string(poisson) + ": it must be in (-1, 0.5]");
+	requireFriction(friction);
+}
+
+void SnowMat::postLoad(SnowMat&)
+{
+	requirePositive("SnowMat.stiffnessPerMass", stiffnessPerMass);
+	requirePositive("SnowMat.density", density);
+	requireFriction(friction);
+}
+
+} // namespace yade

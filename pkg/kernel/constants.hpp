@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Every tolerance of the kernel: what it means, its unit, and what changing it does.
+#pragma once
+
+namespace timber {
+
+/// Rounding radius as a share of the shortest edge (paper, section 2.2). [-]
+constexpr double radiusShare = 0.10;
+
+/// Points closer to a plane than this share of the polyhedron's size lie in it. [-]
+/// Larger: single-precision vertices still make planar faces; smaller: nearly flat corners are kept as corners.
+constexpr double planarShare = 1e-6;
+
+/// Two places closer than this are the same place: a vertex over a face's border, a crossing at an edge's end,
+/// two vertices on each other. [m] Below any construction tolerance and far above rounding noise, so that a flush
+/// contact is decided by rule and not by the last bit. It sets how far a member slides before the rule lets go.
+constexpr double flushTolerance = 1e-4;
+
+/// Edges whose directions differ by less (sine of the angle) are parallel and have no crossing point. [-]
+/// Larger drops real crossings; smaller lets the crossing point of nearly parallel edges jump along them.
+constexpr double parallelSine = 1e-3;
+
+/// Candidate features are kept for a pair until it has moved by this length. [m]
+/// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
+constexpr double candidateSkin = 2e-3;
+
+/// Overlap that a new contact point may start with beyond what its approach speed explains. [m]
+/// A point born deeper (a vertex that slid in behind an edge) starts without force, see birthExcess().
+constexpr double birthAllowance = 1e-4;
+
+} // namespace timber

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Total contact forces of one step: elastic forces plus dashpots, no tension, Coulomb's limit.
+///
+/// A face has four points, each with a critical dashpot for the mass of the whole pair (Eqs. 41-43); on a light slender
+/// member they add up to rates of 1e5 /s, and explicit dashpots (Eqs. 17, 18) are unstable above some 1e-5 s. Here the
+/// dashpot impulses of all points act on the mean of the velocities before and after the step,
+///     p = -h C ((1 - theta) v_before + theta v_after),    theta = 1/2 + x/(12 + 2x),  x = h C / m_eff,
+/// which is second order for slow dashpots (theta -> 1/2) and strongly damped for fast ones (theta -> 1; the exact decay
+/// exp(-x) gives this theta to 1 %). The coupled equations are solved by projected Gauss-Seidel sweeps over the points,
+/// started from the last step's dashpots. No sweeps: explicit dashpots, as the paper has them.
+#pragma once
+#include "types.hpp"
+#include <vector>
+
+namespace timber {
+
+struct DashpotBody {
+	Vec3 velocity, spin; ///< before the step [m/s, rad/s]
+	Vec3 newVelocity, newSpin; ///< in: after all forces but those of contacts; out: after the contacts too
+	double inverseMass; ///< 0 for a fixed body [1/kg]
+	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
+};
+
+struct DashpotPoint {
+	int bodyA, bodyB; ///< indices of the bodies
+	Vec3 armA, armB; ///< from the centres of mass to the point [m]
+	Vec3 normal; ///< unit, from A to B
+	double elasticNormal; ///< e_n >= 0 [N]
+	Vec3 elasticShear; ///< e_s on B, before Coulomb's limit [N]
+	double normalDamping, shearDamping; ///< C_n, C_s [N s/m]
+	double friction; ///< [-]
+	Vec3 impulse; ///< in: guess; out: total contact impulse on B [N s]
+
+	// filled by solveDashpots
+	Mat3 response = Mat3::Zero(); ///< change of relative velocity at the point per unit impulse [1/kg]
+	Vec3 before = Vec3::Zero(); ///< relative velocity before the step [m/s]
+	double normalTheta = 1, normalDivisor = 1, shearTheta = 1, shearDivisor = 1;
+};
+
+/// Relative velocity of B against A at the point. [m/s]
+inline Vec3 relativeVelocity(const DashpotPoint& p, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+{
+	return vB + wB.cross(p.armB) - vA - wA.cross(p.armA);
+}
+
+/// e_s after sliding: at most friction times the normal force. [N]
+Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce);
+
+/// Finds the impulses of all points for a step of length h [s]; `sweeps` passes, alternating in direction.
+void solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps);
+
+} // namespace timber

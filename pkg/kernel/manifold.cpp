@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "manifold.hpp"
+#include "constants.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace timber {
+namespace {
+
+	/// One pair at one instant, all in the frame of A: x_A = rotation x_B + translation.
+	struct Pair {
+		const RoundedPolyhedron& a;
+		const RoundedPolyhedron& b;
+		Mat3 rotation;
+		Vec3 translation;
+		Patterns patterns;
+
+		double touch() const { return a.radius + b.radius; }
+		double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
+		Vec3 toB(const Vec3& x) const { return rotation.transpose() * (x - translation); }
+		Vec3 toA(const Vec3& x) const { return rotation * x + translation; }
+		/// Foot beyond a border by less than this still belongs to the face. [m]
+		double borderLimit() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
+	};
+
+	/// What two features make of each other: distance of the cores along the normal, in one frame.
+	struct Meet {
+		Vec3 pointA, pointB; ///< on the cores
+		Vec3 normal; ///< unit, from A to B
+		double distance; ///< of the cores along the normal, negative when they overlap [m]
+	};
+
+	double height(const Face& face, const Vec3& x) { return face.plane.normal.dot(x) - face.plane.offset; }
+
+	/// How far the foot of x lies outside the face's border (negative inside). [m]
+	double beyondBorder(const Polyhedron& body, const Face& face, const Vec3& x)
+	{
+		double most = -std::numeric_limits<double>::infinity();
+		for (size_t k = 0; k < face.corners.size(); ++k)
+			most = std::max(most, face.outward[k].dot(x - body.vertices[face.corners[k]]));
+		return most;
+	}
+
+	/// x lies in the core: only its nearest face answers.
+	bool isNearestFace(const Polyhedron& body, const Face& face, const Vec3& x)
+	{
+		const double own = height(face, x);
+		return std::none_of(body.faces.begin(), body.faces.end(), [&](const Face& other) { return height(other, x) > own; });
+	}
+
+	/// Vertex x against a face, both in the face's frame. `normal` is the face's outward normal here.
+	bool vertexOnFace(const Polyhedron& body, const Face& face, const Vec3& x, double touch, double borderLimit, double& distance)
+	{
+		distance = height(face, x);
+		if (distance >= touch) return false;
+		if (distance < 0) return isNearestFace(body, face, x);
+		return beyondBorder(body, face, x) <= borderLimit;
+	}
+
+	bool meetVertexFace(const Pair& pair, int vertex, int face, Meet& meet)
+	{
+		const Vec3& x = pair.a.core.vertices[vertex];
+		const Face& f = pair.b.core.faces[face];
+		if (!vertexOnFace(pair.b.core, f, pair.toB(x), pair.touch(), pair.borderLimit(), meet.distance)) return false;
+		meet.normal = -(pair.rotation * f.plane.normal);
+		meet.pointA = x;
+		meet.pointB = x + meet.distance * meet.normal;
+		return true;
+	}
+
+	bool meetFaceVertex(const Pair& pair, int face, int vertex, Meet& meet)
+	{
+		const Vec3 x = pair.toA(pair.b.core.vertices[vertex]);
+		const Face& f = pair.a.core.faces[face];
+		if (!vertexOnFace(pair.a.core, f, x, pair.touch(), pair.borderLimit(), meet.distance)) return false;
+		meet.normal = f.plane.normal;
+		meet.pointB = x;
+		meet.pointA = x - meet.distance * meet.normal;
+		return true;
+	}
+
+	/// Two lines: sine of their angle, parameters of the closest points along the unit directions.
+	struct Crossing {
+		double sine, alongA, alongB;
+		Vec3 across; ///< unit, perpendicular to both
+	};
+	Crossing cross(const Vec3& originA, const Vec3& alongA, const Vec3& originB, const Vec3& alongB)
+	{
+		Crossing c;
+		const Vec3 n = alongA.cross(alongB);
+		c.sine = n.norm();
+		if (c.sine < parallelSine) return c;
+		c.across = n / c.sine;
+		const Vec3 w = originB - originA;
+		const double square = c.sine * c.sine;
+		c.alongA = w.cross(alongB).dot(n) / square;
+		c.alongB = w.cross(alongA).dot(n) / square;
+		return c;
+	}
+
+	/// The crossing must lie inside both edges, farther from their ends than the border rule reaches.
+	bool meetEdgeEdge(const Pair& pair, int edgeA, int edgeB, Meet& meet)
+	{
+		const Edge &ea = pair.a.core.edges[edgeA], &eb = pair.b.core.edges[edgeB];
+		const Vec3& tailA = pair.a.core.vertices[ea.tail];
+		const Vec3 tailB = pair.toA(pair.b.core.vertices[eb.tail]);
+		const Vec3 spanA = pair.a.core.vertices[ea.head] - tailA;
+		const Vec3 spanB = pair.rotation * (pair.b.core.vertices[eb.head] - pair.b.core.vertices[eb.tail]);
+		const double lengthA = spanA.norm(), lengthB = spanB.norm();
+		Crossing c = cross(tailA, spanA / lengthA, tailB, spanB / lengthB);
+		if (c.sine < parallelSine) return false;
+		const double end = flushTolerance / c.sine;
+		if (c.alongA <= end || c.alongA >= lengthA - end || c.alongB <= end || c.alongB >= lengthB - end) return false;
+		if (c.across.dot(ea.outward) < 0) c.across = -c.across;
+		if (c.across.dot(pair.rotation * eb.outward) >= 0) return false; // B's edge is on the far side of B
+		meet.pointA = tailA + c.alongA / lengthA * spanA;
+		meet.pointB = tailB + c.alongB / lengthB * spanB;
+		meet.normal = c.across;
+		meet.distance = c.across.dot(meet.pointB - meet.pointA);
+		return meet.distance < pair.touch() && meet.distance > -pair.depthLimit();
+	}
+
+	/// A vertex is the nearest part of its body in direction `towards` (unit) if no edge from it leads that way.
+	bool isExtreme(const Polyhedron& body, int vertex, const Vec3& towards, double slope)
+	{
+		for (const Edge& e : body.edges) {
+			if (e.tail != vertex && e.head != vertex) continue;
+			const Vec3 along = body.vertices[e.tail == vertex ? e.head : e.tail] - body.vertices[vertex];
+			if (along.dot(towards) > slope * along.norm()) return false;
+		}
+		return true;
+	}
+
+	/// Vertex x of `from` against an edge of `body`; `from`'s frame is turned by `turn` into the edge's frame.
+	bool vertexOnEdge(const Pair& pair, const Polyhedron& from, const Mat3& turn, int vertex, const Polyhedron& body, const Edge& edge, const Vec3& x, Vec3& foot)
+	{
+		const Vec3& tail = body.vertices[edge.tail];
+		const Vec3 span = body.vertices[edge.head] - tail;
+		const double length = span.norm(), along = (x - tail).dot(span) / length;
+		if (along < -flushTolerance || along > length + flushTolerance) return false;
+		for (const int f : { edge.left, edge.right })
+			if (beyondBorder(body, body.faces[f], x) <= pair.borderLimit()) return false; // the face answers
+		foot = tail + along / length * span;
+		const Vec3 towards = foot - x;
+		const double distance = towards.norm();
+		if (distance >= pair.touch() || distance <= 0 || towards.dot(edge.outward) >= 0) return false;
+		return isExtreme(from, vertex, turn.transpose() * towards / distance, flushTolerance / pair.touch());
+	}
+
+	bool finish(Meet& meet)
+	{
+		const Vec3 way = meet.pointB - meet.pointA;
+		meet.distance = way.norm();
+		meet.normal = way / meet.distance;
+		return true;
+	}
+
+	bool meetVertexEdge(const Pair& pair, int vertex, int edge, Meet& meet)
+	{
+		const Vec3& x = pair.a.core.vertices[vertex];
+		Vec3 foot;
+		if (!vertexOnEdge(pair, pair.a.core, pair.rotation.transpose(), vertex, pair.b.core, pair.b.core.edges[edge], pair.toB(x), foot)) return false;
+		meet.pointA = x;
+		meet.pointB = pair.toA(foot);
+		return finish(meet);
+	}
+
+	bool meetEdgeVertex(const Pair& pair, int edge, int vertex, Meet& meet)
+	{
+		meet.pointB = pair.toA(pair.b.core.vertices[vertex]);
+		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], meet.pointB, meet.pointA) && finish(meet);
+	}
+
+	bool meetVertexVertex(const Pair& pair, int vertexA, int vertexB, Meet& meet)
+	{
+		meet.pointA = pair.a.core.vertices[vertexA];
+		meet.pointB = pair.toA(pair.b.core.vertices[vertexB]);
+		const Vec3 way = meet.pointB - meet.pointA;
+		const double distance = way.norm();
+		if (distance >= pair.touch() || distance <= flushTolerance) return false;
+		const double beyond = -flushTolerance / distance; // strictly beyond the ends of all edges: they do not answer
+		return isExtreme(pair.a.core, vertexA, way / distance, beyond) && isExtreme(pair.b.core, vertexB, pair.rotation.transpose() * -way / distance, beyond) && finish(meet);
+	}
+
+	bool meetFeatures(const Pair& pair, FeatureId id, Meet& meet)
+	{
+		switch (id.meeting()) {
+			case Meeting::VertexFace: return meetVertexFace(pair, id.a(), id.b(), meet);
+			case Meeting::FaceVertex: return meetFaceVertex(pair, id.a(), id.b(), meet);
+			case Meeting::EdgeEdge: return meetEdgeEdge(pair, id.a(), id.b(), meet);
+			case Meeting::VertexEdge: return meetVertexEdge(pair, id.a(), id.b(), meet);
+			case Meeting::EdgeVertex: return meetEdgeVertex(pair, id.a(), id.b(), meet);
+			case Meeting::VertexVertex: return meetVertexVertex(pair, id.a(), id.b(), meet);
+			default: return false;
+		}
+	}
+
+	/// Cores overlap and no pair of features answers (two plates through each other): one point along the axis of least
+	/// penetration, between the parts of both that reach farthest along it.
+	bool meetCores(const Pair& pair, Meet& meet)
+	{
+		meet.distance = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, meet.normal);
+		if (meet.distance >= 0) return false;
+		const auto farthest = [](const Polyhedron& body, const Vec3& direction) {
+			double most = -std::numeric_limits<double>::infinity();
+			for (const Vec3& v : body.vertices)
+				most = std::max(most, v.dot(direction));
+			Vec3 sum = Vec3::Zero();
+			int count = 0;
+			for (const Vec3& v : body.vertices)
+				if (v.dot(direction) >= most - flushTolerance) {
+					sum += v;
+					++count;
+				}
+			return Vec3(sum / count);
+		};
+		const Vec3 onA = farthest(pair.a.core, meet.normal);
+		const Vec3 onB = pair.toA(farthest(pair.b.core, pair.rotation.transpose() * -meet.normal));
+		const Vec3 middle = (onA + onB) / 2;
+		meet.pointA = middle - meet.distance / 2 * meet.normal;
+		meet.pointB = middle + meet.distance / 2 * meet.normal;
+		return true;
+	}
+
+	ContactPoint worldPoint(const Pair& pair, const Pose& poseA, FeatureId id, const Meet& meet)
+	{
+		const double overlap = pair.touch() - meet.distance;
+		const Vec3 middle = meet.pointA + (pair.a.radius - overlap / 2) * meet.normal;
+		return { id, poseA.position + poseA.orientation * middle, poseA.orientation * meet.normal, overlap };
+	}
+
+	/// Vertices on each other, or over each other's borders, are one contact although several features name it.
+	/// Crossings are never repeated: they keep their distance from vertices (meetEdgeEdge).
+	bool isRepeated(const std::vector<ContactPoint>& points, const ContactPoint& next)
+	{
+		const Meeting meeting = next.id.meeting();
+		if (meeting == Meeting::VertexFace || meeting == Meeting::EdgeEdge) return false;
+		const bool onEdge = meeting == Meeting::VertexEdge || meeting == Meeting::EdgeVertex;
+		return std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) {
+			if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
+			return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
+		});
+	}
+
+	double segmentDistance(const Vec3& tailA, const Vec3& spanA, const Vec3& tailB, const Vec3& spanB)
+	{
+		const Vec3 w = tailA - tailB;
+		const double aa = spanA.squaredNorm(), bb = spanB.squaredNorm(), ab = spanA.dot(spanB), aw = spanA.dot(w), bw = spanB.dot(w);
+		const double det = aa * bb - ab * ab;
+		double s = det > 1e-12 * aa * bb ? std::clamp((ab * bw - bb * aw) / det, 0., 1.) : 0.;
+		const double t = std::clamp((ab * s + bw) / bb, 0., 1.);
+		s = std::clamp((ab * t - aw) / aa, 0., 1.);
+		return (w + s * spanA - t * spanB).norm();
+	}
+
+	/// Feature pairs that can touch before the pair has moved by the skin.
+	class CandidateSearch {
+	public:
+		CandidateSearch(const Pair& p, std::vector<FeatureId>& o)
+		        : pair(p)
+		        , out(o)
+		        , range(p.touch() + candidateSkin)
+		{
+			for (const Vec3& v : p.a.core.vertices)
+				verticesA.push_back(p.toB(v));
+			for (const Vec3& v : p.b.core.vertices)
+				verticesB.push_back(p.toA(v));
+		}
+		void run()
+		{
+			facesAgainst(Meeting::VertexFace, verticesA, pair.b);
+			facesAgainst(Meeting::FaceVertex, verticesB, pair.a);
+			edges();
+			if (!pair.patterns.vertexEdge) return;
+			edgesAgainst(Meeting::VertexEdge, verticesA, pair.b.core);
+			edgesAgainst(Meeting::EdgeVertex, verticesB, pair.a.core);
+			vertices();
+		}
+
+	private:
+		const Pair& pair;
+		std::vector<FeatureId>& out;
+		double range;
+		std::vector<Vec3> verticesA, verticesB; ///< each in the other's frame
+
+		void facesAgainst(Meeting meeting, const std::vector<Vec3>& points, const RoundedPolyhedron& body)
+		{
+			const bool vertexFirst = meeting == Meeting::VertexFace;
+			const int outer = int(vertexFirst ? points.size() : body.core.faces.size()), inner = int(vertexFirst ? body.core.faces.size() : points.size());
+			for (int a = 0; a < outer; ++a)
+				for (int b = 0; b < inner; ++b) {
+					const Face& face = body.core.faces[vertexFirst ? b : a];
+					const Vec3& x = points[vertexFirst ? a : b];
+					const double h = height(face, x);
+					if (h > range || h < -(body.coreHalfThickness + candidateSkin)) continue;
+					if (beyondBorder(body.core, face, x) <= flushTolerance + candidateSkin) out.push_back({ meeting, a, b });
+				}
+		}
+		void edges()
+		{
+			const double near = std::max(range, pair.depthLimit() + candidateSkin);
+			for (size_t a = 0; a < pair.a.core.edges.size(); ++a)
+				for (size_t b = 0; b < pair.b.core.edges.size(); ++b) {
+					const Edge &ea = pair.a.core.edges[a], &eb = pair.b.core.edges[b];
+					const Vec3& tailA = pair.a.core.vertices[ea.tail];
+					const Vec3& tailB = verticesB[eb.tail];
+					if (segmentDistance(tailA, pair.a.core.vertices[ea.head] - tailA, tailB, verticesB[eb.head] - tailB) <= near) out.push_back({ Meeting::EdgeEdge, int(a), int(b) });
+				}
+		}
+		void edgesAgainst(Meeting meeting, const std::vector<Vec3>& points, const Polyhedron& body)
+		{
+			const bool vertexFirst = meeting == Meeting::VertexEdge;
+			const int outer = int(vertexFirst ? points.size() : body.edges.size()), inner = int(vertexFirst ? body.edges.size() : points.size());
+			for (int a = 0; a < outer; ++a)
+				for (int b = 0; b < inner; ++b) {
+					const Edge& e = body.edges[vertexFirst ? b : a];
+					const Vec3& tail = body.vertices[e.tail];
+					if (segmentDistance(tail, body.vertices[e.head] - tail, points[vertexFirst ? a : b], Vec3(1e-12, 0, 0)) <= range) out.push_back({ meeting, a, b });
+				}
+		}
+		void vertices()
+		{
+			for (size_t a = 0; a < pair.a.core.vertices.size(); ++a)
+				for (size_t b = 0; b < verticesB.size(); ++b)
+					if ((verticesB[b] - pair.a.core.vertices[a]).norm() <= range) out.push_back({ Meeting::VertexVertex, int(a), int(b) });
+		}
+	};
+
+	/// Upper bound of how far any point within the search range of the smaller body has moved with it, in the frame of
+	/// the larger body: vertices of the larger one are seen from the smaller one, too. [m]
+	double relativeMotion(const Pair& pair, const Quat& rotation, const CandidateCache& cache)
+	{
+		const double turned = 2 * (cache.rotation.conjugate() * rotation).vec().norm(), range = pair.touch() + 2 * candidateSkin;
+		if (pair.b.reach <= pair.a.reach) return (pair.translation - cache.translation).norm() + turned * (pair.b.reach + range);
+		const Vec3 now = pair.rotation.transpose() * pair.translation, then = cache.rotation.conjugate() * cache.translation;
+		return (now - then).norm() + turned * (pair.a.reach + range);
+	}
+
+	/// A pair far apart needs no candidates until its gap has shrunk to the touching distance plus the skin, which also
+	/// covers what a flush support reaches beyond a border.
+	void search(const Pair& pair, const Quat& rotation, CandidateCache& cache)
+	{
+		cache.candidates.clear();
+		cache.translation = pair.translation;
+		cache.rotation = rotation;
+		Vec3 axis;
+		const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, axis);
+		cache.coresMayMeet = gap <= candidateSkin;
+		cache.margin = std::max(candidateSkin, gap - pair.touch() - candidateSkin);
+		if (gap < pair.touch() + 2 * candidateSkin) CandidateSearch(pair, cache.candidates).run();
+	}
+
+} // namespace
+
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis)
+{
+	std::vector<Vec3> placed;
+	for (const Vec3& v : b.vertices)
+		placed.push_back(rotation * v + translation);
+	double best = -std::numeric_limits<double>::infinity();
+	const auto tryAxis = [&](const Vec3& direction) {
+		double farA = -std::numeric_limits<double>::infinity(), nearB = -farA;
+		for (const Vec3& v : a.vertices)
+			farA = std::max(farA, v.dot(direction));
+		for (const Vec3& v : placed)
+			nearB = std::min(nearB, v.dot(direction));
+		if (nearB - farA > best) {
+			best = nearB - farA;
+			axis = direction;
+		}
+	};
+	for (const Face& face : a.faces)
+		tryAxis(face.plane.normal);
+	for (const Face& face : b.faces)
+		tryAxis(-(rotation * face.plane.normal));
+	for (const Edge& ea : a.edges)
+		for (const Edge& eb : b.edges) {
+			const Vec3 spanA = a.vertices[ea.head] - a.vertices[ea.tail], spanB = placed[eb.head] - placed[eb.tail];
+			const Vec3 n = spanA.cross(spanB);
+			const double length = n.norm();
+			if (length < parallelSine * spanA.norm() * spanB.norm()) continue;
+			tryAxis(n / length);
+			tryAxis(-n / length);
+		}
+	return best;
+}
+
+void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
+        CandidateCache& cache, std::vector<ContactPoint>& points)
+{
+	points.clear();
+	const Quat rotation = poseA.orientation.conjugate() * poseB.orientation;
+	const Pair pair { a, b, rotation.toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), patterns };
+	if (cache.margin < 0 || relativeMotion(pair, rotation, cache) > cache.margin) search(pair, rotation, cache);
+
+	Meet meet;
+	for (const FeatureId id : cache.candidates) {
+		if (!meetFeatures(pair, id, meet)) continue;
+		const ContactPoint point = worldPoint(pair, poseA, id, meet);
+		if (!isRepeated(points, point)) points.push_back(point);
+	}
+	if (points.empty() && cache.coresMayMeet && meetCores(pair, meet)) points.push_back(worldPoint(pair, poseA, { Meeting::CoreCore, 0, 0 }, meet));
+}
+
+} // namespace timber

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3).
+///
+/// Every point joins a feature of core A to a feature of core B and has the overlap r_A + r_B - distance.
+/// A vertex counts against a face while its foot lies in the core face; two edges count while they cross inside both.
+/// A face on a face thus gets a point per supported vertex and per crossing pair of border edges.
+/// Vertices over a border (the normal case in a house, where members are flush) are decided by `Patterns::flushSupports`.
+#pragma once
+#include "polyhedron.hpp"
+#include <cstdint>
+#include <vector>
+
+namespace timber {
+
+/// Which features of A and B meet. The order is the order of points in a manifold.
+enum class Meeting : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge, EdgeVertex, VertexVertex, CoreCore };
+
+/// Name of a contact point that lasts as long as the same two features meet: history follows it.
+struct FeatureId {
+	std::uint32_t bits = 0;
+	FeatureId() = default;
+	FeatureId(Meeting m, int a, int b)
+	        : bits(std::uint32_t(m) << 28 | std::uint32_t(a) << 14 | std::uint32_t(b))
+	{
+	}
+	Meeting meeting() const { return Meeting(bits >> 28); }
+	int a() const { return int(bits >> 14 & 0x3fff); }
+	int b() const { return int(bits & 0x3fff); }
+	bool operator==(FeatureId o) const { return bits == o.bits; }
+	bool operator<(FeatureId o) const { return bits < o.bits; }
+};
+
+struct ContactPoint {
+	FeatureId id;
+	Vec3 position; ///< middle of the overlap, world [m]
+	Vec3 normal; ///< unit, from A to B, world
+	double overlap; ///< > 0 [m]
+};
+
+/// How the contact patterns of the paper are read.
+struct Patterns {
+	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex, which the paper ignores
+	bool flushSupports = true; ///< a vertex exactly over the border of a face is supported by it
+};
+
+/// Candidate feature pairs of two bodies and how far the pair may move before they must be searched again.
+/// Holds no result: an empty cache gives the same manifold.
+struct CandidateCache {
+	std::vector<FeatureId> candidates;
+	Vec3 translation = Vec3::Zero(); ///< relative placement at the search
+	Quat rotation = Quat::Identity();
+	double margin = -1; ///< relative motion that keeps the candidates complete [m]; < 0: never searched
+	bool coresMayMeet = false; ///< cores may overlap within the margin
+};
+
+/// Largest gap between the cores over all separating axes: <= distance when apart, minus the penetration depth when
+/// they overlap. `axis` (unit, from A to B, frame of A) is where it is found. [m]
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis);
+
+/// Contact points with overlap > 0, sorted by id. Both bodies' vertices are in their body frames.
+void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
+        CandidateCache& cache, std::vector<ContactPoint>& points);
+
+} // namespace timber

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Torque-free rotation of a rigid body.
+#pragma once
+#include "types.hpp"
+#include <cmath>
+
+namespace timber {
+
+/// Turns the orientation about its own principal axis by `angle` [rad].
+inline void turnAbout(Quat& orientation, Vec3& bodyMomentum, int axis, double angle)
+{
+	const double c = std::cos(angle), s = std::sin(angle);
+	const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+	const double mj = bodyMomentum[j], mk = bodyMomentum[k];
+	bodyMomentum[j] = c * mj + s * mk;
+	bodyMomentum[k] = c * mk - s * mj;
+	Quat turn(std::cos(angle / 2), 0, 0, 0);
+	turn.vec()[axis] = std::sin(angle / 2);
+	orientation = orientation * turn;
+}
+
+/// One step of free rotation, the symmetric composition R1(h/2) R2(h/2) R3(h) R2(h/2) R1(h/2) of exact rotations
+/// (Dullweber, Leimkuhler, McLachlan 1997, J. Chem. Phys. 107, 5840, section III). Second order; |L| and L are kept.
+/// orientation: body to world, in-out. momentum L: world [kg m2/s]. inertia: principal [kg m2]. Returns the angular
+/// velocity after the step, world [rad/s].
+inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& inertia, double h)
+{
+	Vec3 body = orientation.conjugate() * momentum;
+	const auto turn = [&](int axis, double time) { turnAbout(orientation, body, axis, time * body[axis] / inertia[axis]); };
+	turn(0, h / 2);
+	turn(1, h / 2);
+	turn(2, h);
+	turn(1, h / 2);
+	turn(0, h / 2);
+	orientation.normalize();
+	return orientation * (orientation.conjugate() * momentum).cwiseQuotient(inertia).eval();
+}
+
+} // namespace timber

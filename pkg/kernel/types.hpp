@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Vocabulary of the kernel. SI units everywhere: m, s, kg, N, J, rad.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace timber {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+
+/// Placement of a body: x_world = position + orientation * x_body.
+struct Pose {
+	Vec3 position = Vec3::Zero();
+	Quat orientation = Quat::Identity();
+};
+
+} // namespace timber

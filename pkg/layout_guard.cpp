@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <pch.hpp>
+
+#include <layout_guard.hpp>
+
+namespace {
+
+using namespace yade;
+
+/// One data member of a YADE class.
+struct Field {
+	std::string                                         owner;     ///< YADE class, as in yade.wrapper
+	std::string                                         attribute; ///< its attribute
+	std::string                                         pointee;   ///< class pointed to, empty for a plain value
+	std::function<py::object(const py::object&, long)>  read;      ///< value, or the address pointed to, `shift` bytes beside the member
+	std::function<void(const py::object&, const py::object&)> write;
+};
+
+template <typename Member> py::object readAt(const Member* member) { return py::object(*member); }
+template <typename T> py::object      readAt(const shared_ptr<T>* member) { return py::object(reinterpret_cast<std::uintptr_t>(member->get())); }
+
+/// `member` maps an Owner& to a reference to its member.
+template <typename Owner, typename Access> Field makeField(const char* owner, const char* attribute, const char* pointee, Access member)
+{
+	using Member = std::decay_t<decltype(member(std::declval<Owner&>()))>;
+	const auto read = [member](const py::object& object, long shift) {
+		const auto* place = reinterpret_cast<const char*>(&member(py::extract<Owner&>(object)()));
+		return readAt(reinterpret_cast<const Member*>(place + shift));
+	};
+	const auto write
+	        = [member](const py::object& object, const py::object& value) { member(py::extract<Owner&>(object)()) = py::extract<Member>(value)(); };
+	return { owner, attribute, pointee, read, write };
+}
+
+#define VALUE(Owner, name) makeField<Owner>(#Owner, #name, "", [](Owner& o) -> auto& { return o.name; })
+#define POINTER(Owner, name, Pointee) makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
+
+/// Every member that this package's C++ touches, and each class's last one. The first difference ends the check, so State's
+/// references (pos, ori), which are followed when read, come after its plain members.
+const std::vector<Field>& fields()
+{
+	static const std::vector<Field> table {
+		VALUE(Body, id), VALUE(Body, groupMask), VALUE(Body, flags), POINTER(Body, material, Material), POINTER(Body, state, State),
+		POINTER(Body, shape, Shape), POINTER(Body, bound, Bound), VALUE(Body, clumpId), VALUE(Body, timeBorn),
+		VALUE(State, vel), VALUE(State, mass), VALUE(State, angVel), VALUE(State, angMom), VALUE(State, inertia), VALUE(State, refPos),
+		VALUE(State, refOri), VALUE(State, isDamped), VALUE(State, densityScaling), VALUE(State, pos), VALUE(State, ori),
+		VALUE(Shape, color), VALUE(Shape, wire), VALUE(Shape, highlight),
+		VALUE(Aabb, refPos), VALUE(Aabb, sweepLength), VALUE(Aabb, min), VALUE(Aabb, max),
+		VALUE(Material, id), VALUE(Material, density), VALUE(ElastMat, young), VALUE(ElastMat, poisson), VALUE(FrictMat, frictionAngle),
+		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal), POINTER(Interaction, geom, IGeom),
+		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
+		VALUE(NormShearPhys, kn), VALUE(NormShearPhys, ks), VALUE(NormShearPhys, normalForce), VALUE(NormShearPhys, shearForce),
+		VALUE(Engine, dead), VALUE(Engine, ompThreads), VALUE(PeriodicEngine, virtPeriod), VALUE(PeriodicEngine, iterPeriod),
+		VALUE(PeriodicEngine, initRun), VALUE(PeriodicEngine, iterLast), VALUE(PeriodicEngine, nDone),
+		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody),
+	};
+	return table;
+}
+
+/// [(class, attribute, class pointed to or "")], in the order in which they are to be checked.
+py::list listFields()
+{
+	py::list names;
+	for (const auto& field : fields())
+		names.append(py::make_tuple(field.owner, field.attribute, field.pointee));
+	return names;
+}
+
+py::object readField(int index, const py::object& object, long shift) { return fields().at(index).read(object, shift); }
+
+void writeField(int index, const py::object& object, const py::object& value) { fields().at(index).write(object, value); }
+
+std::uintptr_t address(const py::object& object) { return reinterpret_cast<std::uintptr_t>(py::extract<Serializable*>(object)()); }
+
+/// Make `next` the current scene and return the one before; getScene()'s reference is used because setScene() is inline and would
+/// assume Omega's layout.
+shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
+{
+	auto& current = const_cast<shared_ptr<Scene>&>(Omega::instance().getScene());
+	return std::exchange(current, next);
+}
+
+/// What Scene holds outside its Python attributes: (address of the energy tracker, bodies, interactions, force on body 0 [N]).
+py::tuple readContainers(const py::object& object)
+{
+	Scene& scene = py::extract<Scene&>(object)();
+	scene.forces.sync();
+	return py::make_tuple(
+	        reinterpret_cast<std::uintptr_t>(scene.energy.get()), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
+}
+
+} // namespace
+
+void defineLayoutGuard()
+{
+	py::def("layout_fields", &listFields);
+	py::def("read_field", &readField, (py::arg("index"), py::arg("object"), py::arg("shift") = 0));
+	py::def("write_field", &writeField, (py::arg("index"), py::arg("object"), py::arg("value")));
+	py::def("swap_scene", &swapScene, (py::arg("scene")));
+	py::def("read_containers", &readContainers, (py::arg("scene")));
+	py::def("address", &address, (py::arg("object")));
+}

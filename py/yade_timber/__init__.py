@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Timber-frame houses as rounded convex polyhedra in YADE.
+
+Inside a YADE session the import loads the compiled classes and re-exports them; elsewhere the parts that need no YADE
+(ground motion, house description) still import.
+"""
+from . import host as _host
+
+if _host.running():
+    import yade.wrapper as _wrapper
+
+    _plugin, _class_names = _host.load(__name__, __path__[0])
+    globals().update({_name: getattr(_wrapper, _name) for _name in _class_names})

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The running YADE: is this package's module built for it, and do both agree on where YADE's data members are?
+
+`load()` is what the package calls. It refuses with an ImportError, before any class is registered, when
+
+1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or Python, or
+2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the reverse.
+"""
+import importlib
+import json
+import mmap
+import sys
+from pathlib import Path
+
+RECORD_MARK = b"@timber-build"
+REMEDY = "Rerun scripts/setup to build yade-timber for this YADE."
+
+
+def running() -> bool:
+    """Whether this Python is inside a YADE session."""
+    return "yade.wrapper" in sys.modules
+
+
+def host_facts() -> dict:
+    """Version, features (space separated, sorted) and Python of the running YADE."""
+    import yade.config
+
+    return {
+        "yade": yade.config.version,
+        "features": " ".join(sorted(set(yade.config.features))),
+        "python": "%d.%d" % sys.version_info[:2],
+    }
+
+
+def build_record(module_file) -> dict:
+    """What a module file was built for: keys yade, headers, features, python, package. The file is read, not loaded.
+
+    Raises ImportError when the file holds no record.
+    """
+    with open(module_file, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+        start = content.find(RECORD_MARK + b"{")
+        if start < 0:
+            raise ImportError(f"{module_file} has no build record, so it is no yade-timber module. {REMEDY}")
+        start += len(RECORD_MARK)
+        return json.loads(content[start : content.find(b"}", start) + 1])
+
+
+def check_build(record: dict, host: dict) -> None:
+    """Raise ImportError unless a build record (see build_record) fits a host (see host_facts)."""
+    for key, noun in (("yade", "YADE"), ("python", "Python")):
+        if record[key] != host[key]:
+            raise ImportError(f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}")
+    built, found = set(record["features"].split()), set(host["features"].split())
+    if built != found:
+        changes = [f"+{name}" for name in sorted(found - built)] + [f"-{name}" for name in sorted(built - found)]
+        raise ImportError(
+            f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}. {REMEDY}"
+        )
+
+
+def check_value(place: str, expected, actual, record: dict, host: dict) -> None:
+    """Raise ImportError unless a value stored at `place` ("Class.attribute (direction)") came back unchanged."""
+    if not expected == actual:  # a NaN differs, too
+        raise ImportError(
+            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the class is laid out differently in the running YADE "
+            f"{host['yade']} and in the headers ({record['headers']}) that yade-timber was built with. {REMEDY}"
+        )
+
+
+def _sentinel(wrapper, default, pointee: str, number: int):
+    """A value unlike any other attribute's, of the type of an attribute's default (of class `pointee` for a pointer)."""
+    if pointee:
+        return getattr(wrapper, pointee)()
+    if isinstance(default, bool):
+        return not default
+    if isinstance(default, int):
+        return 4000 + number
+    if isinstance(default, float):
+        return 0.5 + number
+    if type(default).__name__ == "Quaternion":
+        return type(default)((0.6, 0.0, 0.8), 0.01 * number)
+    return type(default)(number + 0.25, number + 0.5, -number)
+
+
+def _store(wrapper, owner: str, attribute: str, value):
+    """An instance of a YADE class with one attribute set by YADE itself; only the constructor may set read-only ones."""
+    try:
+        return getattr(wrapper, owner)(**{attribute: value})
+    except AttributeError:  # shorthands (State.pos) are properties, which the constructor does not know
+        instance = getattr(wrapper, owner)()
+        setattr(instance, attribute, value)
+        return instance
+
+
+def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> int:
+    """Round trips through every member in the module's table; returns their number.
+
+    First all reads, then all writes: a write through a wrong layout would spoil memory. `shift` [bytes] displaces every compiled
+    read, which is how a test imitates another layout. Raises ImportError that names class and attribute.
+    """
+    table = list(enumerate(plugin.layout_fields()))
+    for index, (owner, attribute, pointee) in table:
+        default = getattr(getattr(wrapper, owner)(), attribute)
+        value = _sentinel(wrapper, default, pointee, index)
+        seen = plugin.read_field(index, _store(wrapper, owner, attribute, value), shift)
+        expected = plugin.address(value) if pointee else getattr(_store(wrapper, owner, attribute, value), attribute)
+        check_value(f"{owner}.{attribute} (YADE to module)", expected, seen, record, host)
+    for index, (owner, attribute, pointee) in table:
+        instance = getattr(wrapper, owner)()
+        value = _sentinel(wrapper, getattr(instance, attribute), pointee, index)
+        plugin.write_field(index, instance, value)
+        seen = getattr(instance, attribute)
+        check_value(f"{owner}.{attribute} (module to YADE)", value, seen, record, host)
+    return len(table)
+
+
+def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
+    """The containers that Scene holds outside its Python attributes, in a scene of their own: energy, bodies, interactions, forces."""
+    omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
+    scene = wrapper.Scene()
+    before = plugin.swap_scene(scene)
+    try:
+        omega.bodies.append(wrapper.Body())
+        omega.forces.addF(0, force)
+        expected = (plugin.address(omega.energy), 1, 0, force)
+        seen = plugin.read_containers(scene)
+    finally:
+        plugin.swap_scene(before)
+    for name, stored, found in zip(("energy", "bodies", "interactions", "forces"), expected, seen):
+        check_value(f"Scene.{name}", stored, found, record, host)
+
+
+def load(package: str, directory):
+    """Check and load the compiled module `<package>._yade_timber` in `directory`, then register its classes.
+
+    Returns (module, names of the registered classes). Raises ImportError as the module's documentation says.
+    """
+    file = Path(directory) / "_yade_timber.so"
+    if not file.exists():
+        raise ImportError(f"yade-timber's compiled module is missing ({file}). {REMEDY}")
+    record, host = build_record(file), host_facts()
+    check_build(record, host)
+    wrapper = importlib.import_module("yade.wrapper")
+    plugin = importlib.import_module("._yade_timber", package)
+    check_layout(plugin, wrapper, record, host)
+    if not wrapper.Omega().running:
+        check_containers(plugin, wrapper, record, host)
+    return plugin, list(plugin.register_classes())

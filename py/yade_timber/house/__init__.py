@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Timber-frame houses as data: YAML description -> elements and joints. Needs no YADE (numpy, scipy, PyYAML).
+
+    model = build_house(load_house("C2"), snow_depth=1.0)
+    model.elements, model.joints, model.counts()
+"""
+
+from .build import build_house
+from .check import check_house, overlaps
+from .description import Description, load_house, shipped_houses
+from .errors import HouseError
+from .model import Element, HouseModel, JointSpec
+
+__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
+           "build_house", "check_house", "load_house", "overlaps", "shipped_houses"]

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Description -> HouseModel: structures, members, construction tolerance, joints, damage, checks."""
+
+import numpy as np
+
+from .braces import lay_braces
+from .check import check_house
+from .damage import apply_damage
+from .errors import HouseError
+from .geometry import box
+from .joints import find_joints
+from .members import lay_columns, lay_floors, lay_strips
+from .model import Element, HouseModel
+from .roof import OUTWARD, lay_roof, lay_snow
+from .structure import Structure
+
+STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
+
+
+def build_house(description, snow_depth=None, check=True):
+    """Build a described house. snow_depth [m], vertical (None: the description's own). Raises HouseError; see `check_house`."""
+    data = description.data
+    depth = _snow_depth(data, snow_depth)
+    structures = {}
+    for name, table in data["structures"].items():
+        structures[name] = Structure(name, table, data["materials"], structures)
+    elements = [_ground(data, structures)]
+    for structure in structures.values():
+        elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
+    joints = find_joints(elements, description)
+    apply_damage(joints, structures, data["damage"])
+    model = _model(description, elements, joints, structures, depth)
+    if check:
+        check_house(model)
+    return model
+
+
+def _snow_depth(data, snow_depth):
+    depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
+    if not 0 <= depth <= 20:
+        raise HouseError(f"snow_depth: must be in [0, 20] m, got {depth:g}")
+    return depth
+
+
+def _structure_elements(structure, depth, snow_material, plumb):
+    elements = []
+    for layer in structure.layers:
+        elements += _layer_elements(structure, layer, depth, snow_material)
+    if plumb["drift"]:
+        _lean(elements, structure, plumb)
+    return elements
+
+
+def _layer_elements(structure, layer, depth, snow_material):
+    if layer.kind in STRIPS:
+        return lay_strips(structure, layer, STRIPS[layer.kind])
+    if layer.kind == "floor":
+        return lay_floors(structure, layer)
+    if layer.kind == "columns":
+        return lay_columns(structure, layer) + lay_braces(structure, layer)
+    return lay_roof(structure, layer) + lay_snow(structure, layer, depth, snow_material)
+
+
+def _lean(elements, structure, plumb):
+    """Construction tolerance: everything above the first columns' feet is sheared by `drift` (horizontal per vertical metre).
+
+    A shear keeps bodies convex, faces flush and volumes; horizontal faces stay horizontal.
+    """
+    foot = structure.layer_of_storey(1).z0 if 1 in structure.storeys else 0.0
+    direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
+    for element in elements:
+        rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
+        element.vertices = element.vertices + plumb["drift"] * rise[:, None] * direction
+
+
+def _ground(data, structures):
+    """Fixed box with its top at z = 0 under the middle of the first structure."""
+    ground = data["ground"]
+    centre = np.mean(next(iter(structures.values())).area(), axis=0)
+    half = ground["size"] / 2
+    vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
+    material = ground["material"]
+    return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where)
+
+
+def _model(description, elements, joints, structures, depth):
+    data = description.data
+    levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"} for s in structures.values()}
+    return HouseModel(data["name"], data["description"], elements, joints, {k: dict(v) for k, v in data["materials"].items()},
+                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels,
+                      {"plumb": dict(data["plumb"]), "damage_end": data["damage"]["end"]})

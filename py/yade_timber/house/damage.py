@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints that are broken from the start, chosen by rule (side, storey, kind, end), never listed one by one."""
+
+import numpy as np
+
+from .errors import HouseError
+
+KINDS = ("column_beam", "brace_beam")
+
+
+def apply_damage(joints, structures, damage):
+    """Mark joints as broken, region by region.
+
+    A region breaks `count` joints of one kind on one wall and storey: those at the given end (default: `damage.end`)
+    that are nearest to the middle of the wall; of two at the same distance, the southern or western one comes first.
+    """
+    for i, region in enumerate(damage["regions"]):
+        structure = structures[region["structure"] or next(iter(structures))]
+        for kind in KINDS:
+            if region[kind] is not None:
+                _break(joints, structure, region, kind, damage["end"], f"damage.regions[{i + 1}].{kind}")
+
+
+def _break(joints, structure, region, kind, default_end, path):
+    wanted, side, storey = region[kind], region["side"], region["storey"]
+    end = wanted["end"] or default_end
+    found = [j for j in joints if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
+    if wanted["count"] > len(found):
+        raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints asked for, but the {side} wall of {structure.name} "
+                         f"has {len(found)} at the {end} of storey {storey}; lower the count")
+    for joint in nearest_to_middle(found, structure, side)[:wanted["count"]]:
+        joint.broken = True
+
+
+def nearest_to_middle(joints, structure, side):
+    """Joints of a wall sorted by their distance from its middle, ties from south to north or west to east."""
+    along = 1 if side in ("east", "west") else 0
+    middle = np.mean(structure.area(), axis=0)[along]
+    return sorted(joints, key=lambda j: (round(abs(j.centre[along] - middle), 9), j.centre[along]))

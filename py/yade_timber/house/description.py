@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A house file, read, merged with what it extends, checked against the schema and for names that refer to nothing."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import HouseError
+from .layout import HOUSE
+from .reading import Table, read_table
+from .schema import fail, nearest
+
+SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
+
+
+@dataclass(frozen=True)
+class Description:
+    """A checked house description. `data`: tables and lists that know their file and line; lengths in m."""
+
+    name: str
+    path: Path
+    data: Table
+
+
+def shipped_houses():
+    """Names of the shipped houses that `load_house` takes, e.g. ['A', 'B', 'B1', ...]."""
+    return sorted(path.stem[len("model"):] for path in SHIPPED.glob("model*.yaml"))
+
+
+def load_house(name_or_path):
+    """House 'A' ... 'C2' (shipped) or a path to a YAML file -> Description; raises HouseError (one line, file:line)."""
+    path = _find(str(name_or_path))
+    data = HOUSE.check(read_table(path), f"{path.name}:1", "")
+    _check_references(data)
+    return Description(data["name"], path, data)
+
+
+def _find(name):
+    shipped = SHIPPED / f"model{name}.yaml"
+    if shipped.is_file():
+        return shipped
+    if Path(name).is_file():
+        return Path(name)
+    raise HouseError(f"unknown house '{name}': no such file, and the shipped houses are {', '.join(shipped_houses())}")
+
+
+def _check_references(data):
+    """Every material, joint type and structure that is named must exist."""
+    if not data["structures"]:
+        fail(data.at("structures"), "structures", "a house needs at least one structure")
+    for table, name in _material_users(data):
+        _known(table, "material", data["materials"], name, "material")
+    for i, rule in enumerate(data["joints"]):
+        _known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
+    for i, region in enumerate(data["damage"]["regions"]):
+        if region["structure"] is not None:
+            _known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
+    for i, pair in enumerate(data["friction"]):
+        for key in pair["between"]:
+            if key not in data["materials"]:
+                fail(pair.at("between"), f"friction[{i + 1}]", f"unknown material '{key}', {nearest(key, data['materials'])}")
+
+
+def _material_users(data):
+    yield data["ground"], "ground"
+    yield data["snow"], "snow"
+    for name, structure in data["structures"].items():
+        yield structure["braces"], f"structures.{name}.braces"
+        for i, layer in enumerate(structure["stack"]):
+            yield layer, f"structures.{name}.stack[{i + 1}]"
+
+
+def _known(table, key, names, path, noun):
+    if table[key] not in names:
+        fail(table.at(key), f"{path}.{key}", f"unknown {noun} '{table[key]}', {nearest(table[key], names)}")

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two of them. Lengths in m, world frame."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+SNAP_DIGITS = 12  # coordinates [m] are rounded to 1e-12, so that vertices computed from different planes become equal
+SAME = 1e-9  # [m, or sine of an angle] below this two points, planes or directions count as one
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise seen from outside."""
+
+    normal: np.ndarray
+    offset: float
+    points: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Polyhedron:
+    """Convex polyhedron given by its vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the hull."""
+
+    vertices: np.ndarray
+
+    @cached_property
+    def hull(self):
+        try:
+            hull = ConvexHull(self.vertices)
+        except (QhullError, ValueError):
+            raise ValueError("vertices are flat, too few or not finite") from None
+        if len(hull.vertices) != len(self.vertices):
+            raise ValueError(f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside the convex hull")
+        return hull
+
+    @cached_property
+    def faces(self):
+        """Faces, coplanar triangles of the hull merged."""
+        groups = []
+        for simplex, equation in zip(self.hull.simplices, self.hull.equations):
+            match = next((g for g in groups if np.abs(g[0] - equation).max() < 1e3 * SAME), None)
+            if match is None:
+                groups.append((equation, set(simplex)))
+            else:
+                match[1].update(simplex)
+        return [_face(self.vertices[sorted(indices)], equation[:3]) for equation, indices in groups]
+
+    @cached_property
+    def normals(self):
+        """(n, 3) face normals without parallel repeats."""
+        return unique_directions(np.array([face.normal for face in self.faces]))
+
+    @cached_property
+    def edge_directions(self):
+        """(n, 3) unit edge directions without parallel repeats."""
+        edges = np.vstack([np.roll(face.points, -1, 0) - face.points for face in self.faces])
+        return unique_directions(edges / np.linalg.norm(edges, axis=1)[:, None])
+
+    @cached_property
+    def bounds(self):
+        """(2, 3) lowest and highest corner of the axis-aligned bounding box."""
+        return np.array([self.vertices.min(0), self.vertices.max(0)])
+
+    @property
+    def volume(self):
+        """[m3]"""
+        return self.hull.volume
+
+    @cached_property
+    def centroid(self):
+        """(3,) centre of volume, from tetrahedra between an inner point and the hull's triangles."""
+        inner = self.vertices.mean(0)
+        corners = self.vertices[self.hull.simplices] - inner
+        volumes = np.abs(np.linalg.det(corners))
+        return inner + (corners.sum(1) / 4 * volumes[:, None]).sum(0) / volumes.sum()
+
+
+def _face(points, normal):
+    """Face with its points ordered around `normal` and the normal recomputed from them (Newell)."""
+    points = points[np.argsort(_angles(points, normal))]
+    normal = np.cross(points, np.roll(points, -1, 0)).sum(0)
+    normal = normal / np.linalg.norm(normal)
+    return Face(normal, float(np.mean(points @ normal)), points)
+
+
+def _angles(points, normal):
+    u, v = plane_axes(normal)
+    local = points - points.mean(0)
+    return np.arctan2(local @ v, local @ u)
+
+
+def plane_axes(normal):
+    """Two unit vectors u, v with u x v = normal."""
+    helper = np.eye(3)[np.argmin(np.abs(normal))]
+    u = np.cross(helper, normal)
+    u = u / np.linalg.norm(u)
+    return u, np.cross(normal, u)
+
+
+def unique_directions(vectors):
+    """Unit vectors (n, 3) without those parallel (either sense) to an earlier one."""
+    kept = []
+    for vector in vectors:
+        if not any(np.linalg.norm(np.cross(vector, other)) < SAME for other in kept):
+            kept.append(vector)
+    return np.array(kept)
+
+
+def box(low, high):
+    """Vertices (8, 3) of the axis-aligned box from `low` to `high` (3,)."""
+    return np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])], float)
+
+
+def halfspace_vertices(planes):
+    """Vertices (n, 3) of the region where normal . x <= offset for every (normal (3,), offset [m]) of `planes`.
+
+    Every triple of planes is solved and kept when no plane cuts it off: exact to rounding, meant for the
+    dozen planes of a member. Raises ValueError when the region is empty or flat.
+    """
+    normals = np.array([p[0] for p in planes], float)
+    scale = np.linalg.norm(normals, axis=1)
+    normals, offsets = normals / scale[:, None], np.array([p[1] for p in planes], float) / scale
+    found = []
+    for triple in map(list, combinations(range(len(planes)), 3)):
+        if abs(np.linalg.det(normals[triple])) < SAME:
+            continue
+        point = np.linalg.solve(normals[triple], offsets[triple])
+        new = all(np.abs(point - other).max() > SAME for other in found)
+        if new and (normals @ point <= offsets + SAME).all():
+            found.append(point)
+    if len(found) < 4:
+        raise ValueError("the planes enclose no volume")
+    return np.round(found, SNAP_DIGITS) + 0.0
+
+
+def polygon_area(points):
+    """Signed area [m2] of a plane polygon (n, 2), positive when counter-clockwise."""
+    x, y = points.T
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def clip_convex(subject, clip):
+    """Intersection (n, 2) of two counter-clockwise convex polygons (n, 2), (m, 2); (0, 2) when they do not overlap."""
+    for a, b in zip(clip, np.roll(clip, -1, 0)):
+        subject = _clip_edge(subject, a, b)
+        if len(subject) < 3:
+            return np.zeros((0, 2))
+    return subject
+
+
+def _clip_edge(polygon, a, b):
+    """Part of `polygon` on the left of the line from a to b, without repeated points."""
+    direction = (b - a) / np.linalg.norm(b - a)
+    height = direction[0] * (polygon[:, 1] - a[1]) - direction[1] * (polygon[:, 0] - a[0])
+    height[np.abs(height) < SAME] = 0.0
+    points = []
+    for i in range(len(polygon)):
+        j = (i + 1) % len(polygon)
+        if height[i] >= 0:
+            points.append(polygon[i])
+        if height[i] * height[j] < 0:
+            points.append(polygon[i] + (polygon[j] - polygon[i]) * height[i] / (height[i] - height[j]))
+    return np.array([p for i, p in enumerate(points) if np.abs(p - points[i - 1]).max() > SAME or len(points) == 1]).reshape(-1, 2)
+
+
+def contact_polygon(a, b, tolerance):
+    """Flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]) of the largest one, or None.
+
+    Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
+    """
+    best = None
+    for face_a in a.faces:
+        for face_b in b.faces:
+            if face_a.normal @ face_b.normal > -1 + SAME or np.abs(face_b.points @ face_a.normal - face_a.offset).max() > tolerance:
+                continue
+            polygon, area = _face_overlap(face_a, face_b)
+            if area > 0 and (best is None or area > best[2]):
+                best = polygon, face_a.normal, area
+    return best
+
+
+def _face_overlap(face_a, face_b):
+    """Common part of two coplanar faces: polygon (n, 3) and its area [m2]."""
+    frame = np.array(plane_axes(face_a.normal))
+    origin = face_a.points[0]
+    flat_a, flat_b = (face_a.points - origin) @ frame.T, ((face_b.points - origin) @ frame.T)[::-1]
+    flat = clip_convex(flat_a, flat_b)
+    area = polygon_area(flat) if len(flat) > 2 else 0.0
+    return origin + flat @ frame, area
+
+
+def separation(a, b):
+    """Gap [m] between two polyhedra along the best separating axis; negative: depth by which they overlap.
+
+    Separating axis theorem: face normals of both and cross products of their edges decide exactly for convex bodies.
+    """
+    crosses = np.cross(a.edge_directions[:, None], b.edge_directions[None]).reshape(-1, 3)
+    norms = np.linalg.norm(crosses, axis=1)
+    crosses = crosses[norms > 1e3 * SAME] / norms[norms > 1e3 * SAME][:, None]
+    axes = np.vstack([a.normals, b.normals, crosses])
+    on_a, on_b = a.vertices @ axes.T, b.vertices @ axes.T
+    return float(np.maximum(on_b.min(0) - on_a.max(0), on_a.min(0) - on_b.max(0)).max())

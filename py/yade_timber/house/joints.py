@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints found from the contact areas between elements (paper, 4: four springs at the corners of the contact area)."""
+
+from itertools import combinations
+
+import numpy as np
+
+from .geometry import contact_polygon, plane_axes, polygon_area
+from .model import JointSpec
+
+
+def find_joints(elements, description):
+    """JointSpec for every pair of elements of one structure whose kinds match a rule and whose faces lie flush on each other.
+
+    Contacts below `joint_search.min_area` carry no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and just
+    touches the next beam with that strip.
+    """
+    data, rules = description.data, _rules(description.data["joints"])
+    tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
+    joints = []
+    for a, b in near_pairs(elements, tolerance):
+        rule = rules.get((a.kind, b.kind)) or rules.get((b.kind, a.kind))
+        if rule is None or a.group != b.group:
+            continue
+        a, b = (a, b) if (a.kind, b.kind) in rules else (b, a)
+        contact = contact_polygon(a.solid, b.solid, tolerance)
+        if contact and contact[2] >= min_area:
+            joints.append(_joint(a, b, rule, contact, data))
+    return joints
+
+
+def near_pairs(elements, margin):
+    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order."""
+    bounds = np.array([e.solid.bounds for e in elements])
+    low, high = bounds[:, 0], bounds[:, 1]
+    near = ((low[:, None] <= high[None] + margin) & (low[None] <= high[:, None] + margin)).all(2)
+    return [(elements[i], elements[j]) for i, j in np.argwhere(np.triu(near, 1))]
+
+
+def _rules(rules):
+    """{(kind a, kind b): rule}; a is the first kind of the rule."""
+    return {(a, b): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
+
+
+def _joint(a, b, rule, contact, data):
+    polygon, normal, area = contact
+    values = data["joint_types"][rule["type"]]
+    per = values["per"] or data["law"]["joint_reading"]
+    points = spring_points(polygon, normal)
+    upright = a.kind in ("column", "brace")
+    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if upright else ""
+    return JointSpec(a.name, b.name, rule["type"], rule["kind"], points, normal, area, values["kn"], values["ks"], values["strength"], per,
+                     storey=a.storey, side=a.side if upright else a.side or b.side, end=end, group=a.group)
+
+
+def spring_points(polygon, normal):
+    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`.
+
+    Four corners: these. More: the four corners that span the largest area. Three: the corners and the middle of the longest side.
+    """
+    if len(polygon) == 3:
+        return _with_midpoint(polygon)
+    flat = polygon @ np.array(plane_axes(normal)).T
+    chosen = max(combinations(range(len(polygon)), 4), key=lambda four: round(polygon_area(flat[list(four)]), 9))
+    return polygon[list(chosen)]
+
+
+def _with_midpoint(triangle):
+    following = np.roll(triangle, -1, 0)
+    longest = int(np.argmax(np.round(np.linalg.norm(following - triangle, axis=1), 9)))
+    return np.insert(triangle, longest + 1, (triangle[longest] + following[longest]) / 2, 0)

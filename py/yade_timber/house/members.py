@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Straight members: foundation strips, sills, beams, columns and floor slabs of one structure. Lengths in m."""
+
+import numpy as np
+
+from .errors import HouseError
+from .structure import ACROSS
+
+DIRECTION = {"x": "EW", "y": "NS"}
+
+
+def lay_strips(structure, layer, kind):
+    """Members along the layer's lines (or the structure's): one piece per line, cut lines butting against those they meet."""
+    table, elements = layer.table, []
+    lines = _single_lines(structure, table["lines"] if table["lines"] is not None else structure.table["lines"])
+    for line in lines:
+        for number, (start, end) in enumerate(_pieces(structure, line, lines, table["width"]), 1):
+            piece = f".{number}" if line["cut"] else ""
+            name = f"{kind}{layer.storey or ''}.{DIRECTION[line['along']]}.{ACROSS[line['along']]}{line['at']:g}{piece}"
+            elements.append(_strip(structure, layer, kind, name, line, start, end))
+    return elements
+
+
+def _single_lines(structure, lines):
+    """Line tables with several positions `at` -> one plain dict per position, checked against the grid."""
+    single = []
+    for line in lines:
+        across = ACROSS[line["along"]]
+        structure.check_nodes(line["along"], (line["from"], line["to"]), line.at("from"))
+        structure.check_nodes(across, line["at"], line.at("at"))
+        if line["from"] >= line["to"]:
+            raise HouseError(f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
+        single += [{**line, "at": at, "where": line.where} for at in line["at"]]
+    return single
+
+
+def _pieces(structure, line, lines, width):
+    """Ends [m] of the pieces of a line. A free end reaches half a width beyond its node; at a crossed line it stops half a width before."""
+    axis = structure.axes[line["along"]]
+    crossings = sorted(other["at"] for other in lines if line["cut"] and _crosses(line, other))
+    marks = sorted({line["from"], line["to"], *crossings})
+    half = width / 2
+    pieces = []
+    for start, end in zip(marks, marks[1:]):
+        low = axis(start) + (half if start in crossings else -half)
+        high = axis(end) + (-half if end in crossings else half)
+        pieces.append((low, high))
+    return pieces
+
+
+def _crosses(line, other):
+    """True when uncut line `other` runs across `line` within both lines' spans."""
+    across = other["along"] != line["along"] and not other["cut"]
+    return across and line["from"] <= other["at"] <= line["to"] and other["from"] <= line["at"] <= other["to"]
+
+
+def _strip(structure, layer, kind, name, line, start, end):
+    """Box along a line from `start` to `end` [m], centred on it."""
+    across, width = ACROSS[line["along"]], layer.table["width"]
+    centre = structure.axes[across](line["at"])
+    span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
+    low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
+    return structure.block(kind, name, low, high, layer.table, line["where"], fixed=layer.table["fixed"], storey=layer.storey,
+                           side=structure.sides(**{across: line["at"]}), section=(width, layer.z1 - layer.z0))
+
+
+def lay_floors(structure, layer):
+    """Floor slabs: one per area (default: the whole grid), reaching the margin beyond the grid."""
+    areas = layer.table["areas"] or [None]
+    elements = []
+    for number, area in enumerate(areas, 1):
+        low, high = structure.area(area)
+        name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
+        elements.append(structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where,
+                                        storey=layer.storey))
+    return elements
+
+
+def lay_columns(structure, layer):
+    """Square columns of one storey on their nodes, in the order of the column groups."""
+    elements = []
+    for (x, y), (section, where) in column_plan(structure, layer.storey).items():
+        centre = np.array([structure.axes["x"](x), structure.axes["y"](y)])
+        elements.append(structure.block("column", f"column{layer.storey}.x{x:g}y{y:g}", [*(centre - section / 2), layer.z0],
+                                        [*(centre + section / 2), layer.z1], layer.table, where, storey=layer.storey,
+                                        side=structure.sides(x=x, y=y), section=(section, section)))
+    return elements
+
+
+def column_plan(structure, storey):
+    """{(x node, y node): (section [m], file:line)} of one storey; groups given by lines fill only free nodes."""
+    plan = {}
+    for i, group in enumerate(structure.table["columns"]):
+        for number in group["storeys"]:
+            if number not in structure.storeys:
+                raise HouseError(f"{group.at('storeys')}: {structure.name}: columns[{i + 1}]: no storey {number}; the stack has {structure.storeys}")
+        if group["storeys"] and storey not in group["storeys"]:
+            continue
+        for x, y in _group_nodes(structure, group):
+            if (x, y) not in plan:
+                plan[x, y] = (group["section"], group.where)
+            elif group["lines"] is None:
+                raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
+                                 f"(first in {plan[x, y][1]}); remove one of them")
+    return plan
+
+
+def _group_nodes(structure, group):
+    """Nodes (x, y) of one column group."""
+    if group["at"] is not None:
+        nodes = [tuple(pair) for pair in group["at"]]
+    elif group["grid"] is not None:
+        nodes = [(x, y) for y in group["grid"]["y"] for x in group["grid"]["x"]]
+    else:
+        nodes = [node for line in _single_lines(structure, group["lines"]) for node in _line_nodes(line)]
+    for axis, values in zip("xy", zip(*nodes)):
+        structure.check_nodes(axis, values, group.where)
+    return nodes
+
+
+def _line_nodes(line):
+    """Every whole node along a line, both ends included."""
+    along = np.arange(np.ceil(line["from"]), np.floor(line["to"]) + 1).tolist()
+    return [(n, line["at"]) if line["along"] == "x" else (line["at"], n) for n in along]

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a house is once built: elements (convex polyhedra), joints (spring points), and counts of both."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from .errors import HouseError
+from .geometry import Polyhedron
+
+
+@dataclass(eq=False)
+class Element:
+    """One rigid member. World frame: x east, y north, z up, origin at the south-west column's centre line on the ground."""
+
+    name: str               # e.g. 'main.column1.x4y0'
+    kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
+    vertices: np.ndarray    # (n, 3) [m]
+    material: str           # key of HouseModel.materials
+    density: float          # [kg/m3]
+    fixed: bool = False
+    storey: int = 0         # storey whose columns carry it (columns, braces: the one they stand in); 0 below the first
+    side: frozenset = frozenset()  # walls it belongs to: 'north', 'south', 'east', 'west'; empty inside the house
+    section: tuple = ()     # (width, depth) [m] where the member has a section
+    group: str = ""         # structure it belongs to, e.g. 'main', 'entrance'
+    source: str = ""        # file:line of the description that asked for it
+
+    @cached_property
+    def solid(self):
+        try:
+            polyhedron = Polyhedron(np.asarray(self.vertices, float))
+            polyhedron.hull
+        except ValueError as problem:
+            raise HouseError(f"{self.source}: {self.kind} {self.name} is no convex body: {problem}") from None
+        return polyhedron
+
+    @property
+    def volume(self):
+        """[m3]"""
+        return self.solid.volume
+
+    @property
+    def mass(self):
+        """[kg]"""
+        return self.density * self.volume
+
+
+@dataclass(eq=False)
+class JointSpec:
+    """Four springs between elements `a` and `b` at the corners of their contact area (paper, 2.4 and 4)."""
+
+    a: str
+    b: str
+    type: str            # key of joint_types
+    kind: str            # 'column_beam', 'brace_beam', 'floor_beam', 'roof_beam', 'roof_roof', ...
+    points: np.ndarray   # (4, 3) spring points [m], world frame
+    normal: np.ndarray   # (3,) unit, from a to b
+    area: float          # contact area [m2]
+    kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
+    ks: float            # [N/m] tangential stiffness, likewise
+    strength: float      # [N] P_max, likewise; may be inf
+    per: str             # 'spring': values belong to each spring; 'joint': to the joint as a whole
+    storey: int
+    side: frozenset
+    end: str = ""        # columns and braces: 'top' or 'bottom' end of a
+    group: str = ""
+    broken: bool = False  # damaged before the run starts
+
+    @property
+    def name(self):
+        return f"{self.a}|{self.b}"
+
+    @property
+    def centre(self):
+        """(3,) mean of the spring points [m]."""
+        return self.points.mean(0)
+
+
+@dataclass(eq=False)
+class HouseModel:
+    """A built house: what bodies and joints are made from."""
+
+    name: str
+    description: str
+    elements: list
+    joints: list
+    materials: dict          # name -> {'law': 'timber', 'density', 'young', 'poisson'} or {'law': 'snow', 'density', 'stiffness_per_kg'}
+    friction: list           # [(material, material, coefficient)]
+    law: dict                # 'joint_reading', 'vertex_edge_contacts', 'hertz'
+    snow_depth: float        # [m]
+    storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
+    options: dict = field(default_factory=dict)
+
+    @cached_property
+    def by_name(self):
+        return {element.name: element for element in self.elements}
+
+    def element(self, name):
+        """Element `name`; raises KeyError."""
+        return self.by_name[name]
+
+    def of_kind(self, *kinds, group=None):
+        """Elements of these kinds, in building order, of one structure or of all."""
+        return [e for e in self.elements if e.kind in kinds and group in (None, e.group)]
+
+    def counts(self):
+        """Numbers to check a house by: elements, columns by section, braces, joints, broken joints, masses [kg]."""
+        columns, braces = self.of_kind("column"), self.of_kind("brace")
+        return {
+            "elements": len(self.elements),
+            "by_kind": dict(Counter(e.kind for e in self.elements)),
+            "free": sum(not e.fixed for e in self.elements),
+            "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
+            "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)),
+            "braces": len(braces),
+            "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
+            "joints": len(self.joints),
+            "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
+            "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
+            "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),
+            "mass_snow": sum(e.mass for e in self.of_kind("snow")),
+        }

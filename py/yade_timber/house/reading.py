@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""YAML text -> tables and lists that remember file and line; `extends` merges a file into the one it extends."""
+
+import re
+from pathlib import Path
+
+import yaml
+
+from .errors import HouseError
+
+
+class Table(dict):
+    """A mapping with `where` ("file:line") for itself and `at(key)` for each of its entries."""
+
+    def __init__(self, items=(), where="", entries=None):
+        super().__init__(items)
+        self.where = where
+        self.entries = dict(entries or {})
+
+    def at(self, key):
+        """"file:line" of entry `key`, or of the table when the entry was filled in by default."""
+        return self.entries.get(key, self.where)
+
+
+class Items(list):
+    """A list with `where` ("file:line") for itself and `at(index)` for each of its items."""
+
+    def __init__(self, items=(), where="", entries=()):
+        super().__init__(items)
+        self.where = where
+        self.entries = list(entries)
+
+    def at(self, index):
+        return self.entries[index] if index < len(self.entries) else self.where
+
+
+class _Loader(yaml.SafeLoader):
+    """SafeLoader that also reads 1e7 as a number (YAML 1.2), which PyYAML takes for text."""
+
+
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"), list("-+.0123456789"))
+
+
+def read_table(path):
+    """File `path` with everything it extends merged in; raises HouseError with file and line."""
+    return _read_chain(Path(path), ())
+
+
+def _read_chain(path, seen):
+    if path.resolve() in seen:
+        raise HouseError(f"{path.name}:1: extends itself through {' -> '.join(p.name for p in seen)}; remove one 'extends'")
+    table = _parse(path)
+    parent = table.pop("extends", None)
+    if parent is None:
+        return table
+    if not isinstance(parent, str):
+        raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {parent!r}")
+    parent_path = path.parent / parent
+    if not parent_path.is_file():
+        raise HouseError(f"{table.at('extends')}: extends: no file '{parent}' beside {path.name}")
+    return merge(_read_chain(parent_path, seen + (path.resolve(),)), table)
+
+
+def merge(base, change):
+    """`change` laid over `base`: tables entry by entry, everything else replaced as a whole."""
+    result = Table(base, change.where, base.entries)
+    for key, value in change.items():
+        both = isinstance(value, Table) and isinstance(base.get(key), Table)
+        result[key] = merge(base[key], value) if both else value
+        result.entries[key] = change.at(key)
+    return result
+
+
+def _parse(path):
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as problem:
+        reason = getattr(problem, "strerror", None) or "not UTF-8 text"
+        raise HouseError(f"{path}: cannot be read: {reason}") from None
+    loader = _Loader(text)
+    try:
+        value = _convert(loader, loader.get_single_node(), path.name)
+    except yaml.YAMLError as problem:
+        raise HouseError(_syntax_message(problem, path.name)) from None
+    if not isinstance(value, Table):
+        raise HouseError(f"{path.name}:1: a house file is a table of keys, e.g. 'name: my house'")
+    return value
+
+
+def _syntax_message(problem, name):
+    mark = getattr(problem, "problem_mark", None)
+    line = mark.line + 1 if mark else 1
+    reason = getattr(problem, "problem", None) or str(problem).splitlines()[0]
+    return f"{name}:{line}: not valid YAML: {reason}"
+
+
+def _convert(loader, node, name):
+    """Composed YAML node -> Table, Items or scalar."""
+    if isinstance(node, yaml.MappingNode):
+        return _convert_mapping(loader, node, name)
+    if isinstance(node, yaml.SequenceNode):
+        values = [_convert(loader, child, name) for child in node.value]
+        return Items(values, _where(node, name), [_where(child, name) for child in node.value])
+    return None if node is None else loader.construct_object(node)
+
+
+def _convert_mapping(loader, node, name):
+    table = Table(where=_where(node, name))
+    for key_node, value_node in node.value:
+        key = _convert(loader, key_node, name)
+        if not isinstance(key, str):
+            raise HouseError(f"{_where(key_node, name)}: a key must be a word, got {key!r}")
+        if key in table:
+            raise HouseError(f"{_where(key_node, name)}: key '{key}' is given twice (first in line {table.at(key).rsplit(':', 1)[1]})")
+        table[key] = _convert(loader, value_node, name)
+        table.entries[key] = _where(key_node, name)
+    return table
+
+
+def _where(node, name):
+    return f"{name}:{node.start_mark.line + 1}"

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One structure of a house (main house, entrance): its grid, its place, and the heights of the layers of its stack."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import HouseError
+from .geometry import box
+from .model import Element
+
+ACROSS = {"x": "y", "y": "x"}
+LOW_SIDE = {"x": "west", "y": "south"}
+HIGH_SIDE = {"x": "east", "y": "north"}
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """Grid positions [m] along one axis, in the world frame; node n may be fractional (between two positions)."""
+
+    positions: np.ndarray
+
+    @property
+    def last(self):
+        return len(self.positions) - 1
+
+    def __call__(self, node):
+        return float(np.interp(node, np.arange(len(self.positions)), self.positions))
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """One layer of the stack between z0 and z1 [m]; `storey`: storey whose columns carry it (columns: their own)."""
+
+    table: dict
+    kind: str
+    storey: int
+    z0: float
+    z1: float
+
+
+class Structure:
+    """Grid, place and layers of one structure; makes elements that carry its name, material and source line."""
+
+    def __init__(self, name, table, materials, others):
+        self.name, self.table, self.materials = name, table, materials
+        local = {axis: _positions(table["grid"][axis], f"structures.{name}.grid.{axis}") for axis in "xy"}
+        origin = _origin(table, local, others, name)
+        self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
+        self.layers = _layers(table["stack"], name)
+
+    def area(self, area=None):
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid) plus the margin all round."""
+        nodes = {axis: area[axis] if area else (0, self.axes[axis].last) for axis in "xy"}
+        if area:
+            for axis in "xy":
+                self.check_nodes(axis, nodes[axis], area.at(axis))
+        margin = self.table["margin"]
+        low = np.array([self.axes[axis](min(nodes[axis])) - margin for axis in "xy"])
+        high = np.array([self.axes[axis](max(nodes[axis])) + margin for axis in "xy"])
+        return low, high
+
+    def sides(self, **nodes):
+        """Walls that a node (x=, y=) or a line (only one of them) lies on."""
+        found = set()
+        for axis, node in nodes.items():
+            if node == 0:
+                found.add(LOW_SIDE[axis])
+            if node == self.axes[axis].last:
+                found.add(HIGH_SIDE[axis])
+        return frozenset(found)
+
+    def check_nodes(self, axis, nodes, where):
+        """HouseError when a node lies outside the grid."""
+        for node in nodes:
+            if not 0 <= node <= self.axes[axis].last:
+                raise HouseError(f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to {self.axes[axis].last}")
+
+    def layer_of_storey(self, storey):
+        return next((layer for layer in self.layers if layer.kind == "columns" and layer.storey == storey), None)
+
+    @property
+    def storeys(self):
+        return [layer.storey for layer in self.layers if layer.kind == "columns"]
+
+    def element(self, kind, name, vertices, table, where, **more):
+        """Element named '<structure>.<name>' of the material that `table` names."""
+        material = table["material"]
+        return Element(f"{self.name}.{name}", kind, vertices, material, self.materials[material]["density"],
+                       group=self.name, source=where, **more)
+
+    def block(self, kind, name, low, high, table, where, **more):
+        """Element that is a box from `low` to `high` (3,) [m]."""
+        return self.element(kind, name, box(low, high), table, where, **more)
+
+
+def _positions(axis, path):
+    """Grid positions [m] relative to the structure's origin."""
+    if axis["positions"] is None:
+        return axis["module"] * np.arange(axis["count"] + 1)
+    positions = np.array(axis["positions"])
+    if len(positions) < 2 or (np.diff(positions) <= 0).any():
+        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order [m]")
+    return positions
+
+
+def _origin(table, local, others, name):
+    """World position (2,) [m] of the structure's grid origin."""
+    place = table["place"]
+    if place["origin"] is not None:
+        return np.array(place["origin"])
+    if place["beside"] not in others:
+        known = ", ".join(others) or "none yet"
+        raise HouseError(f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this one; known: {known}")
+    low, high = others[place["beside"]].area()
+    size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])
+    start = np.array([local[axis][0] for axis in "xy"])
+    out = 0 if place["side"] in ("east", "west") else 1
+    corner = (low + high - size) / 2 + place["shift"]
+    clear = place["gap"] + table["margin"]
+    corner[out] = high[out] + clear if place["side"] in ("east", "north") else low[out] - clear - size[out]
+    return corner - start
+
+
+def _layers(stack, name):
+    """Layers from the ground (z = 0) up; a roof takes no height of its own because nothing stands on it."""
+    layers, z, storey = [], 0.0, 0
+    for i, table in enumerate(stack):
+        kind = table["layer"]
+        storey += kind == "columns"
+        if layers and layers[-1].kind == "roof":
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make the roof the last layer")
+        top = z + table.get("height", table.get("thickness"))
+        layers.append(Layer(table, kind, storey, z, top))
+        z = top
+    return layers

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Numbers that describe a ground motion: peaks, JMA instrumental intensity, response spectra, Arias intensity.
+
+Motions carry m/s2; results are in the customary gal, cm/s and cm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import integrate, signal
+
+from .filters import zero_phase_highpass
+from .record import GAL, STANDARD_GRAVITY, RecordError
+
+CM = 0.01
+"""One centimetre in metres."""
+
+VELOCITY_CORNER = 0.05
+"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs give baseline, not motion."""
+
+INTENSITY_DURATION = 0.3
+"""The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
+
+STEPS_PER_PERIOD = 20
+"""Smallest number of steps per oscillator period at which its peak is looked for; misses at most 1.2 % of a peak."""
+
+
+# --- peaks --------------------------------------------------------------------------------------
+
+
+def peak(values, component="any"):
+    """Largest absolute value of (n, 3) columns ew, ns, ud.
+
+    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'any' = largest of
+               the three components
+    """
+    columns = {"ew": [0], "ns": [1], "ud": [2], "h": [0, 1], "v3": [0, 1, 2]}
+    if component == "any":
+        return float(np.abs(values).max())
+    if component not in columns:
+        raise RecordError(f"component '{component}'; admissible: ew, ns, ud, h, v3, any")
+    return float(np.linalg.norm(values[:, columns[component]], axis=1).max())
+
+
+def pga(motion, component="any"):
+    """Peak ground acceleration [gal]; component as in `peak`."""
+    return peak(motion.acceleration, component) / GAL
+
+
+def pgv(motion, component="h", corner=VELOCITY_CORNER):
+    """Peak ground velocity [cm/s]; component as in `peak`, corner as in `velocity`."""
+    return peak(velocity(motion, corner), component) / CM
+
+
+def pgd(motion, component="h", corner=VELOCITY_CORNER):
+    """Peak ground displacement [cm]; component as in `peak`, corner as in `velocity`."""
+    return peak(displacement(motion, corner), component) / CM
+
+
+def velocity(motion, corner=VELOCITY_CORNER):
+    """Ground velocity from rest: trapezoidal integral of the acceleration. (n, 3) [m/s]
+
+    corner  zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none
+    """
+    acceleration = motion.acceleration
+    if corner is not None:
+        acceleration = zero_phase_highpass(acceleration, motion.dt, corner, 2)
+    return integrate.cumulative_trapezoid(acceleration, dx=motion.dt, axis=0, initial=0.0)
+
+
+def displacement(motion, corner=VELOCITY_CORNER):
+    """Ground displacement from rest: trapezoidal integral of `velocity`. (n, 3) [m]"""
+    return integrate.cumulative_trapezoid(velocity(motion, corner), dx=motion.dt, axis=0, initial=0.0)
+
+
+# --- JMA instrumental intensity -----------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class JmaIntensity:
+    """JMA instrumental intensity.
+
+    raw       I = 2 log10(a0) + 0.94, not rounded; -inf for a motion of zeros
+    official  raw rounded to two decimals, then cut to one
+    a0        filtered vector acceleration that is held for 0.3 s in total. [gal]
+    """
+
+    raw: float
+    official: float
+    a0: float
+
+
+def jma_filter(frequency):
+    """Gain of JMA's filter (Notification 4 of 1996): period effect x high cut x low cut. frequency [Hz] >= 0."""
+    f = np.asarray(frequency, dtype=float)
+    safe = np.where(f > 0.0, f, 1.0)
+    x = safe / 10.0
+    powers = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)
+    period_effect = 1.0 / np.sqrt(safe)
+    high_cut = 1.0 / np.sqrt(sum(c * x ** (2 * k) for k, c in enumerate(powers)))
+    low_cut = np.sqrt(-np.expm1(-((safe / 0.5) ** 3)))
+    return np.where(f > 0.0, period_effect * high_cut * low_cut, 0.0)
+
+
+def jma_filtered(motion):
+    """Acceleration after JMA's filter, applied by Fourier transform of the whole record. (n, 3) [m/s2]"""
+    n = len(motion)
+    gain = jma_filter(np.fft.rfftfreq(n, motion.dt))
+    return np.fft.irfft(np.fft.rfft(motion.acceleration, axis=0) * gain[:, None], n, axis=0)
+
+
+def jma_intensity(motion):
+    """JMA instrumental intensity of three components -> JmaIntensity. The record must last 0.3 s or more."""
+    count = int(np.ceil(INTENSITY_DURATION / motion.dt - 1e-9))
+    if count > len(motion):
+        raise RecordError(f"{motion.name}: lasts {motion.duration:g} s; JMA intensity needs 0.3 s or more")
+    vector = np.linalg.norm(jma_filtered(motion), axis=1)
+    a0 = float(np.sort(vector)[-count]) / GAL
+    if a0 <= 0.0:
+        return JmaIntensity(-np.inf, -np.inf, 0.0)
+    raw = float(2.0 * np.log10(a0) + 0.94)
+    return JmaIntensity(raw, float(np.floor(np.round(raw, 2) * 10.0 + 1e-9) / 10.0), a0)
+
+
+# --- response spectra ---------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Response spectrum of linear oscillators; all arrays (m,).
+
+    periods  [s]
+    sa       largest absolute acceleration of the mass [gal]
+    psv      pseudo-velocity, 2 pi / T times sd [cm/s]
+    sd       largest displacement relative to the ground [cm]
+    """
+
+    periods: np.ndarray
+    sa: np.ndarray
+    psv: np.ndarray
+    sd: np.ndarray
+
+
+def response_spectrum(acceleration, dt, periods, damping=0.05):
+    """Response spectrum of (n,) or (n, k) ground acceleration [m/s2].
+
+    With several columns the response is the vector of the columns' responses and its length is taken (the resultant).
+    dt [s], periods [s] > 0, damping in parts of critical, 0 <= damping < 1. Exact for ground acceleration that is
+    linear between its samples (Nigam and Jennings 1969), half a period of free vibration after its end included.
+    """
+    periods = np.atleast_1d(np.asarray(periods, dtype=float))
+    if not (np.isfinite(periods).all() and (periods > 0.0).all() and 0.0 <= damping < 1.0):
+        raise RecordError("response spectrum: periods must be > 0 and the damping in [0, 1)")
+    columns = np.asarray(acceleration, dtype=float).reshape(len(acceleration), -1)
+    peaks = np.array([_oscillator_peaks(columns, dt, period, damping) for period in periods])
+    return Spectrum(periods, peaks[:, 1] / GAL, peaks[:, 0] * 2.0 * np.pi / periods / CM, peaks[:, 0] / CM)
+
+
+def oscillator(acceleration, dt, period, damping=0.05):
+    """Response of one oscillator at rest at the first sample: (displacement [m], absolute acceleration [m/s2]).
+
+    acceleration (n, k) of the ground [m/s2], taken as linear between samples; results have its shape.
+    With s = -damping w + i w sqrt(1 - damping^2), the displacement is Im(y) / Im(s), where y' = s y - acceleration;
+    each step of y is integrated in closed form.
+    """
+    omega = 2.0 * np.pi / period
+    s = complex(-damping * omega, omega * np.sqrt(1.0 - damping**2))
+    growth = np.exp(s * dt)
+    late = dt * _phi2(s * dt)
+    early = (growth - 1.0) / s - late
+    forcing = np.zeros(acceleration.shape, dtype=complex)
+    forcing[1:] = -(early * acceleration[:-1] + late * acceleration[1:])
+    y = signal.lfilter([1.0], [1.0, -growth], forcing, axis=0)
+    displacement_, velocity_ = y.imag / s.imag, (s * y).imag / s.imag
+    return displacement_, -(2.0 * damping * omega * velocity_ + omega**2 * displacement_)
+
+
+def _phi2(z):
+    """(exp(z) - 1 - z) / z^2, by its series where the difference would lose more than 1e-12 of it."""
+    if abs(z) < 1e-2:
+        return 1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0
+    return (np.exp(z) - 1.0 - z) / z**2
+
+
+def _oscillator_peaks(columns, dt, period, damping):
+    """Largest length of (displacement [m], absolute acceleration [m/s2]) of (n, k) ground acceleration."""
+    parts = int(np.ceil(STEPS_PER_PERIOD * dt / period))
+    tail = int(np.ceil(0.5 * period / dt))
+    ground = _subdivided(np.pad(columns, ((0, tail), (0, 0))), parts)
+    responses = oscillator(ground, dt / parts, period, damping)
+    return [float(np.linalg.norm(response, axis=1).max()) for response in responses]
+
+
+def _subdivided(columns, parts):
+    """Each step of (n, k) samples cut into `parts` equal ones along straight lines."""
+    if parts == 1:
+        return columns
+    fine = np.arange((len(columns) - 1) * parts + 1) / parts
+    return np.column_stack([np.interp(fine, np.arange(len(columns)), column) for column in columns.T])
+
+
+# --- energy and duration ------------------------------------------------------------------------
+
+
+def arias(motion):
+    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud'} and their sum 'total'. [m/s]"""
+    each = np.pi / (2.0 * STANDARD_GRAVITY) * _energy(motion)[-1]
+    return {"ew": float(each[0]), "ns": float(each[1]), "ud": float(each[2]), "total": float(each.sum())}
+
+
+def significant_duration(motion, start=0.05, end=0.95):
+    """Time in which the Arias intensity (three components together) grows from `start` to `end` of its final value. [s]"""
+    growth = _energy(motion).sum(axis=1)
+    if growth[-1] <= 0.0:
+        return 0.0
+    first, last = np.searchsorted(growth, np.array([start, end]) * growth[-1])
+    return float((last - first) * motion.dt)
+
+
+def _energy(motion):
+    """Running integral of the squared acceleration. (n, 3) [m2/s3]"""
+    return integrate.cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Changes to a ground motion, each made only when asked for; every function returns a new GroundMotion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+from scipy import signal
+
+from .filters import zero_phase_highpass
+from .measures import jma_intensity, pga
+from .record import GAL, RecordError
+
+PAD_SECONDS = 5.0
+"""Zeros added at the end before a band-limited resampling, which takes the record as periodic. [s]"""
+
+LARGEST_RATIO = 100_000
+"""Largest numerator or denominator of old step / new step for band-limited resampling."""
+
+
+def remove_polynomial(motion, order=0):
+    """Subtract from each component its least-squares polynomial in time (0: the mean, 1: also the trend)."""
+    if order < 0:
+        raise RecordError(f"{motion.name}: polynomial order {order}; it must be >= 0")
+    t = np.linspace(-1.0, 1.0, len(motion))
+    basis = np.polynomial.legendre.legvander(t, order)
+    weights, *_ = np.linalg.lstsq(basis, motion.acceleration, rcond=None)
+    return _changed(motion, motion.acceleration - basis @ weights, f"polynomial of order {order} removed")
+
+
+def highpass(motion, corner, order=4):
+    """Zero-phase Butterworth high-pass. corner [Hz] (-6 dB there, forwards and backwards), order of one pass."""
+    filtered = zero_phase_highpass(motion.acceleration, motion.dt, corner, order)
+    return _changed(motion, filtered, f"high-pass {corner:g} Hz, order {order}, zero phase")
+
+
+def trim(motion, start=0.0, end=None):
+    """Keep the samples with start <= t <= end [s]; the first kept sample becomes t = 0."""
+    end = motion.duration if end is None else end
+    keep = (motion.time >= start - 1e-9) & (motion.time <= end + 1e-9)
+    if np.count_nonzero(keep) < 2:
+        raise RecordError(f"{motion.name}: nothing between {start:g} and {end:g} s; it lasts {motion.duration:g} s")
+    return _changed(motion, motion.acceleration[keep], f"cut to {start:g}-{end:g} s")
+
+
+def scaled(motion, factor):
+    """All components times one factor (finite; it may be negative)."""
+    if not np.isfinite(factor):
+        raise RecordError(f"{motion.name}: scale factor {factor}; it must be finite")
+    note = motion.source if factor == 1.0 else None
+    changed = _changed(motion, motion.acceleration * factor, f"scaled by {factor:.6g}")
+    return replace(changed, source=note) if note is not None else changed
+
+
+def scaled_to_pga(motion, gal, component="h"):
+    """One factor for all components so that pga(motion, component) is `gal`; component as in measures.pga."""
+    present = pga(motion, component)
+    if not (gal > 0.0 and present > 0.0):
+        raise RecordError(f"{motion.name}: cannot scale {component} from {present:g} to {gal:g} gal; both must be > 0")
+    return scaled(motion, gal / present)
+
+
+def scaled_to_intensity(motion, intensity):
+    """One factor for all components so that the raw JMA intensity is `intensity` (exact: the filter is linear)."""
+    present = jma_intensity(motion).raw
+    if not (np.isfinite(intensity) and np.isfinite(present)):
+        raise RecordError(f"{motion.name}: cannot scale intensity {present:g} to {intensity:g}; both must be finite")
+    return scaled(motion, 10.0 ** ((intensity - present) / 2.0))
+
+
+def resample(motion, dt, method="bandlimited"):
+    """Samples at another time step. Returns (motion, error).
+
+    bandlimited  Fourier interpolation of the record, zeros behind it; going to a larger step it also removes what
+                 the new step cannot carry. dt / old dt must be a ratio of whole numbers.
+    linear       straight lines between the samples, as the ground-motion engine reads them
+    error        largest difference from the band-limited interpolation of the original at the new times, in parts of
+                 the record's PGA (0 for an upsampling by `bandlimited`, whose old samples are met to rounding)
+    """
+    if method not in ("bandlimited", "linear"):
+        raise RecordError(f"resampling method '{method}'; admissible: bandlimited, linear")
+    if not (np.isfinite(dt) and dt > 0.0):
+        raise RecordError(f"{motion.name}: time step {dt} s; it must be > 0")
+    exact, kept = _fourier(motion, dt)
+    chosen = kept if method == "bandlimited" else _linear(motion, dt, len(kept))
+    peak = np.abs(motion.acceleration).max()
+    error = float(np.abs(chosen - exact).max() / peak) if peak > 0.0 else 0.0
+    return replace(_changed(motion, chosen, f"resampled to {dt:g} s ({method})"), dt=dt), error
+
+
+def _linear(motion, dt, count):
+    times = np.arange(count) * dt
+    return np.column_stack([np.interp(times, motion.time, column) for column in motion.acceleration.T])
+
+
+def _fourier(motion, dt):
+    """(band-limited interpolation at the new times, the same without what lies above the new Nyquist frequency)."""
+    ratio = Fraction(dt / motion.dt).limit_denominator(LARGEST_RATIO)
+    if ratio <= 0 or abs(float(ratio) - dt / motion.dt) > 1e-9 * dt / motion.dt or ratio.numerator > LARGEST_RATIO:
+        raise RecordError(f"{motion.name}: {dt:g} s is no whole-number ratio of {motion.dt:g} s; choose another step")
+    periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
+    total = periods * ratio.numerator
+    padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
+    last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
+    kept = signal.resample(padded, periods * ratio.denominator, axis=0)
+    if ratio <= 1:
+        return kept[: last + 1], kept[: last + 1]
+    dense = signal.resample(padded, total * ratio.denominator, axis=0)
+    return dense[:: ratio.numerator][: last + 1], kept[: last + 1]
+
+
+def shaking_window(motion, threshold=0.5):
+    """Times of the first and the last sample above `threshold` [gal] in any component: (first, last) [s].
+
+    What lies before and behind is the quiet head and tail. Raises RecordError if nothing exceeds the threshold.
+    """
+    above = np.flatnonzero(np.abs(motion.acceleration).max(axis=1) > threshold * GAL)
+    if not above.size:
+        raise RecordError(f"{motion.name}: nothing above {threshold:g} gal; its peak is {pga(motion, 'any'):g} gal")
+    return float(above[0] * motion.dt), float(above[-1] * motion.dt)
+
+
+def _changed(motion, acceleration, what):
+    return replace(motion, acceleration=acceleration, source=f"{motion.source}; {what}".lstrip("; "))

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""From files to a ground motion: which files belong together, and how their components are mapped.
+
+The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
+from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from .formats import parse
+from .record import GroundMotion, RecordError
+from .text import DOWN, UP, direction_of, read_lines
+
+RIGHT_ANGLE_TOLERANCE = 1.0
+"""Largest deviation of two horizontal components from a right angle. [degrees] (PEER prints whole degrees)"""
+
+_SUFFIXES = (
+    ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
+    ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
+    ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
+    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v))\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
+)
+"""What follows a prefix in the names of one record's three files; tried in this order, so that of a KiK-net pair the
+sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
+
+
+def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=False):
+    """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files.
+
+    record     a file, three files separated by commas, or the common prefix of three files
+    component  direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; needed only
+               where a file does not say its own, and stronger than what the file says
+    units      unit of the numbers (gal, m/s2, g) where the file does not state it; a contradiction is refused
+    angle      azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's
+               +y to the record's north. With 90 the record's north component shakes the house along +x.
+    trim_to_shortest  cut components of different length at the shortest one instead of refusing them
+    Returns GroundMotion; a component that no file gives is zero, and its `source` says so.
+    Raises RecordError: missing, truncated, unknown format, not a number, no unit, components that do not fit.
+    """
+    if not np.isfinite(angle):
+        raise RecordError(f"{record}: angle {angle}; it must be a finite number of degrees")
+    paths = find_files(record)
+    channels = [channel for path in paths for channel in parse(path, read_lines(path), units)]
+    directions = _directions(channels, component)
+    dt, values = _aligned(channels, trim_to_shortest)
+    acceleration = _to_house_axes(str(record), values, directions, float(angle))
+    return GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions, angle))
+
+
+def find_files(record):
+    """Files of a record: one file, a comma-separated list, or three files with a common prefix. Raises RecordError."""
+    path = Path(str(record)).expanduser()
+    if path.is_file():
+        return [path]
+    if path.is_dir():
+        raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
+    if "," in str(record):
+        paths = [Path(part.strip()).expanduser() for part in str(record).split(",")]
+        for part in paths:
+            if not part.is_file():
+                raise RecordError(f"{part}: no such file")
+        return paths
+    return _find_by_prefix(path)
+
+
+def _find_by_prefix(prefix):
+    folder = prefix.parent
+    names = sorted(p.name for p in folder.iterdir()) if folder.is_dir() else []
+    rests = {name[len(prefix.name) :]: folder / name for name in names if name.startswith(prefix.name)}
+    partial = []
+    for _, pattern, _ in _SUFFIXES:
+        found = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
+        if len(found) == 3:
+            return found
+        partial += [path.name for path in found]
+    forms = " or ".join(form for _, _, form in _SUFFIXES)
+    seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
+    raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")
+
+
+def _directions(channels, component):
+    """Direction of every channel, from the caller or from the files."""
+    if component is None:
+        directions = [channel.direction for channel in channels]
+    else:
+        words = str(component).split(",")
+        if len(words) != len(channels):
+            raise RecordError(f"component={component}: {len(words)} directions for {len(channels)} components")
+        directions = [_stated_direction(word) for word in words]
+    for channel, direction in zip(channels, directions):
+        if direction is None:
+            raise RecordError(f"{channel.path}: direction not stated; give component= ns, ew, ud or an azimuth")
+    return directions
+
+
+def _stated_direction(word):
+    direction = direction_of(word)
+    if direction is None:
+        raise RecordError(f"component={word}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
+    return direction
+
+
+def _aligned(channels, trim_to_shortest):
+    """(dt [s], (n, channels) [m/s2]) of channels that must share step and length."""
+    dt = channels[0].dt
+    for channel in channels:
+        if abs(channel.dt - dt) > 1e-9 * dt:
+            raise RecordError(f"{channel.path}: time step {channel.dt:g} s; {channels[0].path.name} has {dt:g} s")
+    lengths = [len(channel.values) for channel in channels]
+    if min(lengths) != max(lengths) and not trim_to_shortest:
+        stated = ", ".join(f"{c.path.name}: {n}" for c, n in zip(channels, lengths))
+        raise RecordError(f"components of different length ({stated}); make them equal or use trim_to_shortest")
+    return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
+
+
+def _to_house_axes(record, values, directions, angle):
+    """(n, 3) in the axes east, north, up from one to three channels with known directions."""
+    vertical = [i for i, d in enumerate(directions) if d in (UP, DOWN)]
+    level = [i for i, d in enumerate(directions) if d not in (UP, DOWN)]
+    if len(vertical) > 1 or len(level) > 2:
+        raise RecordError(f"{record}: {len(level)} horizontal and {len(vertical)} vertical components; at most 2 and 1")
+    acceleration = np.zeros((len(values), 3))
+    if len(level) == 2:
+        _require_right_angle(record, directions[level[0]], directions[level[1]])
+    for i in level:
+        azimuth = np.radians(directions[i] + angle)
+        acceleration[:, 0] += values[:, i] * _clean(np.sin(azimuth))
+        acceleration[:, 1] += values[:, i] * _clean(np.cos(azimuth))
+    for i in vertical:
+        acceleration[:, 2] = values[:, i] if directions[i] == UP else -values[:, i]
+    return acceleration
+
+
+def _clean(x):
+    """Sine or cosine with the rounding noise at whole right angles taken away."""
+    return float(np.round(x, 15))
+
+
+def _require_right_angle(record, first, second):
+    between = (first - second) % 180.0
+    if abs(between - 90.0) > RIGHT_ANGLE_TOLERANCE:
+        raise RecordError(f"{record}: horizontal azimuths {first:g} and {second:g} degrees; they must be 90 apart")
+
+
+def _common_name(paths):
+    if len(paths) == 1:
+        return paths[0].stem
+    stems = [path.stem for path in paths]
+    length = next((i for i, letters in enumerate(zip(*stems)) if len(set(letters)) > 1), min(map(len, stems)))
+    return stems[0][:length].rstrip("-_.") or stems[0]
+
+
+def _provenance(channels, directions, angle):
+    """One line: the files, the direction of each component, what is missing, the angle."""
+    by_file = {}
+    for channel, direction in zip(channels, directions):
+        by_file.setdefault(channel.path.name, []).append(_word(direction))
+    files = ", ".join(f"{name} ({', '.join(words)})" for name, words in by_file.items())
+    note = "" if len(channels) == 3 else "; the other components are zero"
+    turned = f"; turned by {angle:g} degrees" if angle else ""
+    return files + note + turned
+
+
+def _word(direction):
+    """'ns', 'ew', 'up', 'down' or an azimuth in words."""
+    return {0.0: "ns", 90.0: "ew"}.get(direction, f"{direction:g} deg" if isinstance(direction, float) else direction)

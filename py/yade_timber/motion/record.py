@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A three-component ground acceleration in the axes of the house, and its units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+GAL = 0.01
+"""One gal (cm/s2) in m/s2."""
+
+STANDARD_GRAVITY = 9.80665
+"""One g in m/s2 (the unit of PEER records)."""
+
+COMPONENTS = ("ew", "ns", "ud")
+"""Order of the columns = axes of the house: x east, y north, z up."""
+
+UNITS = {
+    "gal": GAL,
+    "cm/s2": GAL,
+    "cm/s/s": GAL,
+    "cm/s^2": GAL,
+    "cm/sec2": GAL,
+    "cm/sec/sec": GAL,
+    "m/s2": 1.0,
+    "m/s/s": 1.0,
+    "m/s^2": 1.0,
+    "g": STANDARD_GRAVITY,
+}
+"""Known spellings of acceleration units and their size in m/s2."""
+
+
+class RecordError(ValueError):
+    """A record cannot be used; the message is one line: file, line, problem, what is admissible."""
+
+
+class RecordWarning(UserWarning):
+    """A record can be used, but something in it does not fit its own header."""
+
+
+@dataclass(frozen=True)
+class GroundMotion:
+    """Ground acceleration sampled at equal steps.
+
+    dt            time step [s]
+    acceleration  (n, 3) [m/s2], columns ew, ns, ud: positive towards east, north and up
+    name          short name
+    source        where it comes from and how its components were mapped
+    Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
+    """
+
+    dt: float
+    acceleration: np.ndarray = field(repr=False)
+    name: str = "motion"
+    source: str = ""
+
+    def __post_init__(self):
+        acceleration = np.array(self.acceleration, dtype=float)
+        if not (np.isfinite(self.dt) and self.dt > 0.0):
+            raise RecordError(f"{self.name}: time step {self.dt} s; it must be finite and > 0")
+        if acceleration.ndim != 2 or acceleration.shape[1] != 3 or len(acceleration) < 2:
+            raise RecordError(
+                f"{self.name}: acceleration of shape {acceleration.shape}; it must be (n, 3) with n >= 2"
+            )
+        bad = np.flatnonzero(~np.isfinite(acceleration).all(axis=1))
+        if bad.size:
+            raise RecordError(f"{self.name}: sample {bad[0]} is not finite; every sample must be a number")
+        acceleration.setflags(write=False)
+        object.__setattr__(self, "acceleration", acceleration)
+
+    def __len__(self):
+        return len(self.acceleration)
+
+    @property
+    def duration(self):
+        """Number of samples times the time step. [s]"""
+        return len(self) * self.dt
+
+    @property
+    def time(self):
+        """Times of the samples, from zero. (n,) [s]"""
+        return np.arange(len(self)) * self.dt
+
+    @property
+    def ew(self):
+        """East-west component, positive towards east. (n,) [m/s2]"""
+        return self.acceleration[:, 0]
+
+    @property
+    def ns(self):
+        """North-south component, positive towards north. (n,) [m/s2]"""
+        return self.acceleration[:, 1]
+
+    @property
+    def ud(self):
+        """Vertical component, positive upwards. (n,) [m/s2]"""
+        return self.acceleration[:, 2]
+
+    @property
+    def pga_gal(self):
+        """Largest absolute acceleration of each component: {'ns', 'ew', 'ud'}. [gal]"""
+        peak = np.abs(self.acceleration).max(axis=0) / GAL
+        return {"ns": float(peak[1]), "ew": float(peak[0]), "ud": float(peak[2])}
+
+
+def unit_factor(unit, where):
+    """Size of an acceleration unit in m/s2; `where` (file, line) opens the message of RecordError."""
+    key = unit.strip().lower().replace(" ", "").strip("()[]")
+    if key not in UNITS:
+        raise RecordError(f"{where}: unknown unit '{unit}'; admissible: {', '.join(UNITS)}")
+    return UNITS[key]

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Measure a strong-motion record and plot its motion and its 5 % response spectra.
+
+    scripts/show_record.py [FILE_OR_PREFIX] [--component ns] [--units gal] [--angle 0] [--scale 1] [--out FILE.png]
+
+Without a record: the synthetic motion that the package ships. Needs no YADE.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
+
+import numpy as np  # noqa: E402
+
+from yade_timber import motion as gm  # noqa: E402
+
+PERIODS = np.geomspace(0.05, 10.0, 120)
+COLUMNS = ("ew", "ns", "ud")
+
+
+def print_measures(motion, corner):
+    """One line per measure; peaks for each component and for the horizontal vector."""
+    print(f"{motion.name}: {motion.source}")
+    print(f"{len(motion)} samples, {motion.dt:g} s, {motion.duration:g} s")
+    print(f"{'':22}{'NS':>10}{'EW':>10}{'UD':>10}{'horizontal vector':>20}")
+    for label, measure in (("PGA [gal]", gm.pga), ("PGV [cm/s]", gm.pgv), ("PGD [cm]", gm.pgd)):
+        extra = {} if measure is gm.pga else {"corner": corner}
+        row = [measure(motion, component, **extra) for component in ("ns", "ew", "ud", "h")]
+        print(f"{label:22}{row[0]:10.2f}{row[1]:10.2f}{row[2]:10.2f}{row[3]:20.2f}")
+    arias = gm.arias(motion)
+    each = "".join(f"{arias[component]:10.3f}" for component in ("ns", "ew", "ud"))
+    print(f"{'Arias intensity [m/s]':22}{each}{arias['total']:14.3f} (sum)")
+    intensity = gm.jma_intensity(motion)
+    print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
+    print(f"Duration D5-95 [s]    {gm.significant_duration(motion):.2f}")
+    print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
+
+
+def plot(motion, corner, path):
+    """Accelerations, velocities and spectra -> PNG."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(3, 2, figsize=(13, 8), constrained_layout=True)
+    velocity = gm.velocity(motion, corner) * 100.0
+    for row, k in enumerate((1, 0, 2)):
+        axes[row, 0].plot(motion.time, motion.acceleration[:, k] / gm.GAL, lw=0.5)
+        axes[row, 0].set_ylabel(f"{COLUMNS[k].upper()} [gal]")
+        axes[0, 1].plot(motion.time, velocity[:, k], lw=0.7, label=COLUMNS[k].upper())
+        spectrum = gm.response_spectrum(motion.acceleration[:, k], motion.dt, PERIODS)
+        axes[1, 1].loglog(PERIODS, np.maximum(spectrum.sa, 1e-6), label=COLUMNS[k].upper())
+        axes[2, 1].loglog(PERIODS, np.maximum(spectrum.psv, 1e-6), label=COLUMNS[k].upper())
+    finish(axes, motion.name)
+    figure.savefig(path, dpi=110)
+
+
+def finish(axes, name):
+    """Titles, labels and grids."""
+    axes[0, 0].set_title(name)
+    axes[0, 1].set_ylabel("velocity [cm/s]")
+    for axis in (*axes[:, 0], axes[0, 1]):
+        axis.set_xlabel("time [s]")
+    for axis, label in ((axes[1, 1], "5 % Sa [gal]"), (axes[2, 1], "5 % pSv [cm/s]")):
+        axis.set(xlabel="period [s]", ylabel=label)
+        axis.grid(which="both", alpha=0.3)
+    axes[0, 1].legend()
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("record", nargs="?", help="file, three files separated by commas, or prefix of three files")
+    parser.add_argument("--component", help="ns, ew, ud or azimuth, where the file does not say")
+    parser.add_argument("--units", help="gal, m/s2 or g, where the file does not say")
+    parser.add_argument("--angle", type=float, default=0.0, help="azimuth of the record's north in the house's frame")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor on the acceleration")
+    parser.add_argument("--highpass", type=float, default=0.05, help="corner for PGV and PGD [Hz]; 0: none")
+    parser.add_argument("--out", type=Path, help="PNG file (default: NAME.png in this folder)")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    corner = options.highpass or None
+    try:
+        motion = gm.read_motion(options.record or gm.DEFAULT_RECORD, options.component, options.units, options.angle)
+        motion = gm.scaled(motion, options.scale)
+        print_measures(motion, corner)
+        out = options.out or Path(f"{motion.name}.png")
+        plot(motion, corner, out)
+    except gm.RecordError as error:
+        sys.exit(f"error: {error}")
+    except OSError as error:
+        sys.exit(f"error: {error.filename}: cannot be written ({error.strerror})")
+    print(f"written: {out}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""House files with each of the common mistakes, and the one line each of them gets; and a house that is none of the paper's."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+from yade_timber.house import HouseError, build_house, load_house  # noqa: E402
+from yade_timber.house.description import SHIPPED  # noqa: E402
+
+STOREHOUSE = """\
+name: storehouse
+materials:
+  timber: {law: timber, density: 400, young: 9e9, poisson: 0.4}
+  snow: {law: snow, density: 150, stiffness_per_kg: 4e4}
+friction:
+  - {between: [timber, timber], coefficient: 0.5}
+ground: {size: 10, thickness: 1}
+structures:
+  store:
+    place: {origin: [0, 0]}
+    grid: {x: {module: 1, count: 2}, y: {positions: [0, 1.5]}}
+    margin: 0.1
+    lines:
+      - {along: x, at: [0, 1], from: 0, to: 2}
+      - {along: y, at: [0, 2], from: 0, to: 1, cut: true}
+    stack:
+      - {layer: sill, height: 0.1, width: 0.1}
+      - {layer: columns, height: 2}
+      - {layer: beams, height: 0.1, width: 0.1}
+      - {layer: roof, type: flat, thickness: 0.1}
+    columns:
+      - {section: 0.1, grid: {x: [0, 1, 2], y: [0, 1]}}
+    braces:
+      lines:
+        - {along: x, at: 0, runs: [[0, 1]]}
+joint_types:
+  peg: {kn: 1e5, ks: 1e5, strength: 2000}
+joints:
+  - {between: [column, [sill, beam]], type: peg, kind: column_beam}
+  - {between: [brace, [sill, beam]], type: peg, kind: brace_beam}
+snow: {depth: 0.5}
+"""
+
+
+def build(tmp_path, text):
+    path = tmp_path / "store.yaml"
+    path.write_text(text)
+    return build_house(load_house(path))
+
+
+def message(tmp_path, text):
+    with pytest.raises(HouseError) as caught:
+        build(tmp_path, text)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_storehouse_of_ones_own(tmp_path):
+    counts = build(tmp_path, STOREHOUSE).counts()
+    assert counts["by_kind"] == {"ground": 1, "sill": 4, "column": 6, "brace": 1, "beam": 4, "roof": 1, "snow": 1}
+    assert counts["joints_by_kind"] == {"column_beam": 12, "brace_beam": 2}
+    assert counts["mass_snow"] == pytest.approx(2.2 * 1.7 * 0.5 * 150)
+
+
+def test_structures_are_not_jointed_to_each_other(tmp_path):
+    """A second store that touches the first has its own joints only, though the roofs' side faces lie flush."""
+    start, end = STOREHOUSE.index("  store:"), STOREHOUSE.index("joint_types:")
+    second = STOREHOUSE[start:end].replace("store:", "annex:").replace("origin: [0, 0]", "beside: store, gap: 0")
+    ties = "  - {between: [roof, roof], type: peg, kind: roof_roof}\nsnow:"
+    model = build(tmp_path, (STOREHOUSE[:end] + second + STOREHOUSE[end:]).replace("snow:", ties, 2).replace(ties, "snow:", 1))
+    assert model.counts()["joints_by_kind"] == {"column_beam": 24, "brace_beam": 4}
+
+
+def test_joint_reading_is_one_switch_that_a_joint_type_may_override(tmp_path):
+    text = STOREHOUSE + "law: {joint_reading: joint}\n"
+    assert {joint.per for joint in build(tmp_path, text).joints} == {"joint"}
+    assert {joint.per for joint in build(tmp_path, text.replace("strength: 2000", "strength: 2000, per: spring")).joints} == {"spring"}
+
+
+MISTAKES = {  # what is wrong: (old text, new text, line of the new text that the message names, words of the message)
+    "syntax": ("place: {origin: [0, 0]}", "place: {origin: [0, 0}", 10, ["not valid YAML"]),
+    "unknown key": ("section: 0.1", "secton: 0.1", 22, ["unknown key 'secton'", "did you mean 'section'?"]),
+    "missing key": ("    margin: 0.1\n", "", 10, ["structures.store", "'margin' is missing"]),
+    "key given twice": ("    margin: 0.1\n", "    margin: 0.1\n    margin: 0.2\n", 13, ["'margin' is given twice", "line 12"]),
+    "text for a number": ("margin: 0.1", "margin: wide", 12, ["expected a number", "m", "'wide'"]),
+    "out of range": ("density: 400", "density: -400", 3, ["(0, 30000] kg/m3", "-400"]),
+    "not a number": ("strength: 2000", "strength: .nan", 27, ["joint_types.peg.strength", "nan"]),
+    "not whole": ("count: 2", "count: 2.5", 11, ["whole number", "2.5"]),
+    "unknown layer": ("layer: columns", "layer: column", 18, ["'column' is unknown", "did you mean 'columns'?"]),
+    "unknown roof": ("type: flat", "type: onion", 20, ["'onion' is unknown", "hip, flat"]),
+    "unknown direction": ("along: x, at: 0", "along: z, at: 0", 25, ["'z' is unknown", "x, y"]),
+    "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29, ["unknown joint type 'pegg'", "did you mean 'peg'?"]),
+    "unknown material": ("{layer: columns, height: 2}", "{layer: columns, height: 2, material: steel}", 18, ["unknown material 'steel'"]),
+    "unknown friction pair": ("between: [timber, timber]", "between: [timber, ice]", 6, ["unknown material 'ice'"]),
+    "two column forms": ("section: 0.1, grid", "section: 0.1, at: [[0, 0]], grid", 22, ["exactly one of at, grid, lines", "at and grid"]),
+    "no list": ("runs: [[0, 1]]", "runs: 3", 25, ["expected a list"]),
+    "wrong length": ("runs: [[0, 1]]", "runs: [[0, 1, 2]]", 25, ["expected 2 items, got 3"]),
+    "outside the grid": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 3], y: [0, 1]", 22, ["x node 3 is outside the grid", "0 to 2"]),
+    "line backwards": ("at: [0, 1], from: 0, to: 2", "at: [0, 1], from: 2, to: 0", 14, ["'from' must be below 'to'"]),
+    "positions not rising": ("[0, 1.5]", "[1.5, 0]", 11, ["rising order"]),
+    "second column": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2, 2], y: [0, 1]", 22, ["a second column at node x 2, y 0", "remove one"]),
+    "no such storey": ("section: 0.1, grid", "section: 0.1, storeys: 2, grid", 22, ["no storey 2"]),
+    "brace without a column": ("runs: [[0, 1]]", "runs: [[0, 0.5]]", 25, ["no bay", "no column at node 0.5", "0, 1, 2"]),
+    "brace over a column": ("runs: [[0, 1]]", "runs: [[0, 2]]", 25, ["no bay", "a column stands between, at node 1"]),
+    "brace on the spot": ("runs: [[0, 1]]", "runs: [[1, 1]]", 25, ["no bay", "same column"]),
+    "brace off the lines": ("along: x, at: 0, runs", "along: x, at: 0.5, runs", 25, ["no bay", "columns of this line stand at none"]),
+    "column on nothing": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2], y: [0, 0.5, 1]", 22, ["column store.column1.x1y0.5 stands on nothing", "x 1.000, y 0.750, z 0.100"]),
+    "overlapping lines": ("to: 1, cut: true", "to: 1", 15, ["overlaps", "by 100 mm", "x 0.000, y 0.000", "move or shorten"]),
+    "overlapping braces": ("runs: [[0, 1]]", "runs: [[0, 1], [1, 0]]", 25, ["store.brace1.EW.y0.1-0 overlaps brace store.brace1.EW.y0.0-1"]),
+    "roof not last": ("      - {layer: roof", "      - {layer: roof, type: flat, thickness: 0.1}\n      - {layer: roof", 21, ["nothing can stand on a roof"]),
+    "too much damage": ("snow: {depth: 0.5}", "damage: {regions: [{side: east, storey: 1, column_beam: {count: 3}}]}", 31, ["3 joints asked for", "has 2 at the bottom"]),
+    "damage to nowhere": ("snow: {depth: 0.5}", "damage: {regions: [{structure: barn, side: east, storey: 1}]}", 31, ["unknown structure 'barn'"]),
+    "snow too deep": ("depth: 0.5", "depth: 50", 31, ["[0, 20] m"]),
+    "beside nothing": ("origin: [0, 0]", "beside: barn", 10, ["no structure 'barn' before this one"]),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistake(tmp_path, mistake):
+    old, new, line, words = MISTAKES[mistake]
+    assert STOREHOUSE.count(old) >= 1
+    text = message(tmp_path, STOREHOUSE.replace(old, new, 1))
+    assert text.startswith(f"store.yaml:{line}:"), text
+    for word in words:
+        assert word in text, text
+
+
+def test_hip_roof_mistakes(tmp_path):
+    hip = STOREHOUSE.replace("type: flat, thickness: 0.1", "type: hip, thickness: 0.1, ridge_height: 2.0, corner_cut: 0.1")
+    assert "the ridge (2 m) must lie above the eaves (2.2 m)" in message(tmp_path, hip)
+    assert "corner_cut must be below" in message(tmp_path, hip.replace("2.0, corner_cut: 0.1", "3.0, corner_cut: 0.9"))
+
+
+def test_files_that_are_no_house(tmp_path):
+    with pytest.raises(HouseError, match="unknown house 'Z'.*A, B, B1, B2, C, C1, C2"):
+        load_house("Z")
+    for text, words in (("", "a house file is a table"), ("- 1\n", "a house file is a table"), ("extends: nowhere.yaml\n", "no file 'nowhere.yaml'"),
+                        ("extends: store.yaml\n", "extends itself"), ("extends: 3\n", "expected the name of a file"), ("1: 2\n", "must be a word")):
+        assert words in message(tmp_path, text)
+    (tmp_path / "latin.yaml").write_bytes(b"name: \xff\xfe")
+    with pytest.raises(HouseError, match="not UTF-8"):
+        load_house(tmp_path / "latin.yaml")
+
+
+def test_an_error_in_an_extended_file_names_that_file(tmp_path):
+    (tmp_path / "base.yaml").write_text((SHIPPED / "base.yaml").read_text().replace("margin: 0.075 ", "margin: -1 ", 1))
+    text = message(tmp_path, "extends: base.yaml\nname: mine\n")
+    assert text.startswith("base.yaml:") and "structures.main.margin" in text
+
+
+def test_snow_depth_argument_is_checked(tmp_path):
+    (tmp_path / "store.yaml").write_text(STOREHOUSE)
+    for depth in (-1, float("nan")):
+        with pytest.raises(HouseError, match="snow_depth"):
+            build_house(load_house(tmp_path / "store.yaml"), depth)

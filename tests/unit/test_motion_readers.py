@@ -1,0 +1,336 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reading records: every format from small synthetic files, and every refusal with its message.
+
+With YADE_TIMBER_RECORDS naming a folder of real records, those are checked against their published peaks too.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+
+from yade_timber.motion import GAL, GroundMotion, RecordError, RecordWarning, read_motion, write_csv  # noqa: E402
+from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
+
+N = 40
+WAVES = {name: 100.0 * np.sin(0.3 * np.arange(N) + k) for k, name in enumerate(("ns", "ew", "ud"))}
+"""Three components in gal."""
+
+KNET_ROUNDING = 0.01
+"""Half a count of the scale factor below, and the mean of the counts, in gal."""
+
+
+def knet_text(values, direction, long="Long.", peak="Max. Acc. (gal)", rate=10, duration=N // 10, stated=None):
+    counts = np.round(values * 1000).astype(int) + 13000
+    gal = (counts - counts.mean()) / 1000.0
+    header = [
+        "Origin Time       2004/10/23 17:56:00",
+        "Lat.              37.3",
+        f"{long:18}138.9",
+        "Depth. (km)       13",
+        "Mag.              6.8",
+        "Station Code      TST001",
+        "Station Lat.      37.3",
+        f"Station {long:10}138.8",
+        "Station Height(m) 56",
+        "Record Time       2004/10/23 17:56:20",
+        f"Sampling Freq(Hz) {rate}Hz",
+        f"Duration Time(s)  {duration}",
+        f"Dir.              {direction}",
+        "Scale Factor      2000(gal)/2000000",
+        f"{peak:18}{np.abs(gal).max() if stated is None else stated:.3f}",
+        "Last Correction   2004/10/23 17:56:00",
+        "Memo.             ",
+    ]
+    rows = [" ".join(f"{c:8d}" for c in counts[i : i + 8]) + " " for i in range(0, len(counts), 8)]
+    return "\n".join(header + rows) + "\n"
+
+
+def at2_text(values_gal, direction, card="NPTS=  {n}, DT=   .0200 SEC,", title="Somewhere, 1/1/2000, TST, "):
+    g = values_gal * GAL / STANDARD_GRAVITY
+    rows = ["".join(f"{v:15.7E}" for v in g[i : i + 5]) for i in range(0, len(g), 5)]
+    head = ["PEER NGA STRONG MOTION DATABASE RECORD", title + direction, "ACCELERATION TIME SERIES IN UNITS OF G"]
+    return "\n".join(head + [card.format(n=len(g))] + rows) + "\n"
+
+
+def write(folder, name, text, encoding="utf-8"):
+    path = folder / name
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+def knet_record(folder, suffix="", directions=("N-S", "E-W", "U-D"), **header):
+    for name, direction in zip(("ns", "ew", "ud"), directions):
+        write(folder, f"TST001.{name.upper()}{suffix}", knet_text(WAVES[name], direction, **header))
+    return folder / "TST001"
+
+
+def same_waves(motion, tolerance):
+    """The motion's components are WAVES, each without its mean, within `tolerance` [gal]."""
+    for name, wave in WAVES.items():
+        np.testing.assert_allclose(getattr(motion, name) / GAL, wave - wave.mean(), atol=tolerance)
+
+
+# --- K-NET and KiK-net --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("header", [{}, {"long": "Lon.", "peak": "Max Acc. (gal)"}])
+def test_knet_prefix_in_both_spellings(tmp_path, header):
+    motion = read_motion(knet_record(tmp_path, **header))
+    assert (motion.dt, len(motion), motion.duration) == (0.1, N, pytest.approx(4.0))
+    same_waves(motion, KNET_ROUNDING)
+
+
+def test_kiknet_surface_is_taken_and_borehole_can_be_named(tmp_path):
+    knet_record(tmp_path, "1", directions="123")
+    surface = {name: wave * 2 for name, wave in WAVES.items()}
+    for name, direction in zip(("ns", "ew", "ud"), "456"):
+        write(tmp_path, f"TST001.{name.upper()}2", knet_text(surface[name], direction))
+    assert np.abs(read_motion(tmp_path / "TST001").ns).max() > 1.5
+    files = ",".join(str(tmp_path / f"TST001.{c}1") for c in ("UD", "EW", "NS"))
+    same_waves(read_motion(files), KNET_ROUNDING)
+
+
+def test_single_knet_file_leaves_the_others_zero(tmp_path):
+    knet_record(tmp_path)
+    motion = read_motion(tmp_path / "TST001.EW")
+    assert motion.pga_gal["ns"] == motion.pga_gal["ud"] == 0.0 and motion.pga_gal["ew"] > 90.0
+    assert "the other components are zero" in motion.source
+
+
+def test_knet_peak_other_than_its_header_warns(tmp_path):
+    path = write(tmp_path, "a.NS", knet_text(WAVES["ns"], "N-S", stated=50.0))
+    with pytest.warns(RecordWarning, match="header says 50 gal"):
+        read_motion(path)
+
+
+# --- PEER AT2 -----------------------------------------------------------------------------------
+
+CARDS = [
+    "NPTS=   {n}, DT=   .0200 SEC,                 ",
+    "NPTS =   {n} , DT =   .020 SEC ,",
+    "NPTS={n},DT=0.02 SEC",
+    "   {n}    0.0200   NPTS, DT",
+    "{n}, 0.02 NPTS,DT",
+]
+
+
+@pytest.mark.parametrize("card", CARDS)
+def test_at2_header_spacings(tmp_path, card):
+    path = write(tmp_path, "X000.AT2", at2_text(WAVES["ns"], "000", card))
+    motion = read_motion(path)
+    assert motion.dt == 0.02
+    np.testing.assert_allclose(motion.ns / GAL, WAVES["ns"], rtol=1e-6)
+
+
+def test_at2_prefix_finds_three_components(tmp_path):
+    for name, suffix, title in (("ns", "000", "0"), ("ew", "090", "90"), ("ud", "-UP", "UP")):
+        write(tmp_path, f"RSN1_TST{suffix}.AT2", at2_text(WAVES[name], title))
+    motion = read_motion(tmp_path / "RSN1_TST")
+    assert motion.name == "RSN1_TST"
+    for name, wave in WAVES.items():
+        np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
+
+
+def test_at2_azimuth_gives_signs_and_projections(tmp_path):
+    south = read_motion(write(tmp_path, "S180.AT2", at2_text(WAVES["ns"], "180")))
+    np.testing.assert_allclose(south.ns / GAL, -WAVES["ns"], rtol=1e-6)
+    oblique = read_motion(write(tmp_path, "S030.AT2", at2_text(WAVES["ns"], "30")))
+    np.testing.assert_allclose(oblique.ew / GAL, 0.5 * WAVES["ns"], rtol=1e-6)
+
+
+def test_at2_component_stated_by_the_caller(tmp_path):
+    path = write(tmp_path, "nowhere.AT2", at2_text(WAVES["ud"], "somewhere"))
+    with pytest.raises(RecordError, match="direction not stated; give component="):
+        read_motion(path)
+    np.testing.assert_allclose(read_motion(path, component="ud").ud / GAL, WAVES["ud"], rtol=1e-6)
+
+
+def test_peknold_is_read_knowingly(tmp_path):
+    text = (
+        "Data for El Centro 1940 North South Component (Peknold Version)\n"
+        f"{N} points at equal spacing of 0.02 sec\n"
+        "Points are listed in the format of 8F10.5, i.e., 8 points across in a row with 5 decimal places\n"
+        "The units are (g)\n\n*** Begin data ***\n"
+    )
+    g = WAVES["ns"] * GAL / STANDARD_GRAVITY
+    text += "\n".join("".join(f"{v:10.5f}" for v in g[i : i + 8]) for i in range(0, N, 8))
+    motion = read_motion(write(tmp_path, "elcentro.dat", text))
+    assert motion.dt == 0.02
+    np.testing.assert_allclose(motion.ns / GAL, WAVES["ns"], atol=0.005)  # half of the fifth decimal of g
+
+
+# --- JMA CSV ------------------------------------------------------------------------------------
+
+JMA_OLD = "SITE CODE= 4310B 小千谷市城内\n LAT.=  37.31\n LON.= 138.79\n SAMPLING RATE= 100Hz\n"
+JMA_OLD += " UNIT  = gal(cm/s/s)\n INITIAL TIME = 2004 10 23 17 56 00\nNS,EW,UD\n"
+JMA_NEW = "SITE CODE=4310B,小千谷市城内,,\nLAT.=37.31,,,\nLON.=138.79,,,\nSAMPLING RATE=100Hz,,,\n"
+JMA_NEW += "UNIT=gal(cm/s/s),,,\nINITIAL TIME=2004 10 23 17 56 00,,,\nNS,EW,UD,\n"
+
+
+@pytest.mark.parametrize("header", [JMA_OLD, JMA_NEW])
+@pytest.mark.parametrize("encoding", ["cp932", "utf-8"])
+def test_jma_headers(tmp_path, header, encoding):
+    rows = "\n".join(f"{a:.4f},{b:.4f},{c:.4f}" for a, b, c in zip(*(WAVES[k] for k in ("ns", "ew", "ud"))))
+    motion = read_motion(write(tmp_path, "jma.csv", header + rows, encoding))
+    assert motion.dt == 0.01
+    for name, wave in WAVES.items():
+        np.testing.assert_allclose(getattr(motion, name) / GAL, wave, atol=1e-4)
+
+
+# --- plain CSV ----------------------------------------------------------------------------------
+
+
+def csv_text(head, columns=("ns", "ew", "ud"), dt=None):
+    rows = np.column_stack(([np.arange(N) * dt] if dt else []) + [WAVES[c] for c in columns])
+    return head + "\n" + "\n".join(",".join(f"{v:.6f}" for v in row) for row in rows) + "\n"
+
+
+@pytest.mark.parametrize(
+    "text, units",
+    [
+        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+        (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
+        (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
+        (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
+        (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
+        (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
+    ],
+)
+def test_plain_csv_forms(tmp_path, text, units):
+    motion = read_motion(write(tmp_path, "a.csv", text), units=units)
+    assert motion.dt == pytest.approx(0.02)
+    for name, wave in WAVES.items():
+        np.testing.assert_allclose(getattr(motion, name) / GAL, wave, atol=1e-5)
+
+
+def test_units_scale(tmp_path):
+    path = write(tmp_path, "a.csv", csv_text("# dt: 0.02\nns,ew,ud"))
+    for unit, size in (("m/s2", 1.0), ("g", STANDARD_GRAVITY), ("gal", 0.01)):
+        np.testing.assert_allclose(read_motion(path, units=unit).ns, WAVES["ns"] * size, atol=1e-5)
+
+
+def test_written_csv_reads_back(tmp_path):
+    motion = GroundMotion(0.01, np.column_stack([WAVES[k] for k in ("ew", "ns", "ud")]) * GAL)
+    write_csv(motion, tmp_path / "out.csv", ["seed: 1"])
+    again = read_motion(tmp_path / "out.csv")
+    np.testing.assert_allclose(again.acceleration / GAL, motion.acceleration / GAL, atol=0.0051)
+
+
+# --- the house's axes ---------------------------------------------------------------------------
+
+
+def test_angle_turns_the_record_in_the_house(tmp_path):
+    path = write(tmp_path, "a.csv", csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"))
+    turned = read_motion(path, angle=90.0)
+    np.testing.assert_allclose(turned.ew / GAL, WAVES["ns"], atol=1e-5)
+    np.testing.assert_allclose(turned.ns / GAL, -WAVES["ew"], atol=1e-5)
+    plain, oblique = read_motion(path), read_motion(path, angle=33.0)
+    lengths = [np.linalg.norm(m.acceleration[:, :2], axis=1) for m in (plain, oblique)]
+    np.testing.assert_allclose(*lengths, rtol=1e-12)
+
+
+# --- refusals -----------------------------------------------------------------------------------
+
+
+REFUSALS = {
+    "unknown format": ("a.txt", lambda: "hello\nworld\n", "unknown record format; admissible: K-NET"),
+    "empty": ("a.txt", lambda: "", "empty or not a text file"),
+    "no unit": ("a.csv", lambda: csv_text("# dt: 0.02\nns,ew,ud"), "no unit stated"),
+    "contradicting units": ("a.csv", lambda: csv_text("# units: g\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), "contradict"),
+    "unknown unit": ("a.csv", lambda: csv_text("# units: furlong\n# dt: 0.02\nns,ew,ud"), "unknown unit 'furlong'"),
+    "no step": ("a.csv", lambda: csv_text("# units: gal\nns,ew,ud"), "no time step"),
+    "dt of zero": ("a.csv", lambda: csv_text("# units: gal\n# dt: 0\nns,ew,ud"), "between 1e-6 and 1 s"),
+    "gap in time": (
+        "a.csv",
+        lambda: "# units: gal\ntime,ns\n0,1\n0.01,1\n0.02,1\n0.04,1\n",
+        "times are not",
+    ),
+    "short row": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns,ew\n1,2\n3\n", "line 5: 1 values; the header names 2"),
+    "fewer rows than stated": ("a.csv", lambda: "# units: gal\n# dt: 1\n# samples: 3\nns\n1\n2\n", "truncated, 2 samples"),
+    "NaN in CSV": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns\n1\nnan\n", "line 5: 'nan' is not a finite number"),
+    "truncated AT2": (
+        "a000.AT2",
+        lambda: at2_text(WAVES["ns"], "0", "NPTS= 50, DT= .02 SEC"),
+        "truncated, 40 samples; NPTS says 50",
+    ),
+    "long AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 30, DT= .02 SEC"), "too long"),
+    "NaN in AT2": ("a000.AT2", lambda: at2_text(np.r_[WAVES["ns"][:-1], np.nan], "0"), "line 12: 'NAN' is not a finite"),
+    "word in AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0") + "what\n", "line 13: 'what' is not a finite"),
+    "AT2 without unit": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace(" IN UNITS OF G", ""), "no unit stated"),
+    "velocity": ("a000.VT2", lambda: at2_text(WAVES["ns"], "0").replace("ACCELERATION", "VELOCITY"), "must be acceleration"),
+    "title against name": ("a090.AT2", lambda: at2_text(WAVES["ns"], "0"), "state component="),
+    "truncated K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S", duration=5), "truncated, 40 samples.*says 50"),
+    "K-NET header cut": ("a.NS", lambda: "Origin Time  2004/10/23\nLat. 3\n", "K-NET header without"),
+    "scale of K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("/2000000", "/0"), "Scale Factor"),
+    "JMA without rate": ("a.csv", lambda: "SITE CODE=1\nUNIT=gal\nNS,EW,UD\n1,2,3\n1,2,3\n", "without SAMPLING RATE"),
+    "JMA without unit": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=100Hz\nNS,EW,UD\n1,2,3\n1,2,3\n", "no unit stated"),
+}
+
+
+@pytest.mark.parametrize("name, text, message", REFUSALS.values(), ids=REFUSALS.keys())
+def test_refusals_name_the_file_in_one_line(tmp_path, name, text, message):
+    path = write(tmp_path, name, text())
+    with pytest.raises(RecordError, match=message) as caught:
+        read_motion(path)
+    assert str(path) in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_missing_files(tmp_path):
+    with pytest.raises(RecordError, match="no such file, and no three files"):
+        read_motion(tmp_path / "nothing")
+    knet_record(tmp_path)
+    (tmp_path / "TST001.UD").unlink()
+    with pytest.raises(RecordError, match="found only TST001.EW, TST001.NS"):
+        read_motion(tmp_path / "TST001")
+    with pytest.raises(RecordError, match="no such file"):
+        read_motion(f"{tmp_path}/TST001.NS,{tmp_path}/TST001.UD")
+    with pytest.raises(RecordError, match="is a folder"):
+        read_motion(tmp_path)
+
+
+def test_components_that_do_not_fit(tmp_path):
+    a = write(tmp_path, "A000.AT2", at2_text(WAVES["ns"], "0"))
+    short = write(tmp_path, "A090.AT2", at2_text(WAVES["ew"][:-3], "90"))
+    slow = write(tmp_path, "B090.AT2", at2_text(WAVES["ew"], "90", "NPTS= {n}, DT= .01 SEC"))
+    askew = write(tmp_path, "C045.AT2", at2_text(WAVES["ew"], "45"))
+    with pytest.raises(RecordError, match="different length"):
+        read_motion(f"{a},{short}")
+    assert len(read_motion(f"{a},{short}", trim_to_shortest=True)) == N - 3
+    with pytest.raises(RecordError, match="time step 0.01 s; A000.AT2 has 0.02 s"):
+        read_motion(f"{a},{slow}")
+    with pytest.raises(RecordError, match="must be 90 apart"):
+        read_motion(f"{a},{askew}")
+    with pytest.raises(RecordError, match="2 directions for 1 components"):
+        read_motion(a, component="ns,ew")
+
+
+def test_ground_motion_refuses_nonsense():
+    for dt, values in ((0.0, np.zeros((4, 3))), (0.01, np.zeros((4, 2))), (0.01, np.full((4, 3), np.nan))):
+        with pytest.raises(RecordError):
+            GroundMotion(dt, values)
+
+
+# --- real records, where they are there ---------------------------------------------------------
+
+RECORDS = os.environ.get("YADE_TIMBER_RECORDS")
+real = pytest.mark.skipif(not RECORDS, reason="YADE_TIMBER_RECORDS names no folder with real records")
+
+PUBLISHED = {
+    "RSN1106_KOBE_KJM": {"ns": 818.1, "ew": 617.5, "ud": 332.4},
+    "AOM0011801241951": {"ns": 4.954, "ew": 4.078, "ud": 2.240},
+    "RSN6_IMPVALL.I_I-ELC180.AT2": {"ns": 275.4},
+}
+
+
+@real
+@pytest.mark.parametrize("name, peaks", PUBLISHED.items(), ids=PUBLISHED.keys())
+def test_real_records_have_their_published_peaks(name, peaks):
+    got = read_motion(Path(RECORDS) / name).pga_gal
+    digits = 3 if name.startswith("AOM") else 1
+    assert {k: round(got[k], digits) for k in peaks} == peaks
