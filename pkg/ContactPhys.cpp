@@ -3,7 +3,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_SnowMat_TimberMat_SnowPhys)(Ip2_SnowMat_SnowMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(
+YADE_PLUGIN((ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_ElementMat_ElementMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(
         Law2_ManifoldGeom_SnowPhys_Linear));
 
 namespace {
@@ -20,6 +20,13 @@ namespace {
 		phys.shearRatio   = shearRatio;
 		phys.dampingRatio = dampingRatio;
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
+	}
+
+	/// Contact stiffness that an element brings along, if it is of snow. [N/m]
+	Real snowStiffness(const Material& material, const Body& body)
+	{
+		const auto snow = dynamic_cast<const SnowMat*>(&material);
+		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
 	}
 
 	/// Relative motion at a contact point, from the velocities that led to the present placement.
@@ -99,27 +106,13 @@ void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, cons
 	I->phys       = phys;
 }
 
-void Ip2_SnowMat_TimberMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
 	if (I->phys) return;
-	const bool          snowFirst = dynamic_cast<SnowMat*>(m1.get());
-	const SnowMat&      snow      = *static_cast<SnowMat*>((snowFirst ? m1 : m2).get());
-	const TimberMat&    timber    = *static_cast<TimberMat*>((snowFirst ? m2 : m1).get());
-	const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	const Body &         b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	shared_ptr<SnowPhys> phys(new SnowPhys);
-	setPair(*phys, b1, b2, snow.friction, timber.friction, 1, dampingRatio);
-	phys->stiffness = snow.stiffnessPerMass * (snowFirst ? b1 : b2).state->mass;
-	I->phys         = phys;
-}
-
-void Ip2_SnowMat_SnowMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
-{
-	if (I->phys) return;
-	const SnowMat &     s1 = *static_cast<SnowMat*>(m1.get()), &s2 = *static_cast<SnowMat*>(m2.get());
-	const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-	shared_ptr<SnowPhys> phys(new SnowPhys);
-	setPair(*phys, b1, b2, s1.friction, s2.friction, 1, dampingRatio);
-	phys->stiffness = math::min(s1.stiffnessPerMass * b1.state->mass, s2.stiffnessPerMass * b2.state->mass);
+	setPair(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
+	phys->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
 	I->phys         = phys;
 }
 

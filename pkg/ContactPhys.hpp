@@ -85,27 +85,16 @@ public:
 };
 REGISTER_SERIALIZABLE(Ip2_TimberMat_TimberMat_TimberPhys);
 
-class Ip2_SnowMat_TimberMat_SnowPhys : public IPhysFunctor {
+class Ip2_ElementMat_ElementMat_SnowPhys : public IPhysFunctor {
 public:
 	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
-	FUNCTOR2D(SnowMat, TimberMat);
+	FUNCTOR2D(ElementMat, ElementMat);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ip2_SnowMat_TimberMat_SnowPhys, IPhysFunctor, "Snow on timber (paper, section 3.1 (2)): stiffness by the snow element's mass.",
+	YADE_CLASS_BASE_DOC_ATTRS(Ip2_ElementMat_ElementMat_SnowPhys, IPhysFunctor, "Snow on snow or timber (paper, section 3.1 (2)): stiffness by the mass of the snow element, the lighter one of two.",
 		((Real, dampingRatio, 1, , "Share of critical damping. [-] (paper, Table 1: 1)")));
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(Ip2_SnowMat_TimberMat_SnowPhys);
-
-class Ip2_SnowMat_SnowMat_SnowPhys : public IPhysFunctor {
-public:
-	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
-	FUNCTOR2D(SnowMat, SnowMat);
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ip2_SnowMat_SnowMat_SnowPhys, IPhysFunctor, "Snow on snow (paper, section 3.1 (2)): stiffness by the lighter element's mass.",
-		((Real, dampingRatio, 1, , "Share of critical damping. [-] (paper, Table 1: 1)")));
-	// clang-format on
-};
-REGISTER_SERIALIZABLE(Ip2_SnowMat_SnowMat_SnowPhys);
+REGISTER_SERIALIZABLE(Ip2_ElementMat_ElementMat_SnowPhys);
 
 class Law2_ManifoldGeom_TimberPhys_Hertz : public LawFunctor {
 public:

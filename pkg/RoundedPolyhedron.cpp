@@ -3,7 +3,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((RoundedPolyhedron)(Bo1_RoundedPolyhedron_Aabb)(TimberMat)(SnowMat));
+YADE_PLUGIN((RoundedPolyhedron)(Bo1_RoundedPolyhedron_Aabb)(ElementMat)(TimberMat)(SnowMat));
 
 namespace {
 	void requirePositive(const char* name, Real value, const char* range = "> 0")

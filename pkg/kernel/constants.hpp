@@ -24,6 +24,10 @@ constexpr double parallelSine = 1e-3;
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
 constexpr double candidateSkin = 2e-3;
 
+/// Overlapping cores: points whose normal makes a larger angle with the axis of least overlap do not count. [-]
+/// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.
+constexpr double outwardCosine = 0.5;
+
 /// Overlap that a new contact point may start with beyond what its approach speed explains. [m]
 /// A point born deeper (a vertex that slid in behind an edge) starts without force, see birthExcess().
 constexpr double birthAllowance = 1e-4;

@@ -15,7 +15,11 @@ namespace {
 		Mat3 rotation;
 		Vec3 translation;
 		Patterns patterns;
+		double gap = 0; ///< of the cores; < 0: they overlap (deep contact). Not looked up while they are surely apart. [m]
+		Vec3 axis = Vec3::Zero(); ///< where the gap is found, unit, from A to B; only in deep contact
+		int facingA = -1, facingB = -1; ///< the faces that look along the axis; only in deep contact
 
+		bool deep() const { return gap < 0; }
 		double touch() const { return a.radius + b.radius; }
 		double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
 		Vec3 toB(const Vec3& x) const { return rotation.transpose() * (x - translation); }
@@ -42,27 +46,31 @@ namespace {
 		return most;
 	}
 
-	/// x lies in the core: only its nearest face answers.
-	bool isNearestFace(const Polyhedron& body, const Face& face, const Vec3& x)
+	/// Deep contact: x lies in the core, except for the given face, above which it may be.
+	bool isInside(const Polyhedron& body, int face, const Vec3& x, double borderLimit)
 	{
-		const double own = height(face, x);
-		return std::none_of(body.faces.begin(), body.faces.end(), [&](const Face& other) { return height(other, x) > own; });
+		for (int f = 0; f < int(body.faces.size()); ++f)
+			if (f != face && height(body.faces[f], x) > borderLimit) return false;
+		return true;
 	}
 
-	/// Vertex x against a face, both in the face's frame. `normal` is the face's outward normal here.
-	bool vertexOnFace(const Polyhedron& body, const Face& face, const Vec3& x, double touch, double borderLimit, double& distance)
+	/// Vertex x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
+	/// but nearer to the border than to the face (else the face behind the border answers, too). Cores overlapping: only
+	/// the face that looks along the axis of least overlap answers, so that all points push the pair apart.
+	bool vertexOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3& x, double& distance)
 	{
-		distance = height(face, x);
-		if (distance >= touch) return false;
-		if (distance < 0) return isNearestFace(body, face, x);
-		return beyondBorder(body, face, x) <= borderLimit;
+		const Face& f = body.core.faces[face];
+		distance = height(f, x);
+		if (distance >= pair.touch() || distance <= -(pair.deep() ? body.coreHalfThickness : flushTolerance)) return false;
+		if (beyondBorder(body.core, f, x) > (pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
+		return !pair.deep() || (face == facing && (distance >= 0 || isInside(body.core, face, x, pair.borderLimit())));
 	}
 
 	bool meetVertexFace(const Pair& pair, int vertex, int face, Meet& meet)
 	{
 		const Vec3& x = pair.a.core.vertices[vertex];
 		const Face& f = pair.b.core.faces[face];
-		if (!vertexOnFace(pair.b.core, f, pair.toB(x), pair.touch(), pair.borderLimit(), meet.distance)) return false;
+		if (!vertexOnFace(pair, pair.b, pair.facingB, face, pair.toB(x), meet.distance)) return false;
 		meet.normal = -(pair.rotation * f.plane.normal);
 		meet.pointA = x;
 		meet.pointB = x + meet.distance * meet.normal;
@@ -73,7 +81,7 @@ namespace {
 	{
 		const Vec3 x = pair.toA(pair.b.core.vertices[vertex]);
 		const Face& f = pair.a.core.faces[face];
-		if (!vertexOnFace(pair.a.core, f, x, pair.touch(), pair.borderLimit(), meet.distance)) return false;
+		if (!vertexOnFace(pair, pair.a, pair.facingA, face, x, meet.distance)) return false;
 		meet.normal = f.plane.normal;
 		meet.pointB = x;
 		meet.pointA = x - meet.distance * meet.normal;
@@ -118,7 +126,7 @@ namespace {
 		meet.pointB = tailB + c.alongB / lengthB * spanB;
 		meet.normal = c.across;
 		meet.distance = c.across.dot(meet.pointB - meet.pointA);
-		return meet.distance < pair.touch() && meet.distance > -pair.depthLimit();
+		return meet.distance < pair.touch() && meet.distance > -(pair.deep() ? pair.depthLimit() : flushTolerance);
 	}
 
 	/// A vertex is the nearest part of its body in direction `towards` (unit) if no edge from it leads that way.
@@ -198,10 +206,8 @@ namespace {
 
 	/// Cores overlap and no pair of features answers (two plates through each other): one point along the axis of least
 	/// penetration, between the parts of both that reach farthest along it.
-	bool meetCores(const Pair& pair, Meet& meet)
+	Meet meetCores(const Pair& pair)
 	{
-		meet.distance = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, meet.normal);
-		if (meet.distance >= 0) return false;
 		const auto farthest = [](const Polyhedron& body, const Vec3& direction) {
 			double most = -std::numeric_limits<double>::infinity();
 			for (const Vec3& v : body.vertices)
@@ -215,12 +221,10 @@ namespace {
 				}
 			return Vec3(sum / count);
 		};
-		const Vec3 onA = farthest(pair.a.core, meet.normal);
-		const Vec3 onB = pair.toA(farthest(pair.b.core, pair.rotation.transpose() * -meet.normal));
-		const Vec3 middle = (onA + onB) / 2;
-		meet.pointA = middle - meet.distance / 2 * meet.normal;
-		meet.pointB = middle + meet.distance / 2 * meet.normal;
-		return true;
+		const Vec3 onA = farthest(pair.a.core, pair.axis);
+		const Vec3 onB = pair.toA(farthest(pair.b.core, pair.rotation.transpose() * -pair.axis));
+		const Vec3 middle = (onA + onB) / 2, half = pair.gap / 2 * pair.axis;
+		return { middle - half, middle + half, pair.axis, pair.gap };
 	}
 
 	ContactPoint worldPoint(const Pair& pair, const Pose& poseA, FeatureId id, const Meet& meet)
@@ -351,56 +355,39 @@ namespace {
 		if (gap < pair.touch() + 2 * candidateSkin) CandidateSearch(pair, cache.candidates).run();
 	}
 
-} // namespace
+	int faceLooking(const Polyhedron& body, const Vec3& direction)
+	{
+		const auto looksLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
+		return int(std::max_element(body.faces.begin(), body.faces.end(), looksLess) - body.faces.begin());
+	}
 
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis)
-{
-	std::vector<Vec3> placed;
-	for (const Vec3& v : b.vertices)
-		placed.push_back(rotation * v + translation);
-	double best = -std::numeric_limits<double>::infinity();
-	const auto tryAxis = [&](const Vec3& direction) {
-		double farA = -std::numeric_limits<double>::infinity(), nearB = -farA;
-		for (const Vec3& v : a.vertices)
-			farA = std::max(farA, v.dot(direction));
-		for (const Vec3& v : placed)
-			nearB = std::min(nearB, v.dot(direction));
-		if (nearB - farA > best) {
-			best = nearB - farA;
-			axis = direction;
-		}
-	};
-	for (const Face& face : a.faces)
-		tryAxis(face.plane.normal);
-	for (const Face& face : b.faces)
-		tryAxis(-(rotation * face.plane.normal));
-	for (const Edge& ea : a.edges)
-		for (const Edge& eb : b.edges) {
-			const Vec3 spanA = a.vertices[ea.head] - a.vertices[ea.tail], spanB = placed[eb.head] - placed[eb.tail];
-			const Vec3 n = spanA.cross(spanB);
-			const double length = n.norm();
-			if (length < parallelSine * spanA.norm() * spanB.norm()) continue;
-			tryAxis(n / length);
-			tryAxis(-n / length);
-		}
-	return best;
-}
+	void lookForOverlap(Pair& pair)
+	{
+		pair.gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, pair.axis);
+		if (!pair.deep()) return;
+		pair.facingA = faceLooking(pair.a.core, pair.axis);
+		pair.facingB = faceLooking(pair.b.core, pair.rotation.transpose() * -pair.axis);
+	}
+
+} // namespace
 
 void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
 	points.clear();
 	const Quat rotation = poseA.orientation.conjugate() * poseB.orientation;
-	const Pair pair { a, b, rotation.toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), patterns };
+	Pair pair { a, b, rotation.toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), patterns };
 	if (cache.margin < 0 || relativeMotion(pair, rotation, cache) > cache.margin) search(pair, rotation, cache);
+	if (cache.coresMayMeet) lookForOverlap(pair);
 
 	Meet meet;
 	for (const FeatureId id : cache.candidates) {
 		if (!meetFeatures(pair, id, meet)) continue;
+		if (pair.deep() && meet.normal.dot(pair.axis) < outwardCosine) continue;
 		const ContactPoint point = worldPoint(pair, poseA, id, meet);
 		if (!isRepeated(points, point)) points.push_back(point);
 	}
-	if (points.empty() && cache.coresMayMeet && meetCores(pair, meet)) points.push_back(worldPoint(pair, poseA, { Meeting::CoreCore, 0, 0 }, meet));
+	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, poseA, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
 }
 
 } // namespace timber

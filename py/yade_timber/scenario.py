@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""From a house and a ground motion to a scene in YADE. Knows nothing of houses A, B, C: they are files."""
+from dataclasses import dataclass, field
+
+import yade.wrapper as yw
+from yade.minieigenHP import Vector3
+
+from . import elements, scene
+from .house import build_house, load_house
+
+O = yw.Omega()
+
+COLORS = {  # colour-blind safe (Okabe and Ito 2008)
+    "ground": (0.55, 0.55, 0.50),
+    "foundation": (0.60, 0.60, 0.60),
+    "sill": (0.60, 0.45, 0.30),
+    "column": (0.90, 0.75, 0.50),
+    "beam": (0.75, 0.55, 0.35),
+    "floor": (0.80, 0.70, 0.55),
+    "brace": (0.00, 0.45, 0.70),
+    "roof": (0.35, 0.35, 0.40),
+    "snow": (0.95, 0.97, 1.00),
+}
+DEFAULT_DT = 1e-4
+"""Time step of the house scenarios. [s]"""
+
+
+@dataclass
+class Scenario:
+    """What is run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow depth [m]."""
+
+    name: str
+    house: str
+    motion: object = None
+    snow_depth: float = 0.0
+    scale: float = 1.0
+    dt: float = DEFAULT_DT
+    duration: float = 30.0
+    options: dict = field(default_factory=dict)  # of scene.engines
+
+    def fingerprint(self):
+        """What a checkpoint must agree with to go on: everything that decides the run but its duration."""
+        motion = None if self.motion is None else [self.motion.name, len(self.motion), float(abs(self.motion.acceleration).sum())]
+        return {
+            "name": self.name,
+            "house": str(self.house),
+            "motion": motion,
+            "snow_depth": self.snow_depth,
+            "scale": self.scale,
+            "dt": self.dt,
+            "options": {key: str(value) for key, value in self.options.items()},
+        }
+
+
+def build(scenario):
+    """Empty YADE and build the scenario's scene in it. Returns the HouseModel."""
+    model = build_house(load_house(scenario.house), snow_depth=scenario.snow_depth)
+    O.reset()
+    ids = add_elements(model)
+    joints = add_joints(model, ids)
+    motion = None
+    if scenario.motion is not None:
+        motion = scene.ground_motion_engine(scenario.motion, scale=scenario.scale)
+    options = {"vertex_edge": model.law["vertex_edge_contacts"], "increment": model.law["hertz"] == "increment", **scenario.options}
+    O.engines = scene.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
+    O.dt = scenario.dt
+    return model
+
+
+def add_elements(model):
+    """Append the model's elements to O.bodies; returns {element name: body id}."""
+    materials = {name: make_material(name, spec, model) for name, spec in model.materials.items()}
+    ids = {}
+    for element in model.elements:
+        body = elements.polyhedron(
+            element.vertices,
+            materials[element.material],
+            fixed=element.fixed,
+            name=element.name,
+            kind=element.kind,
+            color=COLORS.get(element.kind),
+        )
+        ids[element.name] = O.bodies.append(body)
+    return ids
+
+
+def make_material(name, spec, model):
+    """Material of a house description. Its friction is the coefficient with itself: a pair has the smaller one."""
+    own = {a: c for a, b, c in model.friction if a == b}
+    friction = min([own.get(name, 0.5)] + [c for a, b, c in model.friction if name in (a, b) and spec["law"] == "snow"])
+    if spec["law"] == "snow":
+        return elements.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
+    return elements.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
+
+
+def add_joints(model, ids):
+    """TimberJoints of the model, between the bodies in their present placement."""
+    return [
+        scene.make_joint(
+            O.bodies[ids[j.a]], O.bodies[ids[j.b]], ids[j.a], ids[j.b], j.points, j.normal, j.kn, j.ks, j.strength, j.per, j.kind, j.name, j.broken
+        )
+        for j in model.joints
+    ]
+
+
+def level_marks(model):
+    """Bodies that mark the levels of the main structure: [(element, level)]; level k is the top of storey k.
+
+    The floor where there is one, else the beams under the roof.
+    """
+    main = next(iter(model.storey_levels))
+    marks = []
+    for storey in sorted(model.storey_levels[main]):
+        level = [e for e in model.of_kind("floor", group=main) if e.storey == storey]
+        level = level or [e for e in model.of_kind("beam", group=main) if e.storey == storey]
+        marks += [(e, storey) for e in level]
+    return marks
+
+
+def house_monitor(model, ids):
+    """HouseMonitor of the model's storeys; their height is that of the columns."""
+    marks = level_marks(model)
+    main = next(iter(model.storey_levels))
+    foot, head = model.storey_levels[main][1]
+    return yw.HouseMonitor(
+        bodies=[ids[e.name] for e, _ in marks],
+        levels=[level for _, level in marks],
+        storeys=len(model.storey_levels[main]),
+        storeyHeight=head - foot,
+        gravity=Vector3(*scene.GRAVITY),
+    )

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Engines, joints and questions to the scene that is loaded in YADE."""
+import numpy as np
+import yade.wrapper as yw
+from yade.minieigenHP import Quaternion, Vector3
+
+GRAVITY = (0.0, 0.0, -9.81)
+"""[m/s2]"""
+BOUND_MARGIN = 5e-3
+"""How far bodies may move before the collider looks again [m]; results do not depend on it."""
+JOINT_READINGS = {"spring": False, "joint": True}
+"""What stiffness and strength belong to -> TimberJoint.perJoint."""
+
+O = yw.Omega()
+
+
+def engines(
+    gravity=GRAVITY,
+    ground_motion=None,
+    joints=None,
+    monitor=None,
+    vertex_edge=False,
+    flush_supports=True,
+    increment=False,
+    damping_ratio=1.0,
+    sweeps=4,
+    track_energy=True,
+    health_check=100,
+):
+    """List for `O.engines`, with nothing in it that the scene has no use for.
+
+    gravity        (3,) [m/s2]
+    ground_motion  `yade_timber.motion.GroundMotion`, a GroundMotionEngine, or None
+    joints         list of TimberJoint, or None: joints are also added by `connect`
+    monitor        HouseMonitor, or None
+    vertex_edge    whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them)
+    flush_supports whether a vertex exactly over a face's border is supported
+    increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
+    damping_ratio  share of critical damping [-]
+    sweeps         Gauss-Seidel sweeps of the implicit dashpots; 0: explicit dashpots as in the paper
+    track_energy   whether `energy()` can be asked
+    health_check   steps between checks for finite numbers; 0: none
+    """
+    has_snow = any(isinstance(b.material, yw.SnowMat) for b in O.bodies) if len(O.bodies) else True
+    laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=increment)]
+    pairs = [yw.Ip2_TimberMat_TimberMat_TimberPhys(dampingRatio=damping_ratio)]
+    if has_snow:
+        laws.append(yw.Law2_ManifoldGeom_SnowPhys_Linear())
+        pairs.append(yw.Ip2_ElementMat_ElementMat_SnowPhys(dampingRatio=damping_ratio))
+    geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=vertex_edge, flushSupports=flush_supports)
+    chain = [
+        yw.ForceResetter(),
+        yw.CollisionTrigger(margin=BOUND_MARGIN),
+        # verletDist = 0: the boxes' own margin and CollisionTrigger do that work without NewtonIntegrator
+        yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0, avoidSelfInteractionMask=2),
+        yw.InteractionLoop([geometry], pairs, laws),
+    ]
+    if joints:
+        chain.append(joint_engine(joints))
+    if np.any(gravity):
+        chain.append(yw.GravityEngine(gravity=Vector3(*gravity), warnOnce=False))
+    if ground_motion is not None:
+        chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion))
+    chain.append(yw.ContactForces(sweeps=sweeps, trackEnergy=track_energy))
+    if monitor is not None:
+        chain.append(monitor)
+    if health_check:
+        chain.append(yw.HealthCheck(every=health_check))
+    chain.append(yw.SymplecticIntegrator())
+    return chain
+
+
+def ground_motion_engine(motion, scale=1.0, start=0.0):
+    """GroundMotionEngine for a `yade_timber.motion.GroundMotion`; scale [-], start: simulated time of its first sample [s]."""
+    return yw.GroundMotionEngine(step=motion.dt, acceleration=[Vector3(*a) for a in motion.acceleration], scale=scale, start=start)
+
+
+def joint_engine(joints):
+    """JointEngine with these TimberJoints."""
+    engine = yw.JointEngine()
+    for joint in joints:
+        engine.append(joint)
+    return engine
+
+
+def find_engine(kind):
+    """The engine of that class in `O.engines`, or None."""
+    return next((e for e in O.engines if isinstance(e, kind)), None)
+
+
+def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name=""):
+    """Join two bodies with springs at `points`; returns the TimberJoint, whose `.springs` tell force, stretch and break.
+
+    points     (n, 3) world frame [m]: the springs are unstretched in the present placement
+    normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
+    stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
+    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown reading.
+    """
+    for body in (id1, id2):
+        if not 0 <= body < len(O.bodies):
+            raise ValueError(f"connect: there is no body {body}; bodies have the ids 0 ... {len(O.bodies) - 1}")
+    if per not in JOINT_READINGS:
+        raise ValueError(f"connect: per = {per!r}: it must be one of {', '.join(JOINT_READINGS)}")
+    points = np.atleast_2d(np.asarray(points, float))
+    if points.shape[1:] != (3,) or not np.isfinite(points).all():
+        raise ValueError("connect: points must be finite and of shape (n, 3)")
+    kn, ks = stiffness
+    if not (kn > 0 and ks > 0 and strength > 0):
+        raise ValueError(f"connect: stiffness {stiffness} N/m and strength {strength} N must be > 0")
+    joint = make_joint(O.bodies[id1], O.bodies[id2], id1, id2, points, normal, kn, ks, strength, per, kind, name)
+    engine = find_engine(yw.JointEngine)
+    if engine is None:
+        chain = list(O.engines)
+        place = next((k + 1 for k, e in enumerate(chain) if isinstance(e, yw.InteractionLoop)), None)
+        if place is None:
+            raise ValueError("connect: set O.engines = yade_timber.engines(...) first")
+        engine = yw.JointEngine()
+        O.engines = chain[:place] + [engine] + chain[place:]
+    engine.append(joint)
+    return joint
+
+
+def make_joint(body1, body2, id1, id2, points, normal, kn, ks, strength, per, kind="", name="", broken=False):
+    """TimberJoint between two bodies in their present placement; arguments as in `connect`."""
+    s1, s2 = body1.state, body2.state
+    direction = Vector3(*normal) if normal is not None else s2.pos - s1.pos
+    return yw.TimberJoint(
+        id1=id1,
+        id2=id2,
+        anchors1=[s1.ori.conjugate() * (Vector3(*p) - s1.pos) for p in points],
+        anchors2=[s2.ori.conjugate() * (Vector3(*p) - s2.pos) for p in points],
+        normal=s1.ori.conjugate() * direction.normalized(),
+        kn=kn,
+        ks=ks,
+        strength=strength,
+        perJoint=JOINT_READINGS[per],
+        broken=[int(broken)] * len(points),
+        kind=kind,
+        name=name,
+    )
+
+
+def contacts(id1, id2):
+    """Contact points between two bodies: list of dictionaries, world frame.
+
+    position [m], normal (from id1 to id2), overlap [m], normal_force [N] (elastic and dashpot, >= 0), shear_force (3,) on
+    id2 [N]. Empty when they do not touch. Forces are those of the last step.
+    """
+    interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
+    if interaction is None or not interaction.isReal:
+        return []
+    sign = 1 if interaction.id1 == id1 else -1
+    forces = {f[0]: f[1:] for f in interaction.phys.points}
+    found = []
+    for position, normal, overlap, feature in interaction.geom.points:
+        elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
+        along = dashpot.dot(normal)
+        found.append(
+            {
+                "position": position,
+                "normal": sign * normal,
+                "overlap": overlap,
+                "normal_force": elastic + along,
+                "shear_force": sign * (shear + dashpot - along * normal),
+            }
+        )
+    return found
+
+
+def energy():
+    """Terms of the energy balance of the scene now. [J]
+
+    kinetic; gravity (potential, from the reference placement); elastic_normal, elastic_shear, elastic_joints; ground_motion
+    (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
+    ceased to exist under load). kinetic + gravity + elastic + dissipated - ground_motion is constant.
+    """
+    monitor = find_engine(yw.HouseMonitor)
+    if monitor is None:
+        gravity = find_engine(yw.GravityEngine)
+        monitor = yw.HouseMonitor(gravity=gravity.gravity if gravity else Vector3.Zero)
+    return dict(monitor.energy())
+
+
+def energy_residual(terms):
+    """What the balance of `energy()` leaves over [J]; zero at the start of a scene at rest."""
+    return sum(value for name, value in terms.items() if name != "ground_motion") - terms.get("ground_motion", 0.0)
+
+
+def set_orientation(body, orientation):
+    """Turn a body (Quaternion), keeping its angular velocity."""
+    body.state.ori = Quaternion(orientation)
+    body.state.angMom = angular_momentum(body)
+
+
+def angular_momentum(body):
+    """I omega of a body, world frame [kg m2/s]. Set `state.angMom` to it after setting `state.angVel`."""
+    local = body.state.ori.conjugate() * body.state.angVel
+    return body.state.ori * Vector3(*(local[k] * body.state.inertia[k] for k in range(3)))
+
+
+def stable_dt(safety=0.5):
+    """Largest stable time step of the elastic contacts and joints as they are now, times `safety`. [s]
+
+    2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
+    M^-1 K by power iteration over all contact points and joint springs. The implicit dashpots set no limit. Contacts that do
+    not touch yet do not count: ask after a few steps, or leave a safety for impacts. Infinite when nothing touches.
+    """
+    solver = find_engine(yw.ContactForces)
+    if solver is None:
+        raise ValueError("stable_dt: set O.engines = yade_timber.engines(...) first")
+    squared = solver.largestEigenvalue(_unbroken_springs())
+    return safety * 2 / np.sqrt(squared) if squared > 0 else np.inf
+
+
+def _unbroken_springs():
+    """[(id1, id2, point on body 1, stiffness)] of all springs that act, world frame."""
+    engine = find_engine(yw.JointEngine)
+    springs = []
+    for joint in engine.joints if engine else []:
+        s1 = O.bodies[joint.id1].state
+        stiffness = max(joint.kn, joint.ks) / (len(joint.anchors1) if joint.perJoint else 1)
+        springs += [(joint.id1, joint.id2, s1.pos + s1.ori * a, stiffness) for a, gone in zip(joint.anchors1, joint.broken) if not gone]
+    return springs
