@@ -5,16 +5,31 @@ namespace yade {
 
 YADE_PLUGIN((ContactForces));
 
-void ContactForces::collectPairs()
+void ContactForces::sortPairs()
 {
 	pairs.clear();
-	for (const shared_ptr<Interaction>& I : *scene->interactions) {
-		if (!I->isReal()) continue;
-		ManifoldPhys* phys = dynamic_cast<ManifoldPhys*>(I->phys.get());
-		if (phys && (!phys->states.empty() || phys->lostEnergy != 0)) pairs.push_back({ I.get(), static_cast<ManifoldGeom*>(I->geom.get()), phys });
-	}
+	for (Interaction* I : seen)
+		pairs.push_back({ I, static_cast<ManifoldGeom*>(I->geom.get()), static_cast<ManifoldPhys*>(I->phys.get()) });
 	const auto ids = [](const Pair& p) { return std::minmax(p.interaction->getId1(), p.interaction->getId2()); };
 	std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return ids(p) < ids(q); });
+}
+
+void ContactForces::collectPairs()
+{
+	static const int ours    = ManifoldGeom::getClassIndexStatic();
+	size_t           count   = 0;
+	bool             changed = false;
+	for (const shared_ptr<Interaction>& I : *scene->interactions) {
+		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
+		const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
+		if (phys.states.empty() && phys.lostEnergy == 0) continue;
+		if (count == seen.size()) seen.push_back(nullptr);
+		changed       = changed || seen[count] != I.get();
+		seen[count++] = I.get();
+	}
+	changed = changed || count != pairs.size();
+	seen.resize(count);
+	if (changed) sortPairs();
 }
 
 void ContactForces::collectBodies()
@@ -43,28 +58,30 @@ void ContactForces::collectBodies()
 
 void ContactForces::collectPoints()
 {
-	points.clear();
+	size_t count = 0;
 	for (const Pair& pair : pairs) {
 		const int      id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
 		const Vector3r x1 = Body::byId(id1, scene)->state->pos, x2 = Body::byId(id2, scene)->state->pos;
+		const Real     rootShear = math::sqrt(pair.phys->shearRatio);
+		if (points.size() < count + pair.phys->states.size()) points.resize(count + pair.phys->states.size());
 		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
 			const timber::ContactPoint& at = pair.geom->points[k];
 			const timber::PointState&   s  = pair.phys->states[k];
-			timber::DashpotPoint        p {};
-			p.bodyA          = id1;
-			p.bodyB          = id2;
-			p.armA           = at.position - x1;
-			p.armB           = at.position - x2;
-			p.normal         = at.normal;
-			p.elasticNormal  = s.normal;
-			p.elasticShear   = s.shear;
-			p.normalDamping  = 2 * pair.phys->dampingRatio * math::sqrt(pair.phys->mass * s.stiffness);
-			p.shearDamping   = p.normalDamping * math::sqrt(pair.phys->shearRatio);
-			p.friction       = pair.phys->friction;
-			p.impulse        = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
-			points.push_back(p);
+			timber::DashpotPoint&       p  = points[count++];
+			p.bodyA         = id1;
+			p.bodyB         = id2;
+			p.armA          = at.position - x1;
+			p.armB          = at.position - x2;
+			p.normal        = at.normal;
+			p.elasticNormal = s.normal;
+			p.elasticShear  = s.shear;
+			p.normalDamping = 2 * pair.phys->dampingRatio * math::sqrt(pair.phys->mass * s.stiffness);
+			p.shearDamping  = p.normalDamping * rootShear;
+			p.friction      = pair.phys->friction;
+			p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
 		}
 	}
+	points.resize(count);
 }
 
 void ContactForces::bookEnergy(const timber::DashpotPoint& p, timber::PointState& s, const ManifoldPhys& phys)
@@ -73,10 +90,10 @@ void ContactForces::bookEnergy(const timber::DashpotPoint& p, timber::PointState
 	const Vector3r             mean    = (p.before + timber::relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)) / 2;
 	const Real                 normal  = s.dashpot.dot(p.normal);
 	const Real                 energy  = timber::shearEnergy(s, phys.properties());
-	dashpotNormalPending -= scene->dt * normal * mean.dot(p.normal);
-	dashpotShearPending -= scene->dt * (s.dashpot - normal * p.normal).dot(mean);
+	dashpotNormal -= scene->dt * normal * mean.dot(p.normal);
+	dashpotShear -= scene->dt * (s.dashpot - normal * p.normal).dot(mean);
 	friction -= s.slide.dot(s.shearBefore + s.shear) / 2 + energy - s.shearEnergyBefore;
-	elasticShearNow += energy;
+	elasticShear += energy;
 }
 
 void ContactForces::storePoints()
@@ -95,7 +112,7 @@ void ContactForces::storePoints()
 			torque[p.bodyB] += p.armB.cross(f);
 			if (!trackEnergy) continue;
 			bookEnergy(p, s, *pair.phys);
-			elasticNormalNow += pair.phys->normalEnergy(s, pair.geom->points[i].overlap);
+			elasticNormal += pair.phys->normalEnergy(s, pair.geom->points[i].overlap);
 		}
 		lost += pair.phys->lostEnergy;
 	}
@@ -110,20 +127,52 @@ void ContactForces::applyForces()
 	}
 }
 
+Real ContactForces::elasticPower() const
+{
+	Real   power = 0;
+	size_t k     = 0;
+	for (const Pair& pair : pairs)
+		for (const timber::PointState& s : pair.phys->states) {
+			const timber::DashpotPoint& p = points[k++];
+			const State &               a = *Body::byId(p.bodyA, scene)->state, &b = *Body::byId(p.bodyB, scene)->state;
+			power -= (s.normal * p.normal + s.shear).dot(timber::relativeVelocity(p, a.vel, a.angVel, b.vel, b.angVel));
+		}
+	return power;
+}
+
 void ContactForces::action()
 {
-	dashpotNormal += dashpotNormalPending;
-	dashpotShear += dashpotShearPending;
-	dashpotNormalPending = dashpotShearPending = 0;
-	elasticNormalLast = elasticNormalNow;
-	elasticShearLast  = elasticShearNow;
-	elasticNormalNow = elasticShearNow = 0;
+	elasticNormal = elasticShear = 0;
 	collectPairs();
 	collectBodies();
 	collectPoints();
-	timber::solveDashpots(bodies, points, scene->dt, sweeps);
+	solver.solve(bodies, points, scene->dt, sweeps);
 	storePoints();
 	applyForces();
+}
+
+Real ContactForces::largestEigenvalue(const boost::python::list& extra)
+{
+	if (!scene) scene = Omega::instance().getScene().get();
+	collectPairs();
+	collectBodies();
+	std::vector<timber::StiffPoint> stiff;
+	for (const Pair& pair : pairs) {
+		const int id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
+		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
+			const timber::ContactPoint& at = pair.geom->points[k];
+			const Real                  kn = pair.phys->states[k].stiffness;
+			stiff.push_back({ id1, id2, at.position - Body::byId(id1, scene)->state->pos, at.position - Body::byId(id2, scene)->state->pos, at.normal, kn, pair.phys->shearRatio * kn });
+		}
+	}
+	for (int k = 0; k < boost::python::len(extra); ++k) {
+		const boost::python::tuple t   = boost::python::extract<boost::python::tuple>(extra[k]);
+		const int                  id1 = boost::python::extract<int>(t[0]), id2 = boost::python::extract<int>(t[1]);
+		const Vector3r             x = boost::python::extract<Vector3r>(t[2]);
+		const Real                 stiffness = boost::python::extract<Real>(t[3]);
+		stiff.push_back({ id1, id2, x - Body::byId(id1, scene)->state->pos, x - Body::byId(id2, scene)->state->pos, Vector3r::UnitZ(), stiffness, stiffness });
+	}
+	return timber::largestEigenvalue(bodies, stiff);
 }
 
 } // namespace yade

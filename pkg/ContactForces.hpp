@@ -3,6 +3,7 @@
 #pragma once
 #include <ContactPhys.hpp>
 #include <kernel/dashpots.hpp>
+#include <kernel/stiffness.hpp>
 
 namespace yade {
 
@@ -15,10 +16,13 @@ class ContactForces : public GlobalEngine {
 		ManifoldPhys*       phys;
 	};
 	std::vector<Pair>                 pairs;
+	std::vector<Interaction*>         seen; ///< the interactions that `pairs` was sorted for, in the container's order
+	timber::DashpotSolver             solver;
 	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
 	std::vector<timber::DashpotPoint> points; ///< of all pairs, in their order
 	std::vector<Vector3r>             force, torque; ///< contact sums, indexed by body id
 
+	void sortPairs();
 	void collectPairs();
 	void collectBodies();
 	void collectPoints();
@@ -28,30 +32,26 @@ class ContactForces : public GlobalEngine {
 
 public:
 	void action() override;
-	/// Elastic energy between this step and the last one, where the velocities are. [J]
-	Real elasticNormal() const { return (elasticNormalNow + elasticNormalLast) / 2; }
-	Real elasticShear() const { return (elasticShearNow + elasticShearLast) / 2; }
+	/// Largest eigenvalue of M^-1 K of the contacts as they are now and the given springs, by power iteration. [1/s2]
+	/// springs: list of (id1, id2, point in the world frame [m], stiffness [N/m]).
+	Real largestEigenvalue(const boost::python::list& springs);
+	/// Rate at which the contacts' elastic energy grows with the bodies' present velocities. [W]
+	Real elasticPower() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
-		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them. "
-		"Energies are those between the last two steps.",
+		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 4, , "Gauss-Seidel sweeps for the implicit dashpots; 0: explicit dashpots, as in the paper, stable only for very small steps. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
 		((Real, lost, 0, , "Elastic energy of loaded points that ceased to exist, minus that of points born under load. [J]"))
-		((Real, dashpotNormalPending, 0, Attr::hidden, "Dissipated in the step that the integrator is about to make. [J]"))
-		((Real, dashpotShearPending, 0, Attr::hidden, "Dissipated in the step that the integrator is about to make. [J]"))
-		((Real, elasticNormalNow, 0, Attr::hidden, "[J]"))
-		((Real, elasticNormalLast, 0, Attr::hidden, "[J]"))
-		((Real, elasticShearNow, 0, Attr::hidden, "[J]"))
-		((Real, elasticShearLast, 0, Attr::hidden, "[J]")),
+		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
+		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]")),
 		,
-		.add_property("elasticNormal", &ContactForces::elasticNormal, "Elastic energy of the normal springs. [J]")
-		.add_property("elasticShear", &ContactForces::elasticShear, "Elastic energy of the tangential springs. [J]")
+		.def("largestEigenvalue", &ContactForces::largestEigenvalue, (boost::python::arg("springs")), "Largest eigenvalue of M^-1 K of all contacts as they are now, plus springs given as (id1, id2, point, stiffness). [1/s2]")
 	);
 	// clang-format on
 };

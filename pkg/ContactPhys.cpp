@@ -40,34 +40,68 @@ namespace {
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
 	}
 
-	/// Elastic step of all points of a pair. States of features that no longer meet go; their energy is booked as lost.
-	template <class Law> void pairStep(const Law& law, const ManifoldGeom& geom, ManifoldPhys& phys, const State& s1, const State& s2, Real dt, timber::NormalForm form)
+	bool sameFeatures(const std::vector<timber::ContactPoint>& points, const std::vector<timber::PointState>& states)
 	{
-		const timber::PairProperties    pair = phys.properties();
-		std::vector<timber::PointState> next(geom.points.size());
-		Real                            lost = 0;
-		auto                            old  = phys.states.begin();
-		const auto                      drop = [&](const timber::PointState& s) { lost += law.energy(s.overlap) + timber::shearEnergy(s, pair); };
-		for (size_t k = 0; k < next.size(); ++k) {
-			const timber::ContactPoint& point = geom.points[k];
-			while (old != phys.states.end() && old->id < point.id)
-				drop(*old++);
-			const bool isNew = old == phys.states.end() || !(old->id == point.id);
-			if (isNew) next[k].id = point.id;
-			else
-				next[k] = *old++;
-			const timber::PointMotion motion = motionAt(point.position, s1, s2);
-			timber::elasticStep(law, pair, point, motion, dt, isNew, form, next[k]);
-			if (isNew) {
-				const Real approached = math::min(next[k].overlap, math::max(Real(0), Real(-motion.velocity.dot(point.normal) * dt)));
-				lost -= law.energy(next[k].overlap) - law.energy(approached);
-			}
-		}
-		while (old != phys.states.end())
-			drop(*old++);
-		phys.states.swap(next);
-		phys.lostEnergy = lost;
+		return std::equal(points.begin(), points.end(), states.begin(), states.end(), [](const auto& p, const auto& s) { return p.id == s.id; });
 	}
+
+	/// Elastic step of all points of a pair. States of features that no longer meet go; their energy is booked as lost.
+	template <class Law> class PairStep {
+		const Law&                        law;
+		const timber::PairProperties      pair;
+		const State &                     s1, &s2;
+		const Real                        dt;
+		const timber::NormalForm          form;
+
+		/// Returns the closing displacement of the last step. [m]
+		Real step(const timber::ContactPoint& point, bool isNew, timber::PointState& state) const
+		{
+			const timber::PointMotion motion = motionAt(point.position, s1, s2);
+			timber::elasticStep(law, pair, point, motion, dt, isNew, form, state);
+			return -motion.velocity.dot(point.normal) * dt;
+		}
+		Real stored(const timber::PointState& s) const { return law.energy(s.overlap) + timber::shearEnergy(s, pair); }
+
+	public:
+		PairStep(const Law& l, const timber::PairProperties& p, const State& a, const State& b, Real h, timber::NormalForm f)
+		        : law(l)
+		        , pair(p)
+		        , s1(a)
+		        , s2(b)
+		        , dt(h)
+		        , form(f)
+		{
+		}
+		/// Returns the energy lost with points that ceased to exist, minus that of points born under load. [J]
+		Real run(const std::vector<timber::ContactPoint>& points, std::vector<timber::PointState>& states) const
+		{
+			if (!sameFeatures(points, states)) return runChanged(points, states);
+			for (size_t k = 0; k < points.size(); ++k)
+				step(points[k], false, states[k]);
+			return 0;
+		}
+
+	private:
+		Real runChanged(const std::vector<timber::ContactPoint>& points, std::vector<timber::PointState>& states) const
+		{
+			std::vector<timber::PointState> next(points.size());
+			Real                            lost = 0;
+			auto                            old  = states.begin();
+			for (size_t k = 0; k < next.size(); ++k) {
+				for (; old != states.end() && old->id < points[k].id; ++old)
+					lost += stored(*old);
+				const bool isNew = old == states.end() || !(old->id == points[k].id);
+				if (!isNew) next[k] = *old++;
+				next[k].id        = points[k].id;
+				const Real closed = step(points[k], isNew, next[k]);
+				if (isNew) lost -= law.energy(next[k].overlap) - law.energy(math::max(Real(0), math::min(next[k].overlap, closed)));
+			}
+			for (; old != states.end(); ++old)
+				lost += stored(*old);
+			states.swap(next);
+			return lost;
+		}
+	};
 
 	/// Returns false when the pair is out of reach for good: no points, nothing lost, bounding boxes apart.
 	template <class Phys> bool lawStep(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
@@ -79,7 +113,8 @@ namespace {
 			phys.lostEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
-		pairStep(phys.law(), geom, phys, *b1.state, *b2.state, scene->dt, form);
+		const auto law  = phys.law();
+		phys.lostEnergy = PairStep<decltype(law)>(law, phys.properties(), *b1.state, *b2.state, scene->dt, form).run(geom.points, phys.states);
 		return true;
 	}
 

@@ -31,11 +31,12 @@ Vector3r GroundMotionEngine::freeMomentum() const
 	return sum;
 }
 
+Real GroundMotionEngine::workNow() const { return work - scene->dt * lastAcceleration.dot(lastMomentum + freeMomentum()) / 2; }
+
 void GroundMotionEngine::action()
 {
-	const Vector3r momentum = freeMomentum();
-	work -= scene->dt * lastAcceleration.dot(lastMomentum + momentum) / 2;
-	lastMomentum     = momentum;
+	work             = workNow();
+	lastMomentum     = freeMomentum();
 	lastAcceleration = at(scene->time);
 	for (const shared_ptr<Body>& b : *scene->bodies)
 		if (b && b->state->blockedDOFs != State::DOF_ALL) scene->forces.addForce(b->getId(), -b->state->mass * lastAcceleration);

@@ -11,6 +11,8 @@ class GroundMotionEngine : public GlobalEngine {
 public:
 	void postLoad(GroundMotionEngine&);
 	void action() override;
+	/// Work done on the bodies until now, after a whole step. [J]
+	Real     workNow() const;
 	/// Ground acceleration at a time, linear between samples, zero before the first and after the last. [m/s2]
 	Vector3r at(Real time) const;
 
@@ -21,7 +23,7 @@ public:
 		((vector<Vector3r>, acceleration, , Attr::triggerPostLoad, "Ground acceleration: east, north, up. [m/s2]"))
 		((Real, start, 0, , "Simulated time of the first sample. [s]"))
 		((Real, scale, 1, , "Factor on the acceleration. [-]"))
-		((Real, work, 0, , "Work done on the bodies until the last step. [J]"))
+		((Real, work, 0, , "Work done on the bodies until before the last step. [J]"))
 		((Vector3r, lastMomentum, Vector3r::Zero(), Attr::hidden, "Momentum of the free bodies before the last step. [kg m/s]"))
 		((Vector3r, lastAcceleration, Vector3r::Zero(), Attr::hidden, "Ground acceleration in the last step. [m/s2]")),
 		,

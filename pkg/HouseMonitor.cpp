@@ -6,6 +6,9 @@ namespace yade {
 YADE_PLUGIN((HouseMonitor)(HealthCheck));
 
 namespace {
+	/// Names of energies(), in its order.
+	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts" };
+
 	bool isFree(const Body& b) { return b.state->blockedDOFs != State::DOF_ALL; }
 }
 
@@ -51,25 +54,25 @@ int HouseMonitor::brokenJoints() const
 	return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isFinished(); }));
 }
 
-boost::python::dict HouseMonitor::energy()
+std::vector<Real> HouseMonitor::energies() const
 {
-	if (!scene) scene = Omega::instance().getScene().get();
-	boost::python::dict all;
-	all["kinetic"] = kineticEnergy();
-	all["gravity"] = gravityEnergy();
-	if (const ContactForces* c = find<ContactForces>()) {
-		all["elastic_normal"] = c->elasticNormal();
-		all["elastic_shear"]  = c->elasticShear();
-		all["dashpot_normal"] = c->dashpotNormal;
-		all["dashpot_shear"]  = c->dashpotShear;
-		all["friction"]       = c->friction;
-		all["lost_contacts"]  = c->lost;
-	}
-	if (const JointEngine* j = find<JointEngine>()) {
-		all["elastic_joints"] = j->elastic();
-		all["broken_springs"] = j->released;
-	}
-	if (const GroundMotionEngine* g = find<GroundMotionEngine>()) all["ground_motion"] = g->work;
+	const ContactForces*      c    = find<ContactForces>();
+	const JointEngine*        j    = find<JointEngine>();
+	const GroundMotionEngine* g    = find<GroundMotionEngine>();
+	const Real                half = scene->dt / 2;
+	return { kineticEnergy(), gravityEnergy(), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower() : 0, j ? j->elastic + half * j->elasticPower() : 0, g ? g->workNow() : 0,
+		     c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
+}
+
+boost::python::dict HouseMonitor::pyEnergy()
+{
+	scene = Omega::instance().getScene().get();
+	for (const shared_ptr<Engine>& e : scene->engines)
+		e->scene = scene; // until its first step, an engine of a loaded scene points to the scene of before
+	boost::python::dict     all;
+	const std::vector<Real> values = energies();
+	for (size_t k = 0; k < values.size(); ++k)
+		all[energyTerms[k]] = values[k];
 	return all;
 }
 
@@ -80,9 +83,10 @@ boost::python::list HouseMonitor::pyColumns() const
 	for (int level = 1; level <= storeys; ++level)
 		for (const char* what : { "drift_ns", "drift_ew", "drop" })
 			names.append(string(what) + std::to_string(level) + (what[1] == 'r' && what[2] == 'o' ? " [m]" : " [-]"));
-	for (const char* name : { "broken_joints [-]", "broken_springs [-]", "kinetic [J]", "gravity [J]", "elastic_normal [J]", "elastic_shear [J]", "elastic_joints [J]", "ground_motion [J]", "dashpot_normal [J]",
-	             "dashpot_shear [J]", "friction [J]", "released_by_breaks [J]", "lost_contacts [J]" })
+	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
 		names.append(name);
+	for (const char* name : energyTerms)
+		names.append(string(name) + " [J]");
 	return names;
 }
 
@@ -104,12 +108,11 @@ void HouseMonitor::record()
 		rows.insert(rows.end(), { ns, ew, -above.z() });
 		below = above;
 	}
-	const JointEngine*        j = find<JointEngine>();
-	const ContactForces*      c = find<ContactForces>();
-	const GroundMotionEngine* g = find<GroundMotionEngine>();
-	rows.insert(rows.end(), { Real(brokenJoints()), Real(j ? j->breaks.size() : 0), kineticEnergy(), gravityEnergy() });
-	rows.insert(rows.end(), { c ? c->elasticNormal() : 0, c ? c->elasticShear() : 0, j ? j->elastic() : 0, g ? g->work : 0 });
-	rows.insert(rows.end(), { c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 });
+	const JointEngine* joints = find<JointEngine>();
+	rows.push_back(brokenJoints());
+	rows.push_back(joints ? joints->breaks.size() : 0);
+	const std::vector<Real> terms = energies();
+	rows.insert(rows.end(), terms.begin(), terms.end());
 }
 
 void HouseMonitor::action()

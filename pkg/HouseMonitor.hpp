@@ -22,13 +22,14 @@ class HouseMonitor : public GlobalEngine {
 
 public:
 	void action() override;
-	/// Terms of the energy balance at this moment, see ``yade_timber.energy``. [J]
-	boost::python::dict energy();
+	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
+	std::vector<Real>   energies() const;
+	boost::python::dict pyEnergy();
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
 		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean horizontal displacement of the bodies of the level above it minus that of the level below, over the storey's height. "
-		"Stands between :yref:`ContactForces` and the integrator, where positions, forces and energies belong to the same instant.",
+		"Stands behind the integrator. Energies are those at the half step to which the velocities belong: elastic energies of the last placement are carried there with their rate.",
 		((Real, interval, 0.01, , "Simulated time between samples. [s]"))
 		((Real, storeyHeight, 2.73, , "Height that drifts refer to. [m] (paper, section 3.4)"))
 		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Gravity, for its potential energy. [m/s2]"))
@@ -44,7 +45,7 @@ public:
 		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
 		,
 		.def("columns", &HouseMonitor::pyColumns, "Names of the columns of rows, with units. [-]")
-		.def("energy", &HouseMonitor::energy, "Terms of the energy balance now. [J]")
+		.def("energy", &HouseMonitor::pyEnergy, "Terms of the energy balance now. [J]")
 	);
 	// clang-format on
 	boost::python::list pyColumns() const;

@@ -84,30 +84,29 @@ void JointEngine::breakSpring(size_t joint, size_t spring, const timber::SpringF
 
 void JointEngine::act(size_t index)
 {
-	TimberJoint &                    joint = *joints[index];
-	const State &                    s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
-	std::vector<timber::SpringForce> springs(joint.broken.size());
-	std::vector<Vector3r>            ends1(springs.size()), ends2(springs.size());
-	Real                             sum = 0;
-	for (size_t k = 0; k < springs.size(); ++k) {
+	TimberJoint& joint = *joints[index];
+	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	Real         sum = 0;
+	acting.clear();
+	for (size_t k = 0; k < joint.broken.size(); ++k) {
 		if (joint.broken[k]) continue;
-		springs[k] = joint.spring(k, s1, s2, ends1[k], ends2[k]);
-		sum += springs[k].force.norm();
+		acting.push_back({ k, {}, {}, {} });
+		acting.back().force = joint.spring(k, s1, s2, acting.back().end1, acting.back().end2);
+		sum += acting.back().force.force.norm();
 	}
 	Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
-	for (size_t k = 0; k < springs.size(); ++k) {
-		if (joint.broken[k]) continue;
-		const Vector3r f = springs[k].force;
+	for (const Acting& s : acting) {
+		const Vector3r f = s.force.force;
 		if ((joint.perJoint ? sum : f.norm()) > joint.strength) {
-			breakSpring(index, k, springs[k]);
+			breakSpring(index, s.spring, s.force);
 			continue;
 		}
-		joint.forces[k]    = f;
-		joint.stretches[k] = (ends2[k] - ends1[k]).norm();
-		elasticNow += springs[k].energy;
+		joint.forces[s.spring]    = f;
+		joint.stretches[s.spring] = (s.end2 - s.end1).norm();
+		elastic += s.force.energy;
 		force += f;
-		torque1 += (ends1[k] - s1.pos).cross(f);
-		torque2 -= (ends2[k] - s2.pos).cross(f);
+		torque1 += (s.end1 - s1.pos).cross(f);
+		torque2 -= (s.end2 - s2.pos).cross(f);
 	}
 	scene->forces.addForce(joint.id1, force);
 	scene->forces.addTorque(joint.id1, torque1);
@@ -115,11 +114,24 @@ void JointEngine::act(size_t index)
 	scene->forces.addTorque(joint.id2, torque2);
 }
 
+Real JointEngine::elasticPower() const
+{
+	Real power = 0;
+	for (const size_t index : active) {
+		const TimberJoint& j  = *joints[index];
+		const State &      s1 = *Body::byId(j.id1, scene)->state, &s2 = *Body::byId(j.id2, scene)->state;
+		for (size_t k = 0; k < j.broken.size(); ++k) {
+			const Vector3r v1 = s1.vel + s1.angVel.cross(s1.ori * j.anchors1[k]), v2 = s2.vel + s2.angVel.cross(s2.ori * j.anchors2[k]);
+			power += j.forces[k].dot(v2 - v1);
+		}
+	}
+	return power;
+}
+
 void JointEngine::action()
 {
 	if (known != joints.size()) listActive();
-	elasticLast         = elasticNow;
-	elasticNow          = 0;
+	elastic             = 0;
 	const size_t before = breaks.size();
 	for (const size_t index : active)
 		act(index);

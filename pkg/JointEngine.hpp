@@ -54,6 +54,12 @@ REGISTER_SERIALIZABLE(JointBreak);
 class JointEngine : public GlobalEngine {
 	std::vector<size_t> active; ///< joints with springs left
 	size_t              known = 0; ///< joints seen when `active` was made
+	struct Acting {
+		size_t              spring;
+		timber::SpringForce force;
+		Vector3r            end1, end2;
+	};
+	std::vector<Acting> acting; ///< springs of the joint at hand that are not broken
 
 	void listActive();
 	void act(size_t joint);
@@ -64,20 +70,19 @@ public:
 	int                 append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
-	Real                elastic() const { return (elasticNow + elasticLast) / 2; }
+	/// Rate at which the springs' elastic energy grows with the bodies' present velocities. [W]
+	Real                elasticPower() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a spring whose force exceeds the strength breaks and never acts again.",
 		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
 		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
 		((Real, released, 0, , "Energy that was stored in springs when they broke. [J]"))
-		((Real, elasticNow, 0, Attr::hidden, "[J]"))
-		((Real, elasticLast, 0, Attr::hidden, "[J]")),
+		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]")),
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its index. [-]")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
 		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order. [-]")
-		.add_property("elastic", &JointEngine::elastic, "Elastic energy of the springs between the last two steps. [J]")
 	);
 	// clang-format on
 };

@@ -9,15 +9,15 @@ using namespace yade;
 
 /// One data member of a YADE class.
 struct Field {
-	std::string                                         owner;     ///< YADE class, as in yade.wrapper
-	std::string                                         attribute; ///< its attribute
-	std::string                                         pointee;   ///< class pointed to, empty for a plain value
-	std::function<py::object(const py::object&, long)>  read;      ///< value, or the address pointed to, `shift` bytes beside the member
+	std::string owner; ///< YADE class, as in yade.wrapper
+	std::string attribute; ///< its attribute
+	std::string pointee; ///< class pointed to, empty for a plain value
+	std::function<py::object(const py::object&, long)> read; ///< value, or the address pointed to, `shift` bytes beside the member
 	std::function<void(const py::object&, const py::object&)> write;
 };
 
 template <typename Member> py::object readAt(const Member* member) { return py::object(*member); }
-template <typename T> py::object      readAt(const shared_ptr<T>* member) { return py::object(reinterpret_cast<std::uintptr_t>(member->get())); }
+template <typename T> py::object readAt(const shared_ptr<T>* member) { return py::object(reinterpret_cast<std::uintptr_t>(member->get())); }
 
 /// `member` maps an Owner& to a reference to its member.
 template <typename Owner, typename Access> Field makeField(const char* owner, const char* attribute, const char* pointee, Access member)
@@ -32,6 +32,7 @@ template <typename Owner, typename Access> Field makeField(const char* owner, co
 	return { owner, attribute, pointee, read, write };
 }
 
+// clang-format off
 #define VALUE(Owner, name) makeField<Owner>(#Owner, #name, "", [](Owner& o) -> auto& { return o.name; })
 #define POINTER(Owner, name, Pointee) makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
 
@@ -46,16 +47,15 @@ const std::vector<Field>& fields()
 		VALUE(State, refOri), VALUE(State, isDamped), VALUE(State, densityScaling), VALUE(State, pos), VALUE(State, ori),
 		VALUE(Shape, color), VALUE(Shape, wire), VALUE(Shape, highlight),
 		VALUE(Aabb, refPos), VALUE(Aabb, sweepLength), VALUE(Aabb, min), VALUE(Aabb, max),
-		VALUE(Material, id), VALUE(Material, density), VALUE(ElastMat, young), VALUE(ElastMat, poisson), VALUE(FrictMat, frictionAngle),
+		VALUE(Material, id), VALUE(Material, density),
 		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal), POINTER(Interaction, geom, IGeom),
 		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
-		VALUE(NormShearPhys, kn), VALUE(NormShearPhys, ks), VALUE(NormShearPhys, normalForce), VALUE(NormShearPhys, shearForce),
-		VALUE(Engine, dead), VALUE(Engine, ompThreads), VALUE(PeriodicEngine, virtPeriod), VALUE(PeriodicEngine, iterPeriod),
-		VALUE(PeriodicEngine, initRun), VALUE(PeriodicEngine, iterLast), VALUE(PeriodicEngine, nDone),
+		VALUE(Engine, dead), VALUE(Engine, ompThreads),
 		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody),
 	};
 	return table;
 }
+// clang-format on
 
 /// [(class, attribute, class pointed to or "")], in the order in which they are to be checked.
 py::list listFields()
@@ -80,13 +80,14 @@ shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
 	return std::exchange(current, next);
 }
 
-/// What Scene holds outside its Python attributes: (address of the energy tracker, bodies, interactions, force on body 0 [N]).
-py::tuple readContainers(const py::object& object)
+/// Address of a scene's energy tracker, the last of the containers that Scene points to: if it is in its place, so are they.
+std::uintptr_t energyAddress(Scene& scene) { return reinterpret_cast<std::uintptr_t>(scene.energy.get()); }
+
+/// What Scene holds outside its Python attributes: (number of engines, bodies and interactions, force on body 0 [N]).
+py::tuple readContainers(Scene& scene)
 {
-	Scene& scene = py::extract<Scene&>(object)();
 	scene.forces.sync();
-	return py::make_tuple(
-	        reinterpret_cast<std::uintptr_t>(scene.energy.get()), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
+	return py::make_tuple(scene.engines.size(), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
 }
 
 } // namespace
@@ -97,6 +98,7 @@ void defineLayoutGuard()
 	py::def("read_field", &readField, (py::arg("index"), py::arg("object"), py::arg("shift") = 0));
 	py::def("write_field", &writeField, (py::arg("index"), py::arg("object"), py::arg("value")));
 	py::def("swap_scene", &swapScene, (py::arg("scene")));
+	py::def("energy_address", &energyAddress, (py::arg("scene")));
 	py::def("read_containers", &readContainers, (py::arg("scene")));
 	py::def("address", &address, (py::arg("object")));
 }

@@ -11,9 +11,9 @@ namespace {
 /// Omega::loadPlugins() registers every name in ClassFactory's list, so the names YADE knows already step aside meanwhile.
 boost::python::list registerClasses()
 {
-	auto&                  names  = yade::ClassFactory::instance().pluginClasses;
-	auto&                  omega  = yade::Omega::instance();
-	const auto             known  = omega.getDynlibsDescriptor();
+	auto& names = yade::ClassFactory::instance().pluginClasses;
+	auto& omega = yade::Omega::instance();
+	const auto known = omega.getDynlibsDescriptor();
 	std::list<std::string> others = names;
 	others.remove_if([&](const std::string& name) { return known.count(name) == 0; });
 	names.remove_if([&](const std::string& name) { return known.count(name) != 0; });

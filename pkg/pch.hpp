@@ -19,14 +19,11 @@
 #include <core/Aabb.hpp>
 #include <core/Body.hpp>
 #include <core/Dispatching.hpp>
+#include <core/GlobalEngine.hpp>
 #include <core/Interaction.hpp>
-#include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <lib/base/Logging.hpp>
-#include <pkg/common/ElastMat.hpp>
-#include <pkg/common/NormShearPhys.hpp>
-#include <pkg/common/PeriodicEngines.hpp>
 #ifdef YADE_OPENGL
 #include <pkg/common/GLDrawFunctors.hpp>
 #endif

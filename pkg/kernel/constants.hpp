@@ -11,6 +11,11 @@ constexpr double radiusShare = 0.10;
 /// Larger: single-precision vertices still make planar faces; smaller: nearly flat corners are kept as corners.
 constexpr double planarShare = 1e-6;
 
+/// Where faces are neither plane to planarShare nor clearly bent (vertices typed to the millimetre), they are made plane
+/// with a tolerance of up to this share of the polyhedron's size. [-]
+/// Larger: more warped input is accepted, its core less true to it; smaller: it is refused.
+constexpr double warpShare = 1e-3;
+
 /// Two places closer than this are the same place: a vertex over a face's border, a crossing at an edge's end,
 /// two vertices on each other. [m] Below any construction tolerance and far above rounding noise, so that a flush
 /// contact is decided by rule and not by the last bit. It sets how far a member slides before the rule lets go.

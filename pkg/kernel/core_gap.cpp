@@ -1,40 +1,82 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "manifold.hpp"
+#include <algorithm>
 #include <limits>
 
 namespace timber {
+namespace {
+
+	/// The largest gap so far and the direction (from A to B) where it is. All in the frame of A.
+	class Widest {
+	public:
+		double gap = -std::numeric_limits<double>::infinity(); ///< [m]
+		Vec3 axis = Vec3::Zero();
+
+		Widest(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+		        : a(a)
+		        , b(b)
+		{
+		}
+		/// B beyond A along the direction.
+		void along(const Vec3& direction)
+		{
+			double farA = -std::numeric_limits<double>::infinity(), nearB = -farA;
+			for (const Vec3& v : a)
+				farA = std::max(farA, v.dot(direction));
+			for (const Vec3& v : b)
+				nearB = std::min(nearB, v.dot(direction));
+			take(nearB - farA, direction);
+		}
+		void alongBothWays(const Vec3& direction)
+		{
+			double leastA = std::numeric_limits<double>::infinity(), mostA = -leastA, leastB = leastA, mostB = mostA;
+			for (const Vec3& v : a) {
+				const double x = v.dot(direction);
+				leastA = std::min(leastA, x);
+				mostA = std::max(mostA, x);
+			}
+			for (const Vec3& v : b) {
+				const double x = v.dot(direction);
+				leastB = std::min(leastB, x);
+				mostB = std::max(mostB, x);
+			}
+			take(leastB - mostA, direction);
+			take(leastA - mostB, -direction);
+		}
+
+	private:
+		const std::vector<Vec3>&a, &b;
+
+		void take(double found, const Vec3& direction)
+		{
+			if (found <= gap) return;
+			gap = found;
+			axis = direction;
+		}
+	};
+
+} // namespace
 
 double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis)
 {
 	std::vector<Vec3> placed;
 	for (const Vec3& v : b.vertices)
 		placed.push_back(rotation * v + translation);
-	double best = -std::numeric_limits<double>::infinity();
-	const auto tryAxis = [&](const Vec3& direction) {
-		double farA = -std::numeric_limits<double>::infinity(), nearB = -farA;
-		for (const Vec3& v : a.vertices)
-			farA = std::max(farA, v.dot(direction));
-		for (const Vec3& v : placed)
-			nearB = std::min(nearB, v.dot(direction));
-		if (nearB - farA > best) {
-			best = nearB - farA;
-			axis = direction;
-		}
-	};
+	Widest widest(a.vertices, placed);
 	for (const Face& face : a.faces)
-		tryAxis(face.plane.normal);
+		widest.along(face.plane.normal);
 	for (const Face& face : b.faces)
-		tryAxis(-(rotation * face.plane.normal));
+		widest.along(-(rotation * face.plane.normal));
 	for (const Edge& ea : a.edges)
 		for (const Edge& eb : b.edges) {
 			const Vec3 spanA = a.vertices[ea.head] - a.vertices[ea.tail], spanB = placed[eb.head] - placed[eb.tail];
 			const Vec3 n = spanA.cross(spanB);
 			const double length = n.norm();
 			if (length <= 1e-9 * spanA.norm() * spanB.norm()) continue; // any direction may be tried, but not none
-			tryAxis(n / length);
-			tryAxis(-n / length);
+			widest.alongBothWays(n / length);
 		}
-	return best;
+	axis = widest.axis;
+	return widest.gap;
 }
 
 } // namespace timber

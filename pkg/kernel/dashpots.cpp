@@ -6,17 +6,14 @@
 namespace timber {
 namespace {
 
-	Mat3 skew(const Vec3& r)
-	{
-		Mat3 m;
-		m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-		return m;
-	}
-
+	/// Change of a body's velocity at the arm per unit impulse there: 1/m - [r] I^-1 [r]. [1/kg]
 	Mat3 pointResponse(const DashpotBody& body, const Vec3& arm)
 	{
-		const Mat3 s = skew(arm);
-		return body.inverseMass * Mat3::Identity() - s * body.inverseInertia * s;
+		Mat3 s;
+		s << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+		Mat3 response = -(s * body.inverseInertia * s);
+		response.diagonal().array() += body.inverseMass;
+		return response;
 	}
 
 	/// Largest response to a unit impulse in the plane normal to n. [1/kg]
@@ -25,15 +22,15 @@ namespace {
 		const Vec3 t = n.unitOrthogonal(), u = n.cross(t);
 		const Vec3 rt = response * t;
 		const double tt = t.dot(rt), tu = u.dot(rt), uu = u.dot(response * u);
-		return (tt + uu) / 2 + std::hypot((tt - uu) / 2, tu);
+		return (tt + uu) / 2 + std::sqrt((tt - uu) * (tt - uu) / 4 + tu * tu);
 	}
 
-	/// theta of the step and the divisor of the residual, for a dashpot C that acts on the response a.
-	void setDashpot(double h, double damping, double a, double& theta, double& divisor)
+	/// theta of the step and the gain of a correction, for a dashpot of rate h C against the response a.
+	void setDashpot(double rate, double a, double& theta, double& gain)
 	{
-		const double x = h * damping * a;
+		const double x = rate * a;
 		theta = 0.5 + x / (12 + 2 * x);
-		divisor = 1 + theta * x;
+		gain = 1 / (1 + theta * x);
 	}
 
 	void apply(std::vector<DashpotBody>& bodies, const DashpotPoint& p, const Vec3& impulse)
@@ -47,46 +44,15 @@ namespace {
 
 	Vec3 clipped(const Vec3& v, double length)
 	{
-		const double norm = v.norm();
-		return norm > length ? Vec3(v * (length / norm)) : v;
+		const double square = v.squaredNorm();
+		return square > length * length ? Vec3(v * (length / std::sqrt(square))) : v;
 	}
 
-	/// Tangential impulse for a normal impulse: the spring slides when it alone exceeds the limit, and then has no
+	/// Tangential impulse under a Coulomb limit [N s]: the spring slides when it alone exceeds the limit, and then has no
 	/// dashpot; spring and dashpot together never exceed it.
-	Vec3 limitedTangential(const DashpotPoint& p, const Vec3& tangential, double h, double normalImpulse)
+	Vec3 limitedTangential(const Vec3& elastic, double elasticNorm, const Vec3& withDashpot, double limit)
 	{
-		const double limit = p.friction * normalImpulse;
-		return clipped(h * p.elasticShear.norm() > limit ? Vec3(h * p.elasticShear) : tangential, limit);
-	}
-
-	void prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
-	{
-		const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-		p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
-		p.response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
-		setDashpot(h, p.normalDamping, p.normal.dot(p.response * p.normal), p.normalTheta, p.normalDivisor);
-		setDashpot(h, p.shearDamping, largestShearResponse(p.response, p.normal), p.shearTheta, p.shearDivisor);
-	}
-
-	void relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
-	{
-		const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-		Vec3 v = relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-		const double normal = p.impulse.dot(p.normal);
-		const Vec3 tangential = p.impulse - normal * p.normal;
-
-		const double meanNormal = (1 - p.normalTheta) * p.before.dot(p.normal) + p.normalTheta * v.dot(p.normal);
-		const double dashpot = normal - h * p.elasticNormal;
-		const double newNormal = std::max(0., normal - (h * p.normalDamping * meanNormal + dashpot) / p.normalDivisor);
-		v += p.response * p.normal * (newNormal - normal);
-
-		Vec3 mean = (1 - p.shearTheta) * p.before + p.shearTheta * v;
-		mean -= mean.dot(p.normal) * p.normal;
-		const Vec3 shearDashpot = tangential - h * p.elasticShear;
-		const Vec3 free = tangential - (h * p.shearDamping * mean + shearDashpot) / p.shearDivisor;
-		const Vec3 impulse = newNormal * p.normal + limitedTangential(p, free, h, newNormal);
-		apply(bodies, p, impulse - p.impulse);
-		p.impulse = impulse;
+		return elasticNorm > limit ? Vec3(elastic * (limit / elasticNorm)) : clipped(withDashpot, limit);
 	}
 
 	void explicitImpulse(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
@@ -95,31 +61,65 @@ namespace {
 		p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
 		const double vn = p.before.dot(p.normal);
 		const double normal = std::max(0., h * (p.elasticNormal - p.normalDamping * vn));
-		const Vec3 free = h * (p.elasticShear - p.shearDamping * (p.before - vn * p.normal));
-		p.impulse = normal * p.normal + limitedTangential(p, free, h, normal);
+		const Vec3 withDashpot = h * (p.elasticShear - p.shearDamping * (p.before - vn * p.normal));
+		p.impulse = normal * p.normal + limitedTangential(h * p.elasticShear, h * p.elasticShear.norm(), withDashpot, p.friction * normal);
 	}
 
 } // namespace
 
 Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce) { return clipped(elasticShear, friction * normalForce); }
 
-void solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps)
+DashpotSolver::Row DashpotSolver::prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
 {
-	for (DashpotPoint& p : points) {
-		if (sweeps == 0) explicitImpulse(bodies, p, h);
+	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
+	p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
+	const double vn = p.before.dot(p.normal);
+	const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
+	Row row;
+	row.normalResponse = response * p.normal;
+	row.normalRate = h * p.normalDamping;
+	row.shearRate = h * p.shearDamping;
+	setDashpot(row.normalRate, p.normal.dot(row.normalResponse), row.normalTheta, row.normalGain);
+	setDashpot(row.shearRate, largestShearResponse(response, p.normal), row.shearTheta, row.shearGain);
+	row.elasticShear = h * p.elasticShear;
+	row.elasticShearNorm = row.elasticShear.norm();
+	row.normalTarget = h * p.elasticNormal - row.normalRate * (1 - row.normalTheta) * vn;
+	row.shearTarget = row.elasticShear - row.shearRate * (1 - row.shearTheta) * (p.before - vn * p.normal);
+	return row;
+}
+
+void DashpotSolver::relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row)
+{
+	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
+	Vec3 v = relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+	const double normal = p.impulse.dot(p.normal);
+	const double normalError = normal - row.normalTarget + row.normalRate * row.normalTheta * v.dot(p.normal);
+	const double newNormal = std::max(0., normal - row.normalGain * normalError);
+
+	v += (newNormal - normal) * row.normalResponse;
+	const Vec3 tangential = p.impulse - normal * p.normal;
+	const Vec3 shearError = tangential - row.shearTarget + row.shearRate * row.shearTheta * (v - v.dot(p.normal) * p.normal);
+	const Vec3 impulse = newNormal * p.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, p.friction * newNormal);
+	apply(bodies, p, impulse - p.impulse);
+	p.impulse = impulse;
+}
+
+void DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps)
+{
+	const size_t count = points.size();
+	rows.resize(count);
+	for (size_t k = 0; k < count; ++k) {
+		if (sweeps == 0) explicitImpulse(bodies, points[k], h);
 		else
-			prepare(bodies, p, h);
+			rows[k] = prepare(bodies, points[k], h);
 	}
-	for (DashpotPoint& p : points)
+	for (const DashpotPoint& p : points)
 		apply(bodies, p, p.impulse);
-	for (int sweep = 0; sweep < sweeps; ++sweep) {
-		if (sweep % 2 == 0)
-			for (DashpotPoint& p : points)
-				relax(bodies, p, h);
-		else
-			for (auto p = points.rbegin(); p != points.rend(); ++p)
-				relax(bodies, *p, h);
-	}
+	for (int sweep = 0; sweep < sweeps; ++sweep)
+		for (size_t k = 0; k < count; ++k) {
+			const size_t place = sweep % 2 == 0 ? k : count - 1 - k;
+			relax(bodies, points[place], rows[place]);
+		}
 }
 
 } // namespace timber

@@ -30,11 +30,7 @@ struct DashpotPoint {
 	double normalDamping, shearDamping; ///< C_n, C_s [N s/m]
 	double friction; ///< [-]
 	Vec3 impulse; ///< in: guess; out: total contact impulse on B [N s]
-
-	// filled by solveDashpots
-	Mat3 response = Mat3::Zero(); ///< change of relative velocity at the point per unit impulse [1/kg]
-	Vec3 before = Vec3::Zero(); ///< relative velocity before the step [m/s]
-	double normalTheta = 1, normalDivisor = 1, shearTheta = 1, shearDivisor = 1;
+	Vec3 before; ///< out: relative velocity before the step [m/s]
 };
 
 /// Relative velocity of B against A at the point. [m/s]
@@ -46,7 +42,30 @@ inline Vec3 relativeVelocity(const DashpotPoint& p, const Vec3& vA, const Vec3& 
 /// e_s after sliding: at most friction times the normal force. [N]
 Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce);
 
-/// Finds the impulses of all points for a step of length h [s]; `sweeps` passes, alternating in direction.
-void solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps);
+/// Finds the impulses of all points of a step. Keeps its working memory between calls, and nothing else.
+class DashpotSolver {
+public:
+	/// h: length of the step [s]; sweeps: passes over the points, alternating in direction.
+	void solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps);
+
+private:
+	/// What a sweep needs of a point: impulses instead of forces, divisions done.
+	struct Row {
+		Vec3 normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
+		double normalRate, normalTheta, normalGain; ///< h C_n; theta; 1 / (1 + theta h C_n a_n)
+		double shearRate, shearTheta, shearGain;
+		double normalTarget; ///< h e_n - h C_n (1 - theta) v_n before: the dashpot's known part included [N s]
+		Vec3 shearTarget; ///< likewise, tangential
+		Vec3 elasticShear; ///< h e_s
+		double elasticShearNorm;
+	};
+	std::vector<Row> rows;
+
+	static Row prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h);
+	static void relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row);
+};
+
+/// One step without memory kept.
+inline void solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps) { DashpotSolver().solve(bodies, points, h, sweeps); }
 
 } // namespace timber

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "manifold.hpp"
 #include "constants.hpp"
+#include "geometry.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,25 +36,6 @@ namespace {
 		double distance; ///< of the cores along the normal, negative when they overlap [m]
 	};
 
-	double height(const Face& face, const Vec3& x) { return face.plane.normal.dot(x) - face.plane.offset; }
-
-	/// How far the foot of x lies outside the face's border (negative inside). [m]
-	double beyondBorder(const Polyhedron& body, const Face& face, const Vec3& x)
-	{
-		double most = -std::numeric_limits<double>::infinity();
-		for (size_t k = 0; k < face.corners.size(); ++k)
-			most = std::max(most, face.outward[k].dot(x - body.vertices[face.corners[k]]));
-		return most;
-	}
-
-	/// Deep contact: x lies in the core, except for the given face, above which it may be.
-	bool isInside(const Polyhedron& body, int face, const Vec3& x, double borderLimit)
-	{
-		for (int f = 0; f < int(body.faces.size()); ++f)
-			if (f != face && height(body.faces[f], x) > borderLimit) return false;
-		return true;
-	}
-
 	/// Vertex x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
 	/// but nearer to the border than to the face (else the face behind the border answers, too). Cores overlapping: only
 	/// the face that looks along the axis of least overlap answers, so that all points push the pair apart.
@@ -62,7 +44,7 @@ namespace {
 		const Face& f = body.core.faces[face];
 		distance = height(f, x);
 		if (distance >= pair.touch() || distance <= -(pair.deep() ? body.coreHalfThickness : flushTolerance)) return false;
-		if (beyondBorder(body.core, f, x) > (pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
+		if (!isOverFace(body.core, f, x, pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
 		return !pair.deep() || (face == facing && (distance >= 0 || isInside(body.core, face, x, pair.borderLimit())));
 	}
 
@@ -148,7 +130,7 @@ namespace {
 		const double length = span.norm(), along = (x - tail).dot(span) / length;
 		if (along < -flushTolerance || along > length + flushTolerance) return false;
 		for (const int f : { edge.left, edge.right })
-			if (beyondBorder(body, body.faces[f], x) <= pair.borderLimit()) return false; // the face answers
+			if (isOverFace(body, body.faces[f], x, pair.borderLimit())) return false; // the face answers
 		foot = tail + along / length * span;
 		const Vec3 towards = foot - x;
 		const double distance = towards.norm();
@@ -204,26 +186,24 @@ namespace {
 		}
 	}
 
-	/// Cores overlap and no pair of features answers (two plates through each other): one point along the axis of least
-	/// penetration, between the parts of both that reach farthest along it.
+	/// Middle of what two bodies have in common along a direction, from the origin of A. [m]
+	double commonMiddle(const Pair& pair, const Vec3& direction)
+	{
+		const auto [leastA, mostA] = extent(pair.a.core, direction);
+		const auto [leastB, mostB] = extent(pair.b.core, pair.rotation.transpose() * direction);
+		const double shift = pair.translation.dot(direction);
+		return (std::max(leastA, leastB + shift) + std::min(mostA, mostB + shift)) / 2;
+	}
+
+	/// Cores overlap and no pair of features answers (two plates through each other): one point in their common part,
+	/// along the axis of least overlap.
 	Meet meetCores(const Pair& pair)
 	{
-		const auto farthest = [](const Polyhedron& body, const Vec3& direction) {
-			double most = -std::numeric_limits<double>::infinity();
-			for (const Vec3& v : body.vertices)
-				most = std::max(most, v.dot(direction));
-			Vec3 sum = Vec3::Zero();
-			int count = 0;
-			for (const Vec3& v : body.vertices)
-				if (v.dot(direction) >= most - flushTolerance) {
-					sum += v;
-					++count;
-				}
-			return Vec3(sum / count);
-		};
-		const Vec3 onA = farthest(pair.a.core, pair.axis);
-		const Vec3 onB = pair.toA(farthest(pair.b.core, pair.rotation.transpose() * -pair.axis));
-		const Vec3 middle = (onA + onB) / 2, half = pair.gap / 2 * pair.axis;
+		const Vec3 half = pair.gap / 2 * pair.axis;
+		Vec3 middle = commonMiddle(pair, pair.axis) * pair.axis;
+		for (const Vec3& across : { Vec3(pair.axis.unitOrthogonal()), Vec3(pair.rotation * (pair.rotation.transpose() * pair.axis).unitOrthogonal()) })
+			for (const Vec3& direction : { across, Vec3(pair.axis.cross(across)) }) // the mean over both bodies' frames: swapping them changes nothing
+				middle += 0.5 * commonMiddle(pair, direction) * direction;
 		return { middle - half, middle + half, pair.axis, pair.gap };
 	}
 
@@ -245,17 +225,6 @@ namespace {
 			if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
 			return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
 		});
-	}
-
-	double segmentDistance(const Vec3& tailA, const Vec3& spanA, const Vec3& tailB, const Vec3& spanB)
-	{
-		const Vec3 w = tailA - tailB;
-		const double aa = spanA.squaredNorm(), bb = spanB.squaredNorm(), ab = spanA.dot(spanB), aw = spanA.dot(w), bw = spanB.dot(w);
-		const double det = aa * bb - ab * ab;
-		double s = det > 1e-12 * aa * bb ? std::clamp((ab * bw - bb * aw) / det, 0., 1.) : 0.;
-		const double t = std::clamp((ab * s + bw) / bb, 0., 1.);
-		s = std::clamp((ab * t - aw) / aa, 0., 1.);
-		return (w + s * spanA - t * spanB).norm();
 	}
 
 	/// Feature pairs that can touch before the pair has moved by the skin.
@@ -298,7 +267,7 @@ namespace {
 					const Vec3& x = points[vertexFirst ? a : b];
 					const double h = height(face, x);
 					if (h > range || h < -(body.coreHalfThickness + candidateSkin)) continue;
-					if (beyondBorder(body.core, face, x) <= flushTolerance + candidateSkin) out.push_back({ meeting, a, b });
+					if (isOverFace(body.core, face, x, flushTolerance + candidateSkin)) out.push_back({ meeting, a, b });
 				}
 		}
 		void edges()
@@ -353,12 +322,6 @@ namespace {
 		cache.coresMayMeet = gap <= candidateSkin;
 		cache.margin = std::max(candidateSkin, gap - pair.touch() - candidateSkin);
 		if (gap < pair.touch() + 2 * candidateSkin) CandidateSearch(pair, cache.candidates).run();
-	}
-
-	int faceLooking(const Polyhedron& body, const Vec3& direction)
-	{
-		const auto looksLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
-		return int(std::max_element(body.faces.begin(), body.faces.end(), looksLess) - body.faces.begin());
 	}
 
 	void lookForOverlap(Pair& pair)

@@ -13,6 +13,11 @@
 namespace timber {
 namespace {
 
+	/// Corners sorted into faces do not make a closed surface: some are neither plane nor clearly bent.
+	struct OpenSurface : PolyhedronError {
+		using PolyhedronError::PolyhedronError;
+	};
+
 	std::string text(const Vec3& v)
 	{
 		std::ostringstream s;
@@ -116,7 +121,7 @@ namespace {
 		std::vector<Edge> edges;
 		for (const auto& [ends, left] : faceLeftOf) {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
-			if (back == faceLeftOf.end()) throw PolyhedronError("faces do not close around the edge between vertices " + std::to_string(ends.first) + " and " + std::to_string(ends.second));
+			if (back == faceLeftOf.end()) throw OpenSurface("faces do not close around the edge between vertices " + std::to_string(ends.first) + " and " + std::to_string(ends.second));
 			if (ends.first < ends.second)
 				edges.push_back({ ends.first, ends.second, left, back->second, (faces[left].plane.normal + faces[back->second].plane.normal).normalized() });
 		}
@@ -148,6 +153,38 @@ namespace {
 		return distinct;
 	}
 
+	/// Points farther from a plane than `share` of the body's size are not in it; see Polyhedron::fromVertices.
+	Polyhedron hullOf(const std::vector<Vec3>& points, double share)
+	{
+		Vec3 inside = Vec3::Zero();
+		for (const Vec3& p : points)
+			inside += p / double(points.size());
+		Polyhedron body;
+		body.vertices = points;
+		const auto sets = supportingSets(points, share * size(points));
+		if (sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const auto& s) { return s.size() == points.size(); }))
+			throw PolyhedronError("the vertices lie in one plane: a polyhedron needs a volume");
+		std::vector<int> degree(points.size(), 0);
+		for (const auto& corners : sets) {
+			body.faces.push_back(orderedFace(points, corners, inside));
+			for (int k : corners)
+				++degree[k];
+		}
+		for (size_t k = 0; k < points.size(); ++k)
+			if (degree[k] < 3) throw PolyhedronError("vertex " + std::to_string(k) + " " + text(points[k]) + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
+		body.edges = edgesOf(body.faces);
+		if (body.vertices.size() + body.faces.size() != body.edges.size() + 2) throw OpenSurface("faces, edges and vertices do not close to one surface (Euler's formula)");
+		return body;
+	}
+
+	Polyhedron coreOf(const Polyhedron& sharp, double radius)
+	{
+		std::vector<HalfSpace> planes;
+		for (const Face& face : sharp.faces)
+			planes.push_back({ face.plane.normal, face.plane.offset - radius });
+		return Polyhedron::fromHalfSpaces(planes);
+	}
+
 } // namespace
 
 Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
@@ -155,28 +192,13 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 	for (size_t k = 0; k < points.size(); ++k)
 		if (!points[k].allFinite()) throw PolyhedronError("vertex " + std::to_string(k) + " is not finite: " + text(points[k]));
 	if (points.size() < 4) throw PolyhedronError("a polyhedron has at least 4 vertices, got " + std::to_string(points.size()));
-	const double tolerance = planarShare * size(points);
-	refuseBadPoints(points, tolerance);
-	Vec3 inside = Vec3::Zero();
-	for (const Vec3& p : points)
-		inside += p / double(points.size());
-
-	Polyhedron body;
-	body.vertices = points;
-	const auto sets = supportingSets(points, tolerance);
-	if (sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const auto& s) { return s.size() == points.size(); }))
-		throw PolyhedronError("the vertices lie in one plane: a polyhedron needs a volume");
-	for (const auto& corners : sets)
-		body.faces.push_back(orderedFace(points, corners, inside));
-	std::vector<int> degree(points.size(), 0);
-	for (const Face& face : body.faces)
-		for (int k : face.corners)
-			++degree[k];
-	for (size_t k = 0; k < points.size(); ++k)
-		if (degree[k] < 3) throw PolyhedronError("vertex " + std::to_string(k) + " " + text(points[k]) + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
-	body.edges = edgesOf(body.faces);
-	if (body.vertices.size() + body.faces.size() != body.edges.size() + 2) throw PolyhedronError("faces, edges and vertices do not close to one surface (Euler's formula)");
-	return body;
+	refuseBadPoints(points, planarShare * size(points));
+	for (double share = planarShare; share < warpShare; share *= 10)
+		try {
+			return hullOf(points, share);
+		} catch (const OpenSurface&) { // nearly plane faces: be more tolerant
+		}
+	return hullOf(points, warpShare);
 }
 
 Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
@@ -263,19 +285,26 @@ Mat3 principalAxes(const Mat3& inertia)
 	return best;
 }
 
+/// Slightly warped faces split into triangles whose cores meet in clusters of corners, or do not close: then the faces
+/// are made plane with growing tolerance, as long as two core corners are too close to be two contacts.
 RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 {
 	RoundedPolyhedron body;
 	body.radius = radius > 0 ? radius : radiusShare * sharp.shortestEdge();
-	std::vector<HalfSpace> planes;
-	for (const Face& face : sharp.faces)
-		planes.push_back({ face.plane.normal, face.plane.offset - body.radius });
-	try {
-		body.core = Polyhedron::fromHalfSpaces(planes);
-	} catch (const PolyhedronError&) {
-		throw PolyhedronError("rounding radius " + std::to_string(body.radius) + " m leaves no core: it must be below half the thickness " + std::to_string(sharp.thickness() / 2) + " m");
-	}
-	body.sharp = std::move(sharp);
+	std::string reason;
+	bool clear = false;
+	for (double share = planarShare; !clear && share < 2 * warpShare; share *= 10)
+		try {
+			Polyhedron planed = share > planarShare ? hullOf(sharp.vertices, share) : sharp, core = coreOf(planed, body.radius);
+			clear = core.shortestEdge() > 2 * flushTolerance;
+			if (!clear && !body.core.vertices.empty()) continue;
+			body.sharp = std::move(planed);
+			body.core = std::move(core);
+		} catch (const PolyhedronError& error) {
+			if (reason.empty()) reason = error.what();
+		}
+	if (body.core.vertices.empty())
+		throw PolyhedronError("rounding radius " + std::to_string(body.radius) + " m leaves no core (" + reason + "): it must be below the radius of the inscribed sphere, at most " + std::to_string(sharp.thickness() / 2) + " m");
 	for (const Vec3& v : body.core.vertices)
 		body.reach = std::max(body.reach, v.norm());
 	body.coreHalfThickness = body.core.thickness() / 2;

@@ -115,18 +115,19 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """The containers that Scene holds outside its Python attributes, in a scene of their own: energy, bodies, interactions, forces."""
+    """Scene's containers, which are no Python attributes, in a scene of their own. Raises ImportError like check_layout."""
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
     try:
+        check_value("Scene.energy", plugin.address(omega.energy), plugin.energy_address(scene), record, host)
+        omega.engines = [wrapper.ForceResetter()] * 3
         omega.bodies.append(wrapper.Body())
         omega.forces.addF(0, force)
-        expected = (plugin.address(omega.energy), 1, 0, force)
         seen = plugin.read_containers(scene)
     finally:
         plugin.swap_scene(before)
-    for name, stored, found in zip(("energy", "bodies", "interactions", "forces"), expected, seen):
+    for name, stored, found in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
         check_value(f"Scene.{name}", stored, found, record, host)
 
 

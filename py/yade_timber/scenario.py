@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """From a house and a ground motion to a scene in YADE. Knows nothing of houses A, B, C: they are files."""
 from dataclasses import dataclass, field
+from hashlib import sha256
 
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
@@ -23,6 +24,8 @@ COLORS = {  # colour-blind safe (Okabe and Ito 2008)
 }
 DEFAULT_DT = 1e-4
 """Time step of the house scenarios. [s]"""
+MAX_DT = 5e-4
+"""Largest time step that a house scenario takes. [s]"""
 
 
 @dataclass
@@ -40,7 +43,7 @@ class Scenario:
 
     def fingerprint(self):
         """What a checkpoint must agree with to go on: everything that decides the run but its duration."""
-        motion = None if self.motion is None else [self.motion.name, len(self.motion), float(abs(self.motion.acceleration).sum())]
+        motion = self.motion and [self.motion.name, self.motion.dt, sha256(self.motion.acceleration.tobytes()).hexdigest()[:16]]
         return {
             "name": self.name,
             "house": str(self.house),

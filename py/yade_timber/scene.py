@@ -62,11 +62,11 @@ def engines(
     if ground_motion is not None:
         chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion))
     chain.append(yw.ContactForces(sweeps=sweeps, trackEnergy=track_energy))
-    if monitor is not None:
-        chain.append(monitor)
+    chain.append(yw.SymplecticIntegrator())
     if health_check:
         chain.append(yw.HealthCheck(every=health_check))
-    chain.append(yw.SymplecticIntegrator())
+    if monitor is not None:
+        chain.append(monitor)
     return chain
 
 
@@ -170,7 +170,7 @@ def contacts(id1, id2):
 def energy():
     """Terms of the energy balance of the scene now. [J]
 
-    kinetic; gravity (potential, from the reference placement); elastic_normal, elastic_shear, elastic_joints; ground_motion
+    kinetic; gravity (potential, from the reference placement); elastic_contacts, elastic_joints; ground_motion
     (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
     ceased to exist under load). kinetic + gravity + elastic + dissipated - ground_motion is constant.
     """

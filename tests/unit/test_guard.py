@@ -24,7 +24,7 @@ def facts():
 
 def test_right_host(record, facts):
     host.check_build(record, facts)
-    assert host.check_layout(PLUGIN, yade.wrapper, record, facts) == len(FIELDS) > 40
+    assert host.check_layout(PLUGIN, yade.wrapper, record, facts) == len(FIELDS) > 35
     host.check_containers(PLUGIN, yade.wrapper, record, facts)
 
 

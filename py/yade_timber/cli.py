@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Command line of the run scripts -> Scenario and where its results go. What YADE itself understands (-n, -x, -j2) stands before the script's name."""
+import argparse
+import math
+import sys
+import tempfile
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import RunError
+from .motion import default_motion, read_motion
+from .scenario import DEFAULT_DT, MAX_DT, Scenario
+
+SNOW_DEPTH = 1.0
+"""Snow on the roof of the snow runs. [m] (paper, section 3.4)"""
+QUIET_DURATION = 30.0
+"""Simulated time of runs without an earthquake. [s] (paper, section 4.2)"""
+CHECKPOINT_INTERVAL = 2.0
+"""Simulated time between checkpoints. [s]"""
+
+
+@dataclass
+class Output:
+    """Where results go and what is made of them."""
+
+    folder: Path
+    resume: bool = False
+    views: bool = True
+    export: Path = None
+    quiet: bool = False
+    checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise RunError(f"{message} (options: {self.prog} -h; YADE's own options stand before the script)")
+
+
+def parser(script):
+    """ArgumentParser of the run script of that name."""
+    made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description="Results go to results/<script name>/ unless --out says otherwise.")
+    made.add_argument("--duration", type=float, metavar="S", help=f"simulated time [s] (default: the motion's; without an earthquake {QUIET_DURATION:g})")
+    made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], at most {MAX_DT:g} (default {DEFAULT_DT:g})")
+    made.add_argument("--record", metavar="FILE_OR_PREFIX", help="recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
+    made.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion (default 1)")
+    made.add_argument("--out", metavar="DIR", help="folder of the results")
+    made.add_argument("--resume", action="store_true", help="go on from the last checkpoint in the folder of the results, if there is one")
+    made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
+    made.add_argument("--no-views", action="store_true", help="make no pictures")
+    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
+    made.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    return made
+
+
+def read(house, earthquake, snow, argv):
+    """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
+    script = Path(argv[0]).stem
+    given = parser(script).parse_args(argv[1:])
+    _check_numbers(given)
+    motion = _motion(given, earthquake)
+    duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
+    depth = SNOW_DEPTH if snow else 0.0
+    scale = 1.0 if given.scale is None else given.scale
+    scenario = Scenario(script, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
+    folder = Path(given.out) if given.out else Path("results") / script
+    export = Path(given.export) if given.export else None
+    return scenario, Output(folder, given.resume, not given.no_views, export, given.quiet, given.checkpoint)
+
+
+def _check_numbers(given):
+    """Ranges of all numbers; NaN is in none of them."""
+    if not 0 < given.dt <= MAX_DT:
+        raise RunError(f"--dt {given.dt:g}: the time step must be > 0 and at most {MAX_DT:g} s, beyond which contacts are unstable")
+    for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--scale", given.scale, "factor on the ground motion"),
+                                ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
+        if value is not None and not 0 <= value < math.inf:
+            raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")
+
+
+def _motion(given, earthquake):
+    """GroundMotion or None. What a reader has to warn of becomes a line on standard error."""
+    if not earthquake:
+        for option, value in (("--record", given.record), ("--scale", given.scale)):
+            if value is not None:
+                raise RunError(f"{option} {value}: this run has no earthquake; take a script of a run that has one")
+        return None
+    with warnings.catch_warnings(record=True) as notes:
+        warnings.simplefilter("always")
+        motion = default_motion() if given.record is None else read_motion(given.record)
+    for note in notes:
+        print(f"note: {note.message}", file=sys.stderr)
+    return motion
+
+
+def prepare_folder(folder):
+    """Make the folder and see that files can be written in it. Raises RunError."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as problem:
+        raise RunError(f"{folder}: cannot write results there: {problem.strerror}; choose another folder with --out") from None

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run leaves behind: summary.json, history.csv, breaks.csv. Made from the scene in YADE and the HouseModel.
+
+The joint k of the scene's JointEngine is `model.joints[k]`. A joint is broken when all its springs are; with some broken it
+is partly broken. Joints that are broken from the start (damage) are counted apart, never as broken.
+"""
+import csv
+import io
+import json
+import math
+from collections import Counter
+
+import yade.wrapper as yw
+
+from . import _plugin, host, scene
+from .files import write_text
+
+SIDES = ("north", "south", "east", "west", "inside")
+RESIDUAL_WINDOW = 1.0
+"""The residual drift is the mean over this last part of the run, about a period of the standing houses. [s]"""
+DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
+SUMMARY, HISTORY, BREAKS = "summary.json", "history.csv", "breaks.csv"
+
+O = yw.Omega()
+
+
+# --- joints -----------------------------------------------------------------------------------------------------------
+
+
+def storey_of(joint, model):
+    """Where a joint is: '1', '2', ... in the main structure, else the name of its structure ('entrance')."""
+    return str(joint.storey) if joint.group == next(iter(model.storey_levels)) else joint.group
+
+
+def sides_of(joint):
+    """Walls a joint belongs to, in the order of SIDES (a corner column's joints belong to two), or ['inside']."""
+    return [side for side in SIDES if side in joint.side] or ["inside"]
+
+
+def by_kind(joints):
+    """{'total', 'column_beam', 'brace_beam', other kinds that occur}: numbers of joints."""
+    return {"total": len(joints), "column_beam": 0, "brace_beam": 0, **Counter(j.kind for j in joints)}
+
+
+def count_joints(model):
+    return by_kind(model.joints)
+
+
+def broken_joints(model):
+    """(broken during the run, partly broken, damaged at the start): lists of JointSpec."""
+    pairs = list(zip(model.joints, scene.find_engine(yw.JointEngine).joints))
+    damaged = [spec for spec, _ in pairs if spec.broken]
+    whole = [spec for spec, joint in pairs if not spec.broken and joint.isFinished]
+    partly = [spec for spec, joint in pairs if not spec.broken and any(joint.broken) and not joint.isFinished]
+    return whole, partly, damaged
+
+
+def count_broken(model):
+    """The part `broken` of the summary. A joint of two walls counts for both in by_side."""
+    whole, partly, damaged = broken_joints(model)
+    storeys = dict.fromkeys((storey_of(j, model) for j in model.joints), 0)
+    return {
+        **by_kind(whole),
+        "by_side": {side: sum(side in sides_of(j) for j in whole) for side in SIDES},
+        "by_storey": {**storeys, **Counter(storey_of(j, model) for j in whole)},
+        "partly_broken": len(partly),
+        "springs": len(scene.find_engine(yw.JointEngine).breaks),
+        "damaged_at_start": by_kind(damaged),
+    }
+
+
+# --- drift and energy -------------------------------------------------------------------------------------------------
+
+
+def finite(value):
+    """A number for JSON: None instead of NaN and infinities."""
+    return value if math.isfinite(value) else None
+
+
+def rows(monitor):
+    """Samples of a HouseMonitor: list of rows in the order of its columns()."""
+    width = len(monitor.columns())
+    values = monitor.rows
+    return [values[k : k + width] for k in range(0, len(values), width)]
+
+
+def by_storey(values):
+    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ew2, ...]; at least two storeys, None where there is no value."""
+    pairs = [{"ns": finite(ns), "ew": finite(ew)} for ns, ew in zip(values[::2], values[1::2])]
+    pairs += [{"ns": None, "ew": None}] * (2 - len(pairs))
+    return {f"storey{k}": pair for k, pair in enumerate(pairs, 1)}
+
+
+def residual_drift(monitor):
+    """Absolute mean drift over the last RESIDUAL_WINDOW: [ns1, ew1, ns2, ew2, ...] [-]; empty without samples."""
+    samples = rows(monitor)
+    last = [row for row in samples if row[0] > samples[-1][0] - RESIDUAL_WINDOW]
+    places = [k for k, name in enumerate(monitor.columns()) if name.startswith("drift")]
+    return [abs(sum(row[k] for row in last) / len(last)) for k in places] if last else []
+
+
+def energy_balance(terms):
+    """The part `energy` of the summary [J] from the terms of `scene.energy`.
+
+    input: work of the ground motion and potential energy released by gravity since the start. residual: what is stored,
+    moving and dissipated minus the input; residual_fraction: its size by the input, None when there is no input.
+    """
+    into = terms.get("ground_motion", 0.0) - terms["gravity"]
+    residual = scene.energy_residual(terms)
+    return {
+        "input": finite(into),
+        "kinetic": finite(terms["kinetic"]),
+        "elastic": finite(sum(value for name, value in terms.items() if name.startswith("elastic_"))),
+        "dissipated": {name: finite(terms.get(name, 0.0)) for name in DISSIPATED},
+        "residual": finite(residual),
+        "residual_fraction": finite(abs(residual) / into) if into > 0 else None,
+        "ground_motion": finite(terms.get("ground_motion", 0.0)),
+        "gravity_released": finite(-terms["gravity"]),
+    }
+
+
+# --- summary ----------------------------------------------------------------------------------------------------------
+
+
+def record_of(scenario):
+    """The part `record`: the ground motion as applied, or None."""
+    motion = scenario.motion
+    if motion is None:
+        return None
+    pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
+    return {"source": motion.source or motion.name, "pga_gal": pga, "scale": scenario.scale}
+
+
+def versions():
+    """Of YADE, and of the package as its module was built (CMakeLists.txt)."""
+    build = json.loads(_plugin.build_record()[len(host.RECORD_MARK) :])
+    return {"yade": host.host_facts()["yade"], "package": build["package"]}
+
+
+def summary(scenario, model, wall_s):
+    """Content of summary.json for the scene as it is now. wall_s: time spent on the run so far [s]."""
+    monitor = scene.find_engine(yw.HouseMonitor)
+    simulated = round(O.iter * scenario.dt, 9)
+    collapse = finite(monitor.collapseTime)
+    return {
+        "scenario": scenario.name,
+        "model": model.name,
+        "earthquake": scenario.motion is not None,
+        "snow": scenario.snow_depth > 0,
+        "snow_depth_m": scenario.snow_depth,
+        "snow_mass_kg": model.counts()["mass_snow"],
+        "record": record_of(scenario),
+        "dt": scenario.dt,
+        "duration_s": simulated,
+        "steps": O.iter,
+        "wall_s": round(wall_s, 3),
+        "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
+        "threads": O.numThreads,
+        "elements": len(O.bodies),
+        "joints": count_joints(model),
+        "broken": count_broken(model),
+        "tilt_time_s": finite(monitor.tiltTime),
+        "tilt_direction": monitor.tiltDirection or None,
+        "collapsed": collapse is not None,
+        "collapse_time_s": collapse,
+        "peak_drift": by_storey(monitor.peak),
+        "residual_drift": by_storey(residual_drift(monitor)),
+        "energy": energy_balance(scene.energy()),
+        "versions": versions(),
+    }
+
+
+def largest_drift(found):
+    """(drift, storey, 'ns' | 'ew') of the largest peak drift in a summary; zero before the first sample."""
+    known = [(value, storey, way) for storey, ways in found["peak_drift"].items() for way, value in ways.items() if value is not None]
+    return max(known, default=(0.0, "storey1", "ns"))
+
+
+def sentence(found):
+    """One plain sentence about a summary, for people."""
+    broken = f"{found['broken']['total']} of {found['joints']['total']} joints broken"
+    if found["broken"]["damaged_at_start"]["total"]:
+        broken += f" ({found['broken']['damaged_at_start']['total']} more from the start)"
+    if found["snow"]:
+        broken += f", snow {found['snow_mass_kg'] / 1000:.1f} t"
+    return f"House {found['model']} {fate(found)}, {broken}"
+
+
+def fate(found):
+    """What became of the house, in words."""
+    tilt = found["tilt_time_s"]
+    leaning = "" if tilt is None else f"leans {direction_name(found['tilt_direction'])} from {tilt:.1f} s"
+    if found["collapsed"]:
+        return f"{leaning or 'stands'} and collapses at {found['collapse_time_s']:.1f} s"
+    drift, storey, way = largest_drift(found)
+    place = f"largest storey drift {ratio(drift)} {direction_name(way)} in storey {storey[len('storey'):]}"
+    return f"{leaning} but does not collapse: {place}" if leaning else f"stands: {place}"
+
+
+def direction_name(key):
+    """'ns' -> 'N-S'."""
+    return {"ns": "N-S", "ew": "E-W"}.get(key, key)
+
+
+def ratio(drift):
+    """A drift as people of the trade write it: 1/85."""
+    if drift < 1e-3:
+        return "below 1/1000"
+    return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+def table(header, lines):
+    """Text of a CSV file; numbers with 12 digits, zero without a sign."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    for line in lines:
+        writer.writerow(f"{value + 0.0:.12g}" if isinstance(value, float) else value for value in line)
+    return text.getvalue()
+
+
+def history():
+    """Text of history.csv: the monitor's samples."""
+    monitor = scene.find_engine(yw.HouseMonitor)
+    return table(monitor.columns(), rows(monitor))
+
+
+def breaks(model):
+    """Text of breaks.csv: every spring that broke, in order."""
+    header = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")
+    return table(header, (break_row(b, model) for b in scene.find_engine(yw.JointEngine).breaks))
+
+
+def break_row(entry, model):
+    """Values of a JointBreak in the order of breaks.csv."""
+    joint = model.joints[entry.joint]
+    return entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, entry.cause, entry.force
+
+
+def write(folder, found, model):
+    """Write the three files, the summary last: where it is, the others are whole. Returns their paths. Raises OSError."""
+    contents = {HISTORY: history(), BREAKS: breaks(model), SUMMARY: json.dumps(found, indent=1, allow_nan=False) + "\n"}
+    for name, text in contents.items():
+        write_text(folder / name, text)
+    return [folder / name for name in contents]

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs of the scripts: command line -> scene -> steps -> results. `main` is what a script calls.
+
+With YADE's `-x`, or when nobody sits at a terminal, the run goes to its end and writes its results. Otherwise it starts in the
+background, the prompt is the user's, and the results are written when the last step is done.
+"""
+import signal
+import sys
+import threading
+import time
+
+import yade.runtime
+import yade.wrapper as yw
+
+from . import checkpoint, cli, results, scene, views
+from .errors import RunError
+from .export import export_scene
+from .house import HouseError, build_house, load_house
+from .motion import RecordError
+from .progress import Progress
+from .scenario import build
+from .snapshot import marks, solids
+
+CHUNK = 0.05
+"""Simulated time between two looks at signals, progress and the checkpoint's clock; results do not depend on it. [s]"""
+PICTURE = "end_state.png"
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+O = yw.Omega()
+
+
+class Interrupted(Exception):
+    """The user asked the run to stop; the argument is the signal's number."""
+
+
+class Run:
+    """A scenario in YADE and what is to become of it. The number of steps is fixed from the start: duration / dt."""
+
+    def __init__(self, scenario, output):
+        self.scenario, self.output = scenario, output
+        self.steps = round(scenario.duration / scenario.dt)
+        self.wall_s = 0.0  # [s] spent on steps, also by the runs before a resume
+        self.last_saved = None  # step of the last checkpoint
+        self.signal = None
+        self.checkpoint_path = output.folder / checkpoint.NAME
+        cli.prepare_folder(output.folder)
+        resumed = output.resume and self.checkpoint_path.exists()
+        self._load() if resumed else self._start()
+        if output.export:
+            self._export()
+
+    # --- start --------------------------------------------------------------------------------------------------------
+
+    def _start(self):
+        """Build the scene; results of an earlier run go, so that nothing in the folder passes for this run's."""
+        self.model = build(self.scenario)
+        self.identity = self._identity()
+        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, PICTURE, checkpoint.NAME):
+            (self.output.folder / name).unlink(missing_ok=True)
+        if self.output.resume:
+            self.say(f"no checkpoint in {self.output.folder}: starting from the beginning")
+
+    def _load(self):
+        """Go on from the checkpoint."""
+        self.model = build_house(load_house(self.scenario.house), snow_depth=self.scenario.snow_depth)
+        self.identity = self._identity()
+        self.wall_s = checkpoint.load(self.checkpoint_path, self.identity)
+        if O.iter >= self.steps:
+            raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; ask for more")
+        self.last_saved = O.iter
+        (self.output.folder / results.SUMMARY).unlink(missing_ok=True)
+        self.say(f"going on from {O.time:.2f} s")
+
+    def _identity(self):
+        return checkpoint.identity(self.scenario, self.model, results.versions()["package"])
+
+    def _export(self):
+        try:
+            export_scene(self.output.export)
+        except OSError as problem:
+            raise RunError(f"--export {self.output.export}: cannot write it: {problem.strerror}") from None
+
+    def say(self, text):
+        if not self.output.quiet:
+            print(text, flush=True)
+
+    # --- steps --------------------------------------------------------------------------------------------------------
+
+    def complete(self):
+        """All steps that are left, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
+        before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
+        try:
+            with Progress(self.scenario, self.model, self.output.quiet) as progress:
+                while O.iter < self.steps:
+                    self._chunk()
+                    progress.update()
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+        self.write()
+
+    def _on_signal(self, number, _frame):
+        self.signal = number
+
+    def _chunk(self):
+        """Some steps, and a checkpoint when its time has come.
+
+        The last checkpoint comes one step before the end, and the last step by itself: energies and contact points are at hand
+        only after a step, so a resumed run always has one to make.
+        """
+        left = self.steps - O.iter
+        self._advance(min(max(1, left - 1), max(1, round(CHUNK / self.scenario.dt))))
+        if O.iter == self.steps:
+            return
+        if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
+            self.save()
+        if self.signal:
+            raise Interrupted(self.signal)
+
+    def _advance(self, count):
+        """`O.step` in a loop: unlike `O.run`, it throws errors here, keeps its threads, and does not wait in slices of 40 ms."""
+        since = time.perf_counter()
+        try:
+            for _ in range(count):
+                O.step()
+        except RuntimeError as problem:
+            raise RunError(f"{problem}; the run stops at {O.time:.4f} s without results") from None
+        self.wall_s += time.perf_counter() - since
+
+    def _checkpoint_due(self):
+        every = round(self.output.checkpoint_interval / self.scenario.dt)
+        return every > 0 and O.iter // every > (self.last_saved or 0) // every
+
+    def save(self):
+        """Save a checkpoint now, unless checkpoints are switched off."""
+        if self.output.checkpoint_interval > 0:
+            checkpoint.save(self.checkpoint_path, self.identity, self.wall_s)
+            self.last_saved = O.iter
+
+    # --- results ------------------------------------------------------------------------------------------------------
+
+    def write(self):
+        """Write results and picture of the scene as it is now, and say so."""
+        folder = self.output.folder
+        found = results.summary(self.scenario, self.model, self.wall_s)
+        pictures = [self.picture(folder / PICTURE, found)] if self.output.views else []
+        written = pictures + results.write(folder, found, self.model)
+        written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
+        self.say(results.sentence(found))
+        self.say("written: " + ", ".join(str(path) for path in written))
+
+    def picture(self, path, found):
+        """Picture of the scene as it is now; returns the path."""
+        caption = views.Caption(title(self.scenario, self.model), f"after {O.time:.1f} s", results.sentence(found))
+        views.end_state(path, solids(), solids(reference=True), marks(self.model), caption)
+        return path
+
+    # --- live ---------------------------------------------------------------------------------------------------------
+
+    def start(self):
+        """Run in the background; the results follow when the last step is done, however often the run is paused."""
+        self._since = time.perf_counter()
+        O.run(self.steps - O.iter)
+        threading.Thread(target=self._watch, daemon=True).start()
+
+    def _watch(self):
+        while O.iter < self.steps:
+            time.sleep(0.5)
+        O.wait()
+        self.wall_s += time.perf_counter() - self._since
+        self.write()
+
+    def __repr__(self):
+        state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
+        return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
+
+
+def title(scenario, model):
+    """What was done to which house, in words."""
+    shaken = "earthquake" if scenario.motion is not None else ""
+    snow = f"{scenario.snow_depth:g} m of snow" if scenario.snow_depth > 0 else ""
+    return f"House {model.name}: {' and '.join(filter(None, (shaken, snow))) or 'own weight only'}"
+
+
+def main(house, earthquake=False, snow=False, argv=None):
+    """Run a house (name of a shipped one, or path of a YAML file) as the command line says; returns the Run.
+
+    earthquake, snow: what the script's run is about. Bad input, a failed run and a signal end the process with a line on
+    standard error: status 1, 1 and 128 + the signal's number.
+    """
+    try:
+        run = Run(*cli.read(house, earthquake, snow, sys.argv if argv is None else argv))
+        live = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
+        run.start() if live else run.complete()
+    except (RunError, RecordError, HouseError) as problem:
+        leave(f"error: {problem}", 1)
+    except Interrupted as stop:
+        number = stop.args[0]
+        leave(f"stopped at {O.time:.2f} s by {signal.Signals(number).name}; go on with --resume", 128 + number)
+    if live:
+        print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results follow in {run.output.folder}")
+    return run
+
+
+def leave(line, status):
+    """End the process: one line on standard error and an exit status."""
+    print(" ".join(line.split()), file=sys.stderr, flush=True)
+    sys.exit(status)

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Dashpots of many points on shared bodies: balances of momentum and energy, a dense solution, stiff heaps.
+#include "heap.hpp"
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+using namespace timber;
+using namespace timber::shapes;
+
+namespace {
+
+struct Momentum {
+	Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+} // namespace
+
+/// Sum of m v and of I w + x cross m v over free bodies: place the bodies so that each point's arms meet.
+TEST(Balance, MomentumIsConserved)
+{
+	Random random(61);
+	for (const int sweeps : { 0, 1, 2, 5 }) {
+		Heap heap(2, 6, 12, 1e3, 0.5, 500);
+		heap.bodies[0] = body(7, { 1, 2, 3 });
+		std::vector<Vec3> places;
+		for (size_t k = 0; k < heap.bodies.size(); ++k)
+			places.push_back(randomVector(random, 2));
+		for (auto& p : heap.points)
+			p.armB = places[p.bodyA] + p.armA - places[p.bodyB];
+		const auto sum = [&] {
+			Momentum total;
+			for (size_t k = 0; k < places.size(); ++k) {
+				const DashpotBody& b = heap.bodies[k];
+				total.linear += b.newVelocity / b.inverseMass;
+				total.angular += b.inverseInertia.inverse() * b.newSpin + places[k].cross(b.newVelocity / b.inverseMass);
+			}
+			return total;
+		};
+		const Momentum start = sum();
+		heap.solve(1e-4, sweeps);
+		const Momentum end = sum();
+		EXPECT_LT((end.linear - start.linear).norm(), 1e-11); // rounding of momenta of some 100 N s
+		EXPECT_LT((end.angular - start.angular).norm(), 1e-11);
+	}
+}
+
+/// Pure dashpots take energy from any motion, from the first sweep on.
+TEST(Balance, DashpotsNeverAddEnergy)
+{
+	for (unsigned seed = 0; seed < 200; ++seed)
+		for (int sweeps = 1; sweeps <= 8; ++sweeps)
+			for (const double damping : { 10., 1e3, 1e6 }) {
+				Heap heap(seed, 3 + seed % 5, 4 + seed % 17, damping, seed % 3 ? 0.5 : 0);
+				const double before = kineticEnergy(heap.bodies);
+				heap.solve(1e-4, sweeps);
+				EXPECT_LE(kineticEnergy(heap.bodies), before * (1 + rounding)) << "seed " << seed << " sweeps " << sweeps << " damping " << damping;
+			}
+}
+
+namespace {
+
+/// Unknown: all impulses p, stacked. p = h e - h C ((1 - theta) v_before + theta v_after), v_after = v_free + A p, with
+/// theta of each point and direction from its own response (normal; largest tangential eigenvalue).
+Eigen::VectorXd denseSolution(const Heap& heap, double h)
+{
+	const int count = int(heap.points.size());
+	Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * count, 6 * int(heap.bodies.size())), inverseMass = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+	const auto cross = [](const Vec3& r) { return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished(); }; // w -> w x r
+	Eigen::VectorXd before(jacobian.cols()), free(jacobian.cols());
+	for (size_t k = 0; k < heap.bodies.size(); ++k) {
+		const DashpotBody& b = heap.bodies[k];
+		inverseMass.block<3, 3>(6 * k, 6 * k) = b.inverseMass * Mat3::Identity();
+		inverseMass.block<3, 3>(6 * k + 3, 6 * k + 3) = b.inverseInertia;
+		before.segment<6>(6 * k) << b.velocity, b.spin;
+		free.segment<6>(6 * k) << b.newVelocity, b.newSpin;
+	}
+	for (int k = 0; k < count; ++k) {
+		const DashpotPoint& p = heap.points[k];
+		jacobian.block<3, 3>(3 * k, 6 * p.bodyA) -= Mat3::Identity();
+		jacobian.block<3, 3>(3 * k, 6 * p.bodyA + 3) -= cross(p.armA);
+		jacobian.block<3, 3>(3 * k, 6 * p.bodyB) += Mat3::Identity();
+		jacobian.block<3, 3>(3 * k, 6 * p.bodyB + 3) += cross(p.armB);
+	}
+	const Eigen::MatrixXd response = jacobian * inverseMass * jacobian.transpose();
+	Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(3 * count, 3 * count), theta = damping;
+	Eigen::VectorXd elastic(3 * count);
+	for (int k = 0; k < count; ++k) {
+		const DashpotPoint& p = heap.points[k];
+		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along, own = response.block<3, 3>(3 * k, 3 * k);
+		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * own * across).eigenvalues().maxCoeff();
+		const auto weight = [](double x) { return 0.5 + x / (12 + 2 * x); };
+		damping.block<3, 3>(3 * k, 3 * k) = p.normalDamping * along + p.shearDamping * across;
+		theta.block<3, 3>(3 * k, 3 * k) = weight(h * p.normalDamping * p.normal.dot(own * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
+		elastic.segment<3>(3 * k) = p.elasticNormal * p.normal + p.elasticShear;
+	}
+	const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(3 * count, 3 * count);
+	const Eigen::VectorXd right = h * elastic - h * damping * ((one - theta) * jacobian * before + theta * jacobian * free);
+	return (one + h * damping * theta * response).partialPivLu().solve(right);
+}
+
+/// Largest difference of the impulses from the dense solution, relative to the largest impulse.
+double errorOf(Heap heap, const Eigen::VectorXd& dense, double h, int sweeps)
+{
+	heap.solve(h, sweeps);
+	double error = 0;
+	for (size_t k = 0; k < heap.points.size(); ++k)
+		error = std::max(error, (heap.points[k].impulse - dense.segment<3>(3 * k)).norm());
+	return error / dense.lpNorm<Eigen::Infinity>();
+}
+
+} // namespace
+
+/// Sticking points under pressure: the sweeps converge to the solution of the coupled equations, if it has no tension.
+TEST(Coupled, ConvergesToTheDenseSolution)
+{
+	const double h = 1e-4;
+	for (const double damping : { 10., 1e3, 1e5 }) {
+		int compared = 0;
+		for (unsigned seed = 0; seed < 200 && compared < 10; ++seed) {
+			Heap heap(seed, 6, damping > 1e4 ? 3 : 10, damping, 1e9, 0);
+			for (auto& p : heap.points) { // a pressed guess: unlimited friction has a second solution, in which a point lets go
+				p.elasticNormal = 100 * damping;
+				p.impulse = h * p.elasticNormal * p.normal;
+			}
+			const Eigen::VectorXd dense = denseSolution(heap, h);
+			bool pressed = true;
+			for (size_t k = 0; k < heap.points.size(); ++k)
+				pressed = pressed && dense.segment<3>(3 * k).dot(heap.points[k].normal) > 0;
+			if (!pressed) continue;
+			++compared;
+			EXPECT_LT(errorOf(heap, dense, h, 3000), 1e-6) << damping << " " << seed; // linear convergence of the sweeps
+			EXPECT_LT(errorOf(heap, dense, h, 3000), 0.01 * errorOf(heap, dense, h, 2) + 1e-12) << damping << " " << seed;
+		}
+		EXPECT_EQ(compared, 10) << damping;
+	}
+}
+
+/// A foot with four points, as every column has: a few sweeps are enough.
+TEST(Coupled, FaceWithFourPointsNeedsFewSweeps)
+{
+	Heap heap(3, 2, 0, 0, 0);
+	heap.bodies[1] = body(10, { 0.01, 0, -0.1 });
+	heap.bodies[1].inverseInertia = Vec3(1 / 6.2, 1 / 6.2, 1 / 0.02).asDiagonal();
+	for (const double x : { -0.04, 0.04 })
+		for (const double y : { -0.04, 0.04 }) {
+			heap.points.push_back(central(2e4, 1e6));
+			heap.points.back().armB = { x, y, -1.36 };
+			heap.points.back().friction = 1e9;
+		}
+	const Eigen::VectorXd dense = denseSolution(heap, 1e-4);
+	EXPECT_LT(errorOf(heap, dense, 1e-4, 60), 1e-4); // linear convergence of the sweeps
+}
+
+/// h C / m = 1e4 on every point, hundreds of steps, without and with the last step's impulses as a guess.
+TEST(Stiff, HeapComesToRest)
+{
+	for (const bool warm : { false, true })
+		for (unsigned seed = 0; seed < 5; ++seed) {
+			Heap heap(seed, 5, 12, 1e8, 0.5);
+			double before = kineticEnergy(heap.bodies);
+			const double start = before;
+			for (int step = 0; step < 300; ++step) {
+				for (auto& p : heap.points)
+					if (!warm) p.impulse.setZero();
+				heap.solve(1e-4, 4);
+				for (auto& b : heap.bodies) {
+					b.velocity = b.newVelocity;
+					b.spin = b.newSpin;
+				}
+				const double now = kineticEnergy(heap.bodies);
+				ASSERT_TRUE(std::isfinite(now));
+				EXPECT_LE(now, (warm ? start : before) * (1 + rounding)) << seed;
+				before = now;
+			}
+			EXPECT_LT(before, 0.9 * start) << seed;
+		}
+}
+
+TEST(Stiff, MassRatioOfAMillion)
+{
+	for (const double light : { 1e-3, 1. }) {
+		const double heavy = 1e6 * light, v = after(heavy, light, 1, 1e4 * light / 1e-4, 1e-4, 4);
+		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed is left, x = 1e4
+	}
+	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
+	std::vector<DashpotPoint> points { central(1e7), central(1e7) }; // the heavy one falls on the light one on the ground
+	points[1].bodyA = 1;
+	points[1].bodyB = 2;
+	const double before = kineticEnergy(bodies);
+	solveDashpots(bodies, points, 1e-4, 8);
+	EXPECT_LE(kineticEnergy(bodies), before * (1 + rounding));
+	for (const auto& b : bodies)
+		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
+}

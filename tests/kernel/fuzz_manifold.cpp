@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// libFuzzer target, not part of the normal build: bytes become two polyhedra and their placement.
+///   clang++ -std=c++17 -g -O1 -fsanitize=fuzzer,address,undefined -DEIGEN_DONT_VECTORIZE -DEIGEN_DONT_ALIGN -Ipkg \
+///           -isystem /usr/include/eigen3 tests/kernel/fuzz_manifold.cpp pkg/kernel/*.cpp -o fuzz && ./fuzz -max_total_time=60
+/// A refused polyhedron is a valid outcome; anything not finite, unbounded, unsorted or dependent on the cache is not.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <kernel/manifold.hpp>
+
+using namespace timber;
+
+namespace {
+
+/// Reads numbers off the input; zeros when it is used up.
+class Bytes {
+public:
+	Bytes(const std::uint8_t* data, size_t size)
+	        : data(data)
+	        , size(size)
+	{
+	}
+	int byte()
+	{
+		if (size == 0) return 0;
+		--size;
+		return *data++;
+	}
+	/// On a coarse grid, so that coplanar, parallel and coincident features are common; now and then any bits at all.
+	double coordinate()
+	{
+		const int grid = byte();
+		if (grid == 255) return anyBits();
+		const double fine = grid % 16 == 15 ? (byte() - 128) * 1e-7 : 0;
+		return (grid / 16 - 8) / 8. + fine;
+	}
+	Vec3 vector()
+	{
+		const double x = coordinate(), y = coordinate(), z = coordinate();
+		return { x, y, z };
+	}
+	Quat rotation()
+	{
+		if (byte() % 2 == 0) return Quat::Identity();
+		const Quat q(coordinate(), coordinate(), coordinate(), coordinate());
+		return q.coeffs().allFinite() && q.norm() > 1e-6 && q.norm() < 1e6 ? q.normalized() : Quat::Identity();
+	}
+
+private:
+	const std::uint8_t* data;
+	size_t size;
+
+	double anyBits()
+	{
+		std::uint64_t bits = 0;
+		for (int k = 0; k < 8; ++k)
+			bits = bits << 8 | std::uint64_t(byte());
+		double value;
+		std::memcpy(&value, &bits, sizeof value);
+		return value;
+	}
+};
+
+/// A box cut by some planes: nearly always a body.
+Polyhedron readCutBox(Bytes& bytes, int cuts)
+{
+	const Vec3 half = bytes.vector().cwiseAbs() + Vec3::Constant(0.05);
+	std::vector<HalfSpace> planes;
+	for (int k = 0; k < 3; ++k)
+		for (const double side : { -1., 1. })
+			planes.push_back({ side * Vec3::Unit(k), half[k] });
+	for (int k = 0; k < cuts; ++k) {
+		const Vec3 normal = bytes.vector();
+		planes.push_back({ normal, normal.cwiseAbs().dot(half) * (bytes.byte() + 1) / 256 });
+	}
+	return Polyhedron::fromHalfSpaces(planes);
+}
+
+Polyhedron readPoints(Bytes& bytes, int count)
+{
+	std::vector<Vec3> points;
+	for (int k = 0; k < count; ++k)
+		points.push_back(bytes.vector());
+	return Polyhedron::fromVertices(points);
+}
+
+RoundedPolyhedron readBody(Bytes& bytes)
+{
+	const int kind = bytes.byte();
+	const Polyhedron shape = kind % 8 == 0 ? readPoints(bytes, 4 + kind / 8 % 8) : readCutBox(bytes, kind % 8 - 1);
+	std::vector<Vec3> points = shape.vertices;
+	for (Vec3& p : points)
+		p *= std::pow(10, kind / 64 - 2);
+	return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), bytes.byte() % 2 ? 0 : shape.thickness() * std::pow(10, kind / 64 - 3));
+}
+
+void require(bool condition, const char* what)
+{
+	if (condition) return;
+	std::cerr << "fuzz_manifold: " << what << std::endl;
+	std::abort();
+}
+
+void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const std::vector<ContactPoint>& points)
+{
+	Vec3 axis;
+	const double gap = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
+	const double limit = a.radius + b.radius + std::max({ -gap, a.coreHalfThickness, b.coreHalfThickness, 1e-4 });
+	require(gap >= 0 || !points.empty(), "overlapping cores without a point");
+	for (size_t k = 0; k < points.size(); ++k) {
+		const ContactPoint& p = points[k];
+		require(p.position.allFinite() && p.normal.allFinite() && std::isfinite(p.overlap), "not finite");
+		require(std::abs(p.normal.norm() - 1) < 1e-9, "normal is no unit vector");
+		require(p.overlap > 0 && p.overlap <= limit * (1 + 1e-9) + 1e-9, "overlap out of bounds");
+		require(k == 0 || points[k - 1].id < p.id, "ids not sorted or not unique");
+	}
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
+{
+	Bytes bytes(data, size);
+	try {
+		const RoundedPolyhedron a = readBody(bytes), b = readBody(bytes);
+		const int switches = bytes.byte();
+		const Patterns patterns { (switches & 1) != 0, (switches & 2) != 0 };
+		const Pose poseA { Vec3::Zero(), bytes.rotation() };
+		CandidateCache cache;
+		std::vector<ContactPoint> points, fresh;
+		for (int step = 0; step < 3; ++step) {
+			const Pose poseB { bytes.vector() * (a.reach + b.reach), bytes.rotation() };
+			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0; // placements are checked by the caller
+			updateManifold(a, b, poseA, poseB, patterns, cache, points);
+			check(a, b, poseA, poseB, points);
+			CandidateCache empty;
+			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
+			require(points.size() == fresh.size(), "the cache changes the result");
+		}
+	} catch (const PolyhedronError&) {
+	}
+	return 0;
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Pairs and heaps of bodies with contact points, for the tests of the dashpots. SI units.
+#pragma once
+#include "shapes.hpp"
+#include <algorithm>
+#include <kernel/dashpots.hpp>
+
+namespace timber::shapes {
+
+/// One impulse is some ten products: relative rounding.
+constexpr double rounding = 1e-13;
+
+inline DashpotBody body(double mass, const Vec3& velocity)
+{
+	const double inertia = 0.1 * mass; // of a sphere of about 0.5 m
+	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0, mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
+}
+
+/// A point between bodies 0 and 1 on the line through their centres; the normal is z.
+inline DashpotPoint central(double damping, double elastic = 0)
+{
+	DashpotPoint p {};
+	p.bodyB = 1;
+	p.armA = p.armB = p.elasticShear = p.impulse = Vec3::Zero();
+	p.normal = Vec3::UnitZ();
+	p.elasticNormal = elastic;
+	p.normalDamping = p.shearDamping = damping;
+	p.friction = 0.5;
+	return p;
+}
+
+/// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.
+inline double after(double massA, double massB, double speed, double damping, double h, int sweeps)
+{
+	std::vector<DashpotBody> bodies { body(massA, Vec3::Zero()), body(massB, { 0, 0, -speed }) };
+	std::vector<DashpotPoint> points { central(damping) };
+	solveDashpots(bodies, points, h, sweeps);
+	return (bodies[1].newVelocity - bodies[0].newVelocity).z();
+}
+
+inline double kineticEnergy(const std::vector<DashpotBody>& bodies)
+{
+	double energy = 0;
+	for (const auto& b : bodies)
+		if (b.inverseMass > 0) energy += 0.5 * b.newVelocity.squaredNorm() / b.inverseMass + 0.5 * b.newSpin.dot(b.inverseInertia.inverse() * b.newSpin);
+	return energy;
+}
+
+/// Some bodies (the first one fixed) and many points between random pairs of them.
+struct Heap {
+	std::vector<DashpotBody> bodies;
+	std::vector<DashpotPoint> points;
+
+	Heap(unsigned seed, int bodyCount, int pointCount, double damping, double friction, double elastic = 0)
+	{
+		Random random(seed);
+		for (int k = 0; k < bodyCount; ++k)
+			add(random, k == 0);
+		for (int k = 0; k < pointCount; ++k) {
+			const int a = int(uniform(random, 0, bodyCount - 1e-9)), b = (a + 1 + int(uniform(random, 0, bodyCount - 1 - 1e-9))) % bodyCount;
+			add(random, a, b, damping, friction, elastic);
+		}
+	}
+	void solve(double h, int sweeps) { solveDashpots(bodies, points, h, sweeps); }
+
+private:
+	void add(Random& random, bool fixed)
+	{
+		const double mass = std::pow(10, uniform(random, -1, 2));
+		const Mat3 axes = randomRotation(random).toRotationMatrix();
+		const Vec3 moments = mass * Vec3(uniform(random, 0.01, 0.1), uniform(random, 0.1, 0.2), uniform(random, 0.1, 0.2));
+		DashpotBody b = body(fixed ? 0 : mass, fixed ? Vec3(Vec3::Zero()) : randomVector(random, 1));
+		b.spin = b.newSpin = fixed ? Vec3(Vec3::Zero()) : randomVector(random, 3);
+		if (!fixed) b.inverseInertia = axes * moments.cwiseInverse().asDiagonal() * axes.transpose();
+		bodies.push_back(b);
+	}
+	void add(Random& random, int a, int b, double damping, double friction, double elastic)
+	{
+		DashpotPoint p = central(damping * std::pow(10, uniform(random, -1, 1)), elastic * uniform(random, 0.5, 1));
+		p.bodyA = a;
+		p.bodyB = b;
+		p.armA = randomVector(random, 0.5);
+		p.armB = randomVector(random, 0.5);
+		p.normal = randomDirection(random);
+		p.friction = friction;
+		p.shearDamping = 0.6 * p.normalDamping;
+		if (elastic > 0) p.elasticShear = uniform(random, 0, 0.5 * elastic) * p.normal.unitOrthogonal();
+		points.push_back(p);
+	}
+};
+
+} // namespace timber::shapes

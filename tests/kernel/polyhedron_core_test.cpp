@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Half-spaces, rounded cores, and the refusal of what is no convex polyhedron.
+#include "topology.hpp"
+#include <algorithm>
+#include <limits>
+
+using namespace timber;
+using namespace timber::shapes;
+
+namespace {
+
+/// Sums of some ten products of numbers of order one: rounding only.
+constexpr double rounding = 1e-13;
+
+void expectRefusal(const std::vector<Vec3>& points, const std::string& part)
+{
+	try {
+		Polyhedron::fromVertices(points);
+		ADD_FAILURE() << "accepted; expected a refusal with: " << part;
+	} catch (const PolyhedronError& error) {
+		EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+	}
+}
+
+} // namespace
+
+TEST(HalfSpaces, RoundTrip)
+{
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 2) }) {
+		const Polyhedron body = Polyhedron::fromVertices(points), again = Polyhedron::fromHalfSpaces(planesOf(body));
+		expectCounts(again, body.vertices.size(), body.edges.size(), body.faces.size());
+		EXPECT_NEAR(massProperties(again).volume, massProperties(body).volume, 1e-12 * massProperties(body).volume); // three-plane solves
+	}
+}
+
+TEST(HalfSpaces, RedundantAndUnnormalisedOnes)
+{
+	auto planes = planesOf(Polyhedron::fromVertices(boxVertices({ 1, 1, 1 })));
+	planes.push_back({ Vec3(1, 1, 0), 5 }); // misses the body
+	planes.push_back({ Vec3(2, 0, 0), 1 }); // the plane x = 0.5 again
+	planes.push_back({ Vec3(1, 1, 1) * 3, 4.5 }); // touches one vertex
+	expectCounts(Polyhedron::fromHalfSpaces(planes), 8, 12, 6);
+}
+
+TEST(HalfSpaces, CornersAtTheOrigin)
+{
+	Random random(8);
+	for (int trial = 0; trial < 50; ++trial) {
+		const auto points = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 }); // degree-4 apex at the origin
+		const Polyhedron body = Polyhedron::fromVertices(moved(points, randomRotation(random), Vec3::Zero()));
+		expectCounts(Polyhedron::fromHalfSpaces(planesOf(body)), 5, 8, 5);
+	}
+}
+
+TEST(HalfSpaces, Refusals)
+{
+	const auto box = planesOf(Polyhedron::fromVertices(boxVertices({ 1, 1, 1 })));
+	auto unbounded = box;
+	unbounded.pop_back();
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(unbounded), PolyhedronError);
+	auto empty = box;
+	empty.push_back({ Vec3(1, 0, 0), -2 });
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(empty), PolyhedronError);
+	auto flat = box;
+	flat.push_back({ Vec3(1, 0, 0), -0.5 });
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(flat), PolyhedronError);
+	auto bad = box;
+	bad.push_back({ Vec3::Zero(), 1 });
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(bad), PolyhedronError);
+	bad.back() = { Vec3(1, 0, 0), std::numeric_limits<double>::quiet_NaN() };
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(bad), PolyhedronError);
+	EXPECT_THROW(Polyhedron::fromHalfSpaces({}), PolyhedronError);
+}
+
+TEST(HalfSpaces, OpenPrismAndHalfSpaceAreUnbounded)
+{
+	const Polyhedron prism = Polyhedron::fromVertices(hexagonalPrismVertices(1, 2));
+	std::vector<HalfSpace> open;
+	for (const Face& face : prism.faces)
+		if (face.plane.normal.z() < 0.5) open.push_back(face.plane);
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(open), PolyhedronError);
+	EXPECT_THROW(Polyhedron::fromHalfSpaces({ { Vec3(0, 0, 1), 1 } }), PolyhedronError);
+	auto tilted = planesOf(Polyhedron::fromVertices(pyramidVertices(1, 1))); // without its base: a cone downwards
+	tilted.erase(std::remove_if(tilted.begin(), tilted.end(), [](const HalfSpace& h) { return h.normal.z() < -0.5; }), tilted.end());
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(tilted), PolyhedronError);
+}
+
+TEST(Core, PlanesMoveByTheRadius)
+{
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 1) }) {
+		const RoundedPolyhedron body = rounded(points, 0.004);
+		expectCounts(body.core, body.sharp.vertices.size(), body.sharp.edges.size(), body.sharp.faces.size());
+		for (const Face& inner : body.core.faces) {
+			const auto& faces = body.sharp.faces;
+			const auto outer = std::max_element(faces.begin(), faces.end(), [&](const Face& p, const Face& q) { return p.plane.normal.dot(inner.plane.normal) < q.plane.normal.dot(inner.plane.normal); });
+			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004, 1e-12); // three-plane solves, metre-sized
+			EXPECT_NEAR(outer->plane.normal.dot(inner.plane.normal), 1, rounding);
+		}
+	}
+}
+
+TEST(Core, DerivedLengths)
+{
+	const RoundedPolyhedron column = roundedBox({ 0.105, 0.105, 2.73 });
+	EXPECT_NEAR(column.radius, 0.0105, rounding);
+	EXPECT_NEAR(column.coreHalfThickness, 0.042, rounding);
+	EXPECT_NEAR(column.reach, Vec3(0.042, 0.042, 1.3545).norm(), rounding);
+	EXPECT_NEAR(column.sharp.shortestEdge(), 0.105, rounding);
+	EXPECT_NEAR(column.sharp.thickness(), 0.105, rounding);
+}
+
+/// Faces of slope 2 h / b that move inwards by r lower the apex by r sqrt(1 + (2 h / b)^2).
+TEST(Core, ApexOfFourFaces)
+{
+	const double base = 1, height = 0.8, r = 0.03;
+	const RoundedPolyhedron body = rounded(pyramidVertices(base, height), r);
+	expectCounts(body.core, 5, 8, 5);
+	double top = 0;
+	for (const Vec3& v : body.core.vertices)
+		top = std::max(top, v.z());
+	EXPECT_NEAR(top, height - r * std::hypot(1, 2 * height / base), 1e-12); // three-plane solves
+}
+
+TEST(Core, Invariance)
+{
+	Random random(9);
+	for (int trial = 0; trial < 20; ++trial) {
+		const auto points = moved(hip.vertices(), randomRotation(random), 1000 * randomDirection(random));
+		expectCounts(rounded(points, 0.01).core, 12, 18, 8);
+	}
+}
+
+TEST(Core, RadiusTooLargeIsRefused)
+{
+	for (const double radius : { 0.05, 0.0501, 1. })
+		EXPECT_THROW(roundedBox({ 0.1, 1, 1 }, radius), PolyhedronError) << radius;
+	EXPECT_NO_THROW(roundedBox({ 0.1, 1, 1 }, 0.0499));
+	try {
+		roundedBox({ 0.1, 1, 1 }, 0.06);
+	} catch (const PolyhedronError& error) {
+		EXPECT_NE(std::string(error.what()).find("0.05"), std::string::npos) << error.what();
+	}
+}
+
+/// Vertices typed to the millimetre, tenth of it and so on make warped faces: no body is refused, no two corners of its
+/// core are so close that they would be one contact twice.
+TEST(Core, WarpedFaces)
+{
+	Random random(10);
+	for (const double grid : { 1e-3, 1e-4, 1e-5, 1e-6 })
+		for (int trial = 0; trial < 60; ++trial) {
+			const auto shape = trial % 3 == 0 ? hip.vertices() : trial % 3 == 1 ? brace.vertices() : boxVertices({ 0.105, 0.12, 2.73 });
+			const auto exact = moved(shape, randomRotation(random), randomVector(random, 3));
+			auto typed = exact;
+			for (Vec3& p : typed)
+				p = (p / grid).array().round() * grid;
+			const RoundedPolyhedron body = rounded(typed, 0.004), wanted = rounded(exact, 0.004);
+			expectSound(body.core, 1e-3); // warpShare
+			EXPECT_GT(body.core.shortestEdge(), 2e-4); // twice flushTolerance
+			EXPECT_NEAR(massProperties(body.sharp).volume, massProperties(wanted.sharp).volume, 0.06 * grid / 1e-3 * massProperties(wanted.sharp).volume); // 1 mm of 45 mm, both sides
+		}
+}
+
+TEST(Refusals, SayWhatIsWrong)
+{
+	const auto box = boxVertices({ 1, 1, 1 });
+	auto bad = box;
+	bad[3].y() = std::numeric_limits<double>::quiet_NaN();
+	expectRefusal(bad, "vertex 3 is not finite");
+	bad[3].y() = std::numeric_limits<double>::infinity();
+	expectRefusal(bad, "vertex 3 is not finite");
+	expectRefusal({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, "at least 4 vertices, got 3");
+	expectRefusal({}, "at least 4 vertices, got 0");
+	bad = box;
+	bad.push_back(box[2]);
+	expectRefusal(bad, "vertices 2 and 8 are the same point");
+	expectRefusal({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 0.5, 2, 0 } }, "in one plane");
+	expectRefusal({ { 0, 0, 0 }, { 1, 1, 1 }, { 2, 2, 2 }, { 3, 3, 3 } }, "in one plane");
+	expectRefusal({ { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }, "same point");
+}
+
+TEST(Refusals, PointsThatAreNoCorners)
+{
+	const auto box = boxVertices({ 1, 1, 1 });
+	const std::vector<Vec3> extras { { 0.1, 0.2, 0.3 }, { 0.5, 0.5, 0 }, { 0.5, 0.1, 0.2 }, { 0, 0, 0.5 }, { 0.5, 0, 0 } }; // inside, on an edge, on faces
+	for (const Vec3& extra : extras) {
+		auto bad = box;
+		bad.push_back(extra);
+		expectRefusal(bad, "vertex 8");
+		bad = box;
+		bad.insert(bad.begin(), extra);
+		expectRefusal(bad, "vertex 0");
+	}
+	auto dented = box; // a vertex pushed in far enough is no corner any more
+	dented[0] *= 0.2;
+	expectRefusal(dented, "not convex");
+}
+
+/// Just below and just above planarShare (1e-6 of the size): a roof on a face is a superfluous vertex or a corner.
+TEST(Refusals, RoofJustBelowAndAboveTheTolerance)
+{
+	auto points = boxVertices({ 1, 1, 1 });
+	points.emplace_back(0, 0, 0.5 + 0.5e-6);
+	expectRefusal(points, "vertex 8");
+	points.back().z() = 0.5 + 1e-5;
+	expectCounts(Polyhedron::fromVertices(points), 9, 16, 9);
+}

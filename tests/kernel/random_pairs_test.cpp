@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Many random pairs, slivers, plates, needles and sizes of 1:1000 among them: the manifold stays finite, bounded,
+/// sorted and free of the cache, whatever the pair.
+#include "shapes.hpp"
+#include <gtest/gtest.h>
+
+using namespace timber;
+using namespace timber::shapes;
+
+namespace {
+
+/// Bodies of 1 mm to 1 m, rounder and flatter ones, up to 1:1000 in their own proportions.
+std::vector<RoundedPolyhedron> randomBodies(Random& random, int wanted, int& refused)
+{
+	std::vector<RoundedPolyhedron> bodies;
+	while (int(bodies.size()) < wanted) {
+		const double size = std::pow(10, uniform(random, -3, 0));
+		Vec3 axes(1, std::pow(10, uniform(random, -1, 0)), std::pow(10, uniform(random, -1, 0)));
+		const int kind = int(uniform(random, 0, 6));
+		if (kind == 0) axes = { 1, 1, 1e-3 };
+		if (kind == 1) axes = { 1, 1e-3, 1e-3 };
+		try {
+			const bool box = kind == 2;
+			auto points = box ? boxVertices(axes * size) : ellipsoidPoints(random, 4 + int(uniform(random, 0, 9)), axes * size);
+			const Quat turn = randomRotation(random);
+			const Polyhedron sharp = Polyhedron::fromVertices(moved(points, turn, -(turn * massProperties(Polyhedron::fromVertices(points)).centroid)));
+			bodies.push_back(RoundedPolyhedron::fromSharp(sharp, uniform(random, 0.02, 0.2) * std::min(sharp.shortestEdge(), sharp.thickness())));
+		} catch (const PolyhedronError&) {
+			++refused;
+		}
+	}
+	return bodies;
+}
+
+double depthOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB)
+{
+	Vec3 axis;
+	const Mat3 rotation = (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix();
+	return std::max(0., -coreGap(a.core, b.core, rotation, poseA.orientation.conjugate() * (poseB.position - poseA.position), axis));
+}
+
+void expectSound(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, double depth, const std::vector<ContactPoint>& points)
+{
+	const double touch = a.radius + b.radius;
+	const double limit = touch + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0., 1e-4 }); // 1e-4: flushTolerance
+	for (size_t k = 0; k < points.size(); ++k) {
+		const ContactPoint& p = points[k];
+		EXPECT_TRUE(p.position.allFinite());
+		EXPECT_NEAR(p.normal.norm(), 1, 1e-12); // products of unit vectors and rotations
+		EXPECT_GT(p.overlap, 0);
+		EXPECT_LE(p.overlap, limit * (1 + 1e-12));
+		EXPECT_LE((p.position - poseB.position).norm(), b.reach + touch + limit);
+		EXPECT_LE((p.position - poseA.position).norm(), a.reach + touch + limit);
+		EXPECT_TRUE(k == 0 || points[k - 1].id < p.id);
+	}
+}
+
+} // namespace
+
+TEST(RandomPairs, TwentyThousand)
+{
+	Random random(71);
+	int refused = 0, touching = 0, deep = 0;
+	const auto bodies = randomBodies(random, 300, refused);
+	EXPECT_LT(refused, 100) << "random points are corners of their hull; only near-degenerate ones may be refused";
+	for (int trial = 0; trial < 20000; ++trial) {
+		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
+		const Vec3 far = trial % 4 == 0 ? Vec3(1000 * randomDirection(random)) : Vec3(Vec3::Zero());
+		const Pose poseA { far, randomRotation(random) };
+		const Vec3& vertex = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
+		const Pose poseB { far + poseA.orientation * vertex + (b.reach + a.radius) * uniform(random, 0, 1.1) * randomDirection(random), randomRotation(random) };
+		const auto points = contacts(a, b, poseA, poseB, { trial % 2 == 0, trial % 3 != 0 });
+		const double depth = depthOf(a, b, poseA, poseB);
+		expectSound(a, b, poseA, poseB, depth, points);
+		touching += !points.empty();
+		deep += depth > 0;
+		ASSERT_FALSE(HasFailure()) << "trial " << trial;
+	}
+	EXPECT_GT(touching, 5000);
+	EXPECT_GT(deep, 2000);
+}
+
+/// Cores that overlap always have a contact point, and each point pushes them apart along the axis of least overlap.
+TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
+{
+	Random random(72);
+	int refused = 0, deep = 0;
+	const auto bodies = randomBodies(random, 200, refused);
+	for (int trial = 0; trial < 2500; ++trial) {
+		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
+		const Pose poseB { a.core.vertices[random() % a.core.vertices.size()] * uniform(random, 0, 1), randomRotation(random) };
+		Vec3 axis;
+		if (coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis) >= 0) continue;
+		++deep;
+		const auto points = contacts(a, b, {}, poseB);
+		EXPECT_FALSE(points.empty()) << trial;
+		for (const auto& p : points)
+			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // outwardCosine, rounded
+	}
+	EXPECT_GT(deep, 1000);
+}
+
+/// One cache per pair along a walk: the same bits as from an empty cache, for bodies of all sizes.
+TEST(RandomPairs, CacheHoldsNoResult)
+{
+	Random random(73);
+	int refused = 0, touching = 0, different = 0;
+	const auto bodies = randomBodies(random, 100, refused);
+	for (int walk = 0; walk < 150; ++walk) {
+		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
+		const Patterns patterns { walk % 2 == 0, walk % 3 != 0 };
+		Pose poseB { a.core.vertices[0] + b.reach * randomDirection(random), randomRotation(random) };
+		CandidateCache cache;
+		std::vector<ContactPoint> points;
+		for (int step = 0; step < 40; ++step) {
+			poseB.position += 0.02 * std::min(a.reach, b.reach) * randomDirection(random);
+			poseB.orientation = (about(randomDirection(random), 0.02) * poseB.orientation).normalized();
+			updateManifold(a, b, {}, poseB, patterns, cache, points);
+			const auto fresh = contacts(a, b, {}, poseB, patterns);
+			bool same = points.size() == fresh.size();
+			for (size_t k = 0; same && k < points.size(); ++k)
+				same = points[k].id == fresh[k].id && points[k].overlap == fresh[k].overlap;
+			different += !same;
+			touching += !points.empty();
+		}
+	}
+	EXPECT_EQ(different, 0);
+	EXPECT_GT(touching, 1000);
+}

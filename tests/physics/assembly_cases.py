@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 6: weight, rest, arches and frames, against statics and the linear model of planar_frame.py.
+
+Steps are 1e-4 s, that of the house scenarios, unless a row says otherwise.
+"""
+import numpy as np
+import yade.wrapper as yw
+import yade_timber as yt
+from cases import G
+from planar_frame import Frame, LinearFrame, Part, Tie, Timber, rectangle
+from planar_scene import advance, append_parts, build_frame, places, recorded, start_in_mode, undamp
+from rows import Registry, Row
+from scipy.optimize import brentq
+from yade.minieigenHP import Vector3
+from yade_timber import scenario, scene
+
+case = Registry()
+O = yw.Omega()
+DT = 1e-4
+"""[s]"""
+
+
+def weight():
+    """Of all free bodies. [N]"""
+    return G * sum(b.state.mass for b in O.bodies if b.dynamic)
+
+
+def load_on_fixed():
+    """Downward sum of the contact and joint forces on the fixed bodies. [N]"""
+    fixed = {b.id for b in O.bodies if not b.dynamic}
+    total = np.zeros(3)
+    for i in O.interactions:
+        for point in yt.contacts(i.id1, i.id2) if i.isReal and (i.id1 in fixed) != (i.id2 in fixed) else []:
+            on_second = point["normal_force"] * point["normal"] + point["shear_force"]
+            total += np.array(on_second) * (1 if i.id2 in fixed else -1)
+    engine = scene.find_engine(yw.JointEngine)
+    for joint in engine.joints if engine else []:
+        if (joint.id1 in fixed) != (joint.id2 in fixed):
+            total += sum((np.array(f) for f in joint.forces), np.zeros(3)) * (1 if joint.id1 in fixed else -1)
+    return -total[2]
+
+
+# --- a stack -----------------------------------------------------------------------------------------------------------
+def build_stack(blocks, widths=(0.35, 0.30)):
+    """Blocks 10 cm high on each other on a fixed plate, alternately of two widths [m]."""
+    O.reset()
+    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    for k in range(blocks):
+        w = widths[k % 2]
+        O.bodies.append(yt.box((w, w, 0.1), (0, 0, 0.05 + 0.1 * k)))
+    O.engines = yt.engines()
+    O.dt = DT
+
+
+@case
+def stack_at_rest(duration=10.0, blocks=20):
+    """A stack settles in the first two seconds and then keeps its place, its weight on the plate to rounding."""
+    build_stack(blocks)
+    advance(2)
+    settled = places()
+    advance(duration - 2)
+    note = f"stack of {blocks}, {duration:g} s"
+    # Weight: an equilibrium has no other error than rounding of some 1e3 N; 1e-14 was seen.
+    # Creep: the last of the settling in, 6e-9 m, against the 0.01 mm of the requirement. Energy: 1e-18 J was seen, 1e-23 of
+    # m g h; it stands for speeds of 1e-10 m/s, the rounding of a position over a step: 1e-16 m / 1e-4 s, times sqrt(noise).
+    return [
+        Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
+        Row("6", "stack: creep after 2 s [m]", 0, abs(places() - settled).max(), bound=1e-7, dt=DT, note=note),
+        Row("6", "stack: kinetic energy [J]", 0, yt.energy()["kinetic"], bound=1e-15, dt=DT, note=note),
+    ]
+
+
+# --- arch and wedge ----------------------------------------------------------------------------------------------------
+TAPER = np.radians(15)
+"""Of the wedge faces of arch and wedge against the vertical. [rad]"""
+
+
+def arch_parts():
+    """A wedge between two blocks that stand on a plate; each face of the wedge lies well inside that of a block."""
+    half = lambda z: 0.15 + (z - 0.4) * np.tan(TAPER)  # noqa: E731
+    key = np.array([[-half(0.25), 0.25], [half(0.25), 0.25], [half(0.55), 0.55], [-half(0.55), 0.55]])
+    left = np.array([[-0.7, 0], [-half(0), 0], [-half(0.7), 0.7], [-0.7, 0.7]])
+    right = (left * [-1, 1])[::-1]
+    plate = rectangle(-3, -0.3, 3, 0)
+    return [Part("plate", plate, 1.0, True), Part("left", left, 0.4), Part("right", right, 0.4), Part("key", key, 0.3)]
+
+
+def critical_friction(parts):
+    """Friction below which the arch must open.
+
+    When it opens, all faces slide: the wedge W presses on its faces at TAPER + phi from their vertical, and thrusts each
+    block by W/2 cot(TAPER + phi); the plate holds a block Wa by tan(phi) (Wa + W/2).
+    """
+    frame = Frame(parts, [], [("plate", "left")])
+    wedge, block = frame.mass[3], frame.mass[1]
+    excess = lambda mu: wedge / 2 / np.tan(TAPER + np.arctan(mu)) - mu * (block + wedge / 2)  # noqa: E731
+    return brentq(excess, 0.01, 2)
+
+
+def run_parts(parts, friction, duration):
+    """Let a scene of prisms fall for a while; returns the displacements (n, 3) [m] and how much of it came in the last half."""
+    O.reset()
+    append_parts(parts, Timber(friction=friction))
+    O.engines = yt.engines()
+    O.dt = DT
+    start = places()
+    advance(duration / 2)
+    half = places()
+    advance(duration / 2)
+    return places() - start, abs(places() - half).max()
+
+
+@case
+def arch_opens_at_the_limit():
+    """Three blocks: with a little more friction than the limit they stand, with a little less they slide."""
+    parts = arch_parts()
+    limit = critical_friction(parts)
+    rows = []
+    # Closed form and run differ by what the elastic faces have given way before friction is mobilised (0.1 mm of 300 mm), well
+    # below the 5 % of distance kept from the limit; 2 % above it stands as well. Standing, it has no creep but rounding.
+    for share, stands in ((0.95, False), (1.05, True), (3.0, True)):
+        moved, creep = run_parts(parts, share * limit, 2.0)
+        rows.append(Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands), float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
+        if stands:
+            rows.append(Row("6", f"arch at {share:g}: creep in the second second [m]", 0, creep, bound=1e-12, dt=DT))
+    return rows
+
+
+def wedge_parts(layers=8, inner=0.15, outer=0.25, height=0.1):
+    """Layers of four blocks between two fixed slopes with nothing below: two boxes and, outside, two with a sloping face."""
+    half = lambda z: inner + outer + (z - layers * height / 2) * np.tan(TAPER)  # noqa: E731
+    low, high = -0.3, layers * height + 0.3
+    slope = np.array([[half(low), low], [half(low) + 0.3, low], [half(high) + 0.3, high], [half(high), high]])
+    parts = [Part("slope", slope, 0.6, True), Part("slope", (slope * [-1, 1])[::-1], 0.6, True)]
+    for z, top in [(k * height, (k + 1) * height) for k in range(layers)]:
+        end = np.array([[inner, z], [half(z), z], [half(top), top], [inner, top]])
+        box = rectangle(0, z, inner, top)
+        parts += [Part("block", corners, 0.4) for corners in (end, (end * [-1, 1])[::-1], box, (box * [-1, 1])[::-1])]
+    return parts
+
+
+@case
+def wedge_of_32():
+    """32 blocks between slopes stand with friction 0.7 and fall through with 0.05."""
+    held, creep = run_parts(wedge_parts(), 0.7, 1.0)
+    kinetic = yt.energy()["kinetic"]
+    force = load_on_fixed()
+    total = weight()
+    lost, _ = run_parts(wedge_parts(), 0.05, 0.5)
+    # As for the stack: the weight to rounding, no creep but rounding (5e-17 m seen), against 0.01 mm of the requirement.
+    return [
+        Row("6", "wedge of 32: force on the slopes [N]", total, force, bound=1e-10, dt=DT, note="friction 0.7"),
+        Row("6", "wedge of 32: creep in 0.5 s [m]", 0, creep, bound=1e-12, dt=DT, note="friction 0.7"),
+        Row("6", "wedge of 32: kinetic energy [J]", 0, kinetic, bound=1e-18, dt=DT, note="friction 0.7"),
+        Row("6", "wedge of 32: falls with friction 0.05 [-]", 1, float(lost[:, 2].min() < -0.1), bound=0, dt=DT),
+    ]
+
+
+# --- one-bay frames ----------------------------------------------------------------------------------------------------
+SPAN, HEIGHT, COLUMN = 1.82, 2.4, 0.105
+"""Between column axes, of the columns, their side. [m]"""
+CORNER_FITTING, BRACING_PLATE = 58800.0, 69580.0
+"""Of one spring (paper, Table 1). [N/m]"""
+
+
+def brace_corners(start, end, depth):
+    """Corners (4, 2) of a bar between two points of the plane [m]."""
+    along = (end - start) / np.linalg.norm(end - start)
+    across = depth / 2 * np.array([-along[1], along[0]])
+    return np.array([start - across, end - across, end + across, start + across])
+
+
+def one_bay_frame(braced):
+    """Two columns and a beam on a fixed plate; the brace hangs in its joints and touches nothing, so that all is linear."""
+    half = COLUMN / 2
+    parts = [
+        Part("plate", rectangle(-0.5, -0.2, SPAN + 0.5, 0), 0.4, True),
+        Part("left", rectangle(-half, 0, half, HEIGHT), COLUMN),
+        Part("right", rectangle(SPAN - half, 0, SPAN + half, HEIGHT), COLUMN),
+        Part("beam", rectangle(-0.2, HEIGHT, SPAN + 0.2, HEIGHT + 0.2), 0.15),
+    ]
+    ends = lambda x, z: np.array([[x - half, z], [x + half, z]])  # noqa: E731
+    ties = [Tie("plate", "left", ends(0, 0), CORNER_FITTING), Tie("plate", "right", ends(SPAN, 0), CORNER_FITTING)]
+    ties += [Tie("left", "beam", ends(0, HEIGHT), CORNER_FITTING), Tie("right", "beam", ends(SPAN, HEIGHT), CORNER_FITTING)]
+    if braced:
+        corners = brace_corners(np.array([0.2, 0.1]), np.array([SPAN - 0.2, HEIGHT - 0.1]), 0.09)
+        parts.append(Part("brace", corners, 0.045))
+        ties.append(Tie("plate", "brace", corners[[0, 3]], BRACING_PLATE))
+        ties.append(Tie("brace", "beam", corners[[1, 2]], BRACING_PLATE))
+    pairs = [("plate", "left"), ("plate", "right"), ("left", "beam"), ("right", "beam")]
+    return Frame(parts, ties, pairs)
+
+
+BEAM = 3
+"""Id of the frame's beam."""
+
+
+def beam_at():
+    """Horizontal position of the beam. [m]"""
+    return O.bodies[BEAM].state.pos[0]
+
+
+def lateral_stiffness(frame, model, name, push=1.0, steps=50):
+    """Push the beam sideways, slowly, until the frame rests; force over displacement against the linear model."""
+    build_frame(frame)
+    advance(3)
+    before = recorded(1, 1e-2, beam_at).mean()
+    for k in range(steps):
+        O.forces.setPermF(BEAM, Vector3(push * (k + 1) / steps, 0, 0))
+        advance(0.04)
+    advance(1)
+    got = push / (recorded(2, 1e-2, beam_at).mean() - before)
+    x = 3 * list(model.bodies).index(BEAM)
+    load = np.zeros(len(model.rest))
+    load[x] = push
+    # The push turns the feet by 8 % of what would lift them, and Hertz's law is not linear: 8 %^2 / 9 = 7e-4, seen to fall to 5e-5
+    # with a third of the push. What is left of the swing of the brace in its undamped joints: 1e-8 m in 1e-5 m.
+    return Row("6", f"{name} frame: lateral stiffness [N/m]", push / model.deflection(load)[x], got, bound=2e-3, dt=DT)
+
+
+def lowest_frequency(frame, model, name, cycles):
+    """Start in the lowest mode, without dashpots, and count swings of the beam against the linear model's eigenvalue."""
+    build_frame(frame)
+    advance(3)
+    undamp()
+    frequencies, shapes = model.modes()
+    shape = shapes[:, 0] / shapes[3 * list(model.bodies).index(BEAM), 0]
+    rest, every = beam_at(), 2e-4
+    start_in_mode(frame, model.bodies, 1e-5 * 2 * np.pi * frequencies[0] * shape)
+    swing = recorded(cycles / frequencies[0], every, beam_at) - rest
+    got = swing_frequency(every * np.arange(len(swing)), swing)
+    # Amplitude 10 um of the 300 um that would lift a foot: Hertz's law softens by its square. Observed: 1e-4.
+    return Row("6", f"{name} frame: lowest frequency [Hz]", frequencies[0], got, bound=1e-3, dt=DT)
+
+
+def swing_frequency(times, x):
+    """From the first to the last upward crossing of zero. [Hz]"""
+    k = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0))
+    ups = times[k] - x[k] * (times[k + 1] - times[k]) / (x[k + 1] - x[k])
+    return (len(ups) - 1) / (ups[-1] - ups[0])
+
+
+@case
+def frames():
+    """Lateral stiffness and lowest frequency of a one-bay frame, without and with a brace."""
+    rows = []
+    for name, cycles in (("unbraced", 8), ("braced", 12)):
+        frame = one_bay_frame(name == "braced")
+        model = LinearFrame(frame)
+        rows += [lateral_stiffness(frame, model, name), lowest_frequency(frame, model, name, cycles)]
+    return rows
+
+
+# --- the house ---------------------------------------------------------------------------------------------------------
+@case
+def house_weight(settle=0.5, average=0.2):
+    """House C2 with 1 m of snow: what it leaves on the fixed foundation is its weight."""
+    scenario.build(scenario.Scenario("weight", "C2", snow_depth=1.0, dt=DT))
+    advance(settle)
+    forces = []
+    for _ in range(10):
+        advance(average / 10)
+        forces.append(load_on_fixed())
+    # What still swings: light beams of the entrance hang in their undamped joints, snow on its soft springs. Observed: XX.
+    return [Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT, note="mean of 0.2 s after 0.5 s")]

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A plane frame (planar_frame.py) as a scene in YADE: x stays x, z stays z, the prisms extend along y."""
+import numpy as np
+import yade.wrapper as yw
+from yade.minieigenHP import Vector3
+from yade_timber import elements, scene
+
+O = yw.Omega()
+UNBREAKABLE = 1e12
+"""[N]"""
+
+
+def extruded(part):
+    """Corners (2n, 3) of a prism [m]."""
+    return np.array([[x, y, z] for y in (-part.width / 2, part.width / 2) for x, z in part.corners])
+
+
+def append_parts(parts, timber):
+    """Append prisms (list of planar_frame.Part) of one material (planar_frame.Timber)."""
+    material = elements.timber(timber.young, timber.poisson, timber.density, timber.friction)
+    for part in parts:
+        O.bodies.append(elements.polyhedron(extruded(part), material, fixed=part.fixed, name=part.name))
+
+
+def build_frame(frame, dt=1e-4, **options):
+    """Empty YADE and build the frame; body ids are the indices of its parts. options: of scene.engines."""
+    O.reset()
+    append_parts(frame.parts, frame.timber)
+    O.engines = scene.engines(**options)
+    O.dt = dt
+    for tie in frame.ties:
+        a, b = frame.index[tie.first], frame.index[tie.second]
+        half = min(frame.parts[a].width, frame.parts[b].width) / 2
+        points = [[x, y, z] for y in (-half, half) for x, z in tie.points]
+        scene.connect(a, b, points, stiffness=(tie.stiffness, tie.stiffness), strength=UNBREAKABLE)
+
+
+def advance(duration):
+    """Run for a time [s], rounded to steps."""
+    O.run(round(duration / O.dt), True)
+
+
+def recorded(duration, every, probe):
+    """Run for a time [s] and return (m, ...) values of probe() at its start and after each `every` seconds."""
+    rows = [probe()]
+    for _ in range(round(duration / every)):
+        for _ in range(round(every / O.dt)):
+            O.step()
+        rows.append(probe())
+    return np.array(rows)
+
+
+def places():
+    """Positions (n, 3) of all bodies [m]."""
+    return np.array([b.state.pos for b in O.bodies])
+
+
+def undamp():
+    """Switch all dashpots off."""
+    for engine in O.engines:
+        if isinstance(engine, yw.InteractionLoop):
+            for functor in engine.physDispatcher.functors:
+                functor.dampingRatio = 0
+    for interaction in O.interactions:
+        if interaction.phys is not None:
+            interaction.phys.dampingRatio = 0
+
+
+def start_in_mode(frame, bodies, shape):
+    """Give the free parts the velocities of a mode shape: (x, z, angle) for each, [m/s], [rad/s]."""
+    for k, (x, z, angle) in zip(bodies, shape.reshape(-1, 3)):
+        body = O.bodies[int(k)]
+        body.state.vel = Vector3(x, 0, z)
+        body.state.angVel = Vector3(0, -angle, 0)  # from x to z is minus about y
+        body.state.angMom = scene.angular_momentum(body)

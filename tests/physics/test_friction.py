@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 2 of the accuracy list. What is compared, and why each bound is what it is: friction_cases.py, path_cases.py."""
+import friction_cases
+import path_cases
+import pytest
+from rows import check
+
+
+@pytest.mark.parametrize("function", friction_cases.case.functions + path_cases.case.functions, ids=lambda f: f.__name__)
+def test(function):
+    check(function())

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 3 of the accuracy list. What is compared, and why each bound is what it is: rocking_cases.py."""
+import pytest
+from rocking_cases import case
+from rows import check
+
+
+@pytest.mark.parametrize("function", case.functions, ids=lambda f: f.__name__)
+def test(function):
+    check(function())
