@@ -5,6 +5,14 @@ namespace yade {
 
 YADE_PLUGIN((TimberJoint)(JointBreak)(JointEngine));
 
+namespace {
+	/// Velocity of a spring's end on body 2 against that on body 1. [m/s]
+	Vector3r partingVelocity(const State& s1, const State& s2, const Vector3r& end1, const Vector3r& end2)
+	{
+		return s2.vel + s2.angVel.cross(end2 - s2.pos) - s1.vel - s1.angVel.cross(end1 - s1.pos);
+	}
+}
+
 void TimberJoint::postLoad(TimberJoint&)
 {
 	if (anchors1.empty()) return;
@@ -66,9 +74,12 @@ void JointEngine::listActive()
 		if (!joints[k]->isFinished()) active.push_back(k);
 }
 
-void JointEngine::breakSpring(size_t joint, size_t spring, const timber::SpringForce& f)
+/// The work of the springs stands at the half step of the velocities; so does the energy that a breaking one releases.
+void JointEngine::breakSpring(size_t joint, const Acting& broken, const State& s1, const State& s2)
 {
 	static const char* const     names[] = { "tension", "compression", "shear" };
+	const timber::SpringForce&   f       = broken.force;
+	const size_t                 spring  = broken.spring;
 	const shared_ptr<JointBreak> entry(new JointBreak);
 	entry->time   = scene->time;
 	entry->joint  = int(joint);
@@ -76,7 +87,7 @@ void JointEngine::breakSpring(size_t joint, size_t spring, const timber::SpringF
 	entry->cause  = names[int(timber::breakCause(f))];
 	entry->force  = f.force.norm();
 	breaks.push_back(entry);
-	released += f.energy;
+	released += f.energy - scene->dt / 2 * f.force.dot(partingVelocity(s1, s2, broken.end1, broken.end2));
 	joints[joint]->broken[spring]    = 1;
 	joints[joint]->forces[spring]    = Vector3r::Zero();
 	joints[joint]->stretches[spring] = 0;
@@ -98,7 +109,7 @@ void JointEngine::act(size_t index)
 	for (const Acting& s : acting) {
 		const Vector3r f = s.force.force;
 		if ((joint.perJoint ? sum : f.norm()) > joint.strength) {
-			breakSpring(index, s.spring, s.force);
+			breakSpring(index, s, s1, s2);
 			continue;
 		}
 		joint.forces[s.spring]    = f;
@@ -120,10 +131,8 @@ Real JointEngine::elasticPower() const
 	for (const size_t index : active) {
 		const TimberJoint& j  = *joints[index];
 		const State &      s1 = *Body::byId(j.id1, scene)->state, &s2 = *Body::byId(j.id2, scene)->state;
-		for (size_t k = 0; k < j.broken.size(); ++k) {
-			const Vector3r v1 = s1.vel + s1.angVel.cross(s1.ori * j.anchors1[k]), v2 = s2.vel + s2.angVel.cross(s2.ori * j.anchors2[k]);
-			power += j.forces[k].dot(v2 - v1);
-		}
+		for (size_t k = 0; k < j.broken.size(); ++k)
+			power += j.forces[k].dot(partingVelocity(s1, s2, s1.pos + s1.ori * j.anchors1[k], s2.pos + s2.ori * j.anchors2[k]));
 	}
 	return power;
 }

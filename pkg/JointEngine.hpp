@@ -63,7 +63,7 @@ class JointEngine : public GlobalEngine {
 
 	void listActive();
 	void act(size_t joint);
-	void breakSpring(size_t joint, size_t spring, const timber::SpringForce&);
+	void breakSpring(size_t joint, const Acting&, const State&, const State&);
 
 public:
 	void                action() override;

@@ -260,6 +260,8 @@ MassProperties massProperties(const Polyhedron& body)
 	return { volume, origin + centre, central.trace() * Mat3::Identity() - central };
 }
 
+/// The best order and signs of the eigenvectors are right-handed by themselves: the traces of the six orders add up to
+/// 2 sum |q_ij| >= 6, so the best is above 1, and a left-handed orthogonal matrix has a trace of at most 1.
 Mat3 principalAxes(const Mat3& inertia)
 {
 	const double offDiagonal = std::max({ std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2)) });
@@ -276,11 +278,6 @@ Mat3 principalAxes(const Mat3& inertia)
 			alignment = axes.trace();
 			best = axes;
 		}
-	}
-	if (best.determinant() < 0) { // mirrored: turn the axis that is least aligned
-		int weakest;
-		best.diagonal().minCoeff(&weakest);
-		best.col(weakest) *= -1;
 	}
 	return best;
 }

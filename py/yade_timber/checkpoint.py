@@ -55,7 +55,7 @@ def save(path, identity, wall_s):
 def load(path, identity):
     """Put the saved scene into YADE; returns the wall time spent on it so far [s].
 
-    Raises RunError when the file is damaged or belongs to a run of another identity; the scene is then as before.
+    Raises RunError when the file is damaged or belongs to a run of another identity.
     """
     path = Path(path)
     try:
@@ -69,7 +69,10 @@ def load(path, identity):
     if not whole:
         raise RunError(f"{path}: damaged, or no checkpoint of this package; run without --resume to start anew")
     _require_same(path, seal["identity"], identity)
-    O.load(str(path), quiet=True)
+    try:
+        O.load(str(path), quiet=True)
+    except Exception as problem:  # whole, but written by other classes than today's
+        raise RunError(f"{path}: YADE cannot load it ({problem}); run without --resume to start anew") from None
     return seal["wall_s"]
 
 

@@ -56,7 +56,7 @@ def parser(script):
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
-    given = parser(script).parse_args(argv[1:])
+    given = parser(script).parse_args(_joined(argv[1:]))
     _check_numbers(given)
     motion = _motion(given, earthquake)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
@@ -66,6 +66,25 @@ def read(house, earthquake, snow, argv):
     folder = Path(given.out) if given.out else Path("results") / script
     export = Path(given.export) if given.export else None
     return scenario, Output(folder, given.resume, not given.no_views, export, given.quiet, given.checkpoint)
+
+
+def _joined(words):
+    """Words of a command line with numbers joined to their options by '=': argparse takes -1e-4 for an option."""
+    joined = []
+    for word in words:
+        if _is_number(word) and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
+def _is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _check_numbers(given):

@@ -2,12 +2,11 @@
 """The scene as JSON, for other solvers."""
 import json
 import math
-import os
-from pathlib import Path
 
 import yade.wrapper as yw
 
 from . import scene
+from .files import write_text
 
 O = yw.Omega()
 
@@ -37,10 +36,7 @@ def export_scene(path):
         "elements": elements,
         "joints": [describe_joint(joint) for joint in engine.joints] if engine else [],
     }
-    path = Path(path)
-    part = path.with_name(path.name + ".part")
-    part.write_text(json.dumps(content, indent=1, allow_nan=False))
-    os.replace(part, path)
+    write_text(path, json.dumps(content, indent=1, allow_nan=False))
 
 
 def describe_material(material):

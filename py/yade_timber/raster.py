@@ -6,12 +6,12 @@ from scipy.ndimage import binary_fill_holes
 SUPERSAMPLING = 2
 LIGHT = np.array([0.35, 0.75, 0.80])
 """Direction to the light, in the picture's axes right, towards the viewer, up; need not be a unit vector."""
-DARKEST = 0.68
+DARKEST = 0.74
 """Brightness of a face that is turned away from the light. [-]"""
-HAZE, HAZE_DEPTH = 0.5, 10.0
+HAZE, HAZE_DEPTH = 0.4, 12.0
 """Share of sky over what lies HAZE_DEPTH [m] behind the front of the house: far walls recede. [-]"""
 EDGE_COLOR = 0.22
-SKY = np.array([0.90, 0.93, 0.96])
+SKY = np.array([0.76, 0.85, 0.93])
 
 
 def shade(solids, view, box, density):

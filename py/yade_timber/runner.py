@@ -159,6 +159,9 @@ class Run:
 
     def start(self):
         """Run in the background; the results follow when the last step is done, however often the run is paused."""
+        if O.iter >= self.steps:
+            self.write()
+            return
         self._since = time.perf_counter()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()

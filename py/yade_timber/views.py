@@ -56,10 +56,10 @@ SIDE = View("Side, seen from the north", (-1, 0, 0), (0, 1, 0), "east", "west")
 PIXELS_PER_METRE = 90
 MARGIN = 0.8
 """Around the house, before and now. [m]"""
-DEPTH_BELOW = 0.6
+DEPTH_BELOW = 0.4
 """How much of the soil is shown. [m]"""
-WIDEST = 26.0
-"""Widest part of the world that a picture shows. [m]"""
+FAR = 8.0
+"""How far from the place of the house wreckage is still shown. [m]"""
 
 MARKERS = {  # colours of Okabe and Ito (2008); shapes differ, too, for print in grey
     "broken": dict(marker="X", markersize=8.5, markerfacecolor="#D55E00", markeredgecolor="white", markeredgewidth=0.9),
@@ -97,11 +97,11 @@ def end_state(path, solids, reference, marks, caption):
 
 def window(view, solids, reference):
     """(left, right, bottom, top) of the picture plane that holds the house, then and now. [m]"""
-    corners = np.vstack([s.vertices for s in [*solids, *reference] if s.kind != "ground"])
-    across, up = corners @ view.right, corners[:, 2]
-    left, right = across.min() - MARGIN, across.max() + MARGIN
-    excess = max(0.0, right - left - WIDEST) / 2
-    return left + excess, right - excess, -DEPTH_BELOW, min(up.max() + MARGIN, WIDEST)
+    now, start = (np.vstack([s.vertices for s in bodies if s.kind != "ground"]) for bodies in (solids, reference))
+    across, place = now @ view.right, start @ view.right
+    left = max(min(across.min(), place.min()), place.min() - FAR) - MARGIN
+    right = min(max(across.max(), place.max()), place.max() + FAR) + MARGIN
+    return left, right, -DEPTH_BELOW, max(now[:, 2].max(), start[:, 2].max()) + MARGIN
 
 
 def draw_view(ax, view, box, solids, reference, marks):
@@ -114,8 +114,8 @@ def draw_view(ax, view, box, solids, reference, marks):
     draw_marks(ax, view, box, depth, marks)
     scale_bar(ax, box)
     ax.set_title(view.name, fontsize=12)
-    ax.text(box[0] + 0.1, box[2] + DEPTH_BELOW / 2, view.left_end, fontsize=10, va="center")
-    ax.text(box[1] - 0.1, box[2] + DEPTH_BELOW / 2, view.right_end, fontsize=10, va="center", ha="right")
+    for end, name, side in ((0, view.left_end, "left"), (1, view.right_end, "right")):
+        ax.annotate(name, (end, 0), (0, -5), "axes fraction", "offset points", fontsize=10, va="top", ha=side)
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
 
 
@@ -130,10 +130,10 @@ def draw_marks(ax, view, box, depth, marks):
 
 
 def scale_bar(ax, box, length=1.0):
-    """A bar of `length` [m] above the ground line, at the right."""
+    """A bar of `length` [m] in the upper right corner."""
     right, up = box[1] - 0.25, box[3] - 0.35
     ax.plot([right - length, right], [up, up], color="black", linewidth=3, solid_capstyle="butt")
-    ax.text(right - length / 2, up - 0.12, f"{length:g} m", ha="center", va="top", fontsize=10)
+    ax.annotate(f"{length:g} m", (right - length / 2, up), (0, -4), textcoords="offset points", fontsize=10, ha="center", va="top")
 
 
 def legend(figure, solids, marks):

@@ -63,7 +63,7 @@ TEST(DeepOverlap, FaceOnFaceGrowsOn)
 TEST(DeepOverlap, FlushFacesStayBoundedAndOutward)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
-	for (const double overlap : { 0.19, 0.199, 0.201, 0.25, 0.4 }) {
+	for (const double overlap : { 0.19, 0.199, 0.19995, 0.201, 0.25, 0.4 }) {
 		const Pose pose { { 0, 0, 1 - overlap }, Quat::Identity() };
 		const auto points = contacts(cube, cube, {}, pose);
 		ASSERT_FALSE(points.empty()) << overlap;

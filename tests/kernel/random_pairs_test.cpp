@@ -2,7 +2,10 @@
 /// Many random pairs, slivers, plates, needles and sizes of 1:1000 among them: the manifold stays finite, bounded,
 /// sorted and free of the cache, whatever the pair.
 #include "shapes.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <utility>
 
 using namespace timber;
 using namespace timber::shapes;
@@ -94,8 +97,14 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 		++deep;
 		const auto points = contacts(a, b, {}, poseB);
 		EXPECT_FALSE(points.empty()) << trial;
-		for (const auto& p : points)
+		std::set<std::pair<Meeting, int>> vertices; // each of them answers to one face
+		for (const auto& p : points) {
 			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // outwardCosine, rounded
+			const Meeting meeting = p.id.meeting();
+			if (meeting == Meeting::VertexFace || meeting == Meeting::FaceVertex) {
+				EXPECT_TRUE(vertices.insert({ meeting, meeting == Meeting::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
+			}
+		}
 	}
 	EXPECT_GT(deep, 1000);
 }

@@ -30,7 +30,9 @@ def scene(bodies, dt, **options):
 
 
 def integrate_first():
-    """Put the integrator in front: a velocity set between two steps then moves the body and reaches the contact law in the same step."""
+    """Put the integrator in front: a velocity set between two steps then moves the body and reaches the contact law in the same
+    step.
+    """
     O.engines = [O.engines[-1]] + O.engines[:-1]
 
 

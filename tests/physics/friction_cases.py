@@ -23,26 +23,43 @@ def place(body, orientation, origin):
 def incline(angle, dt=1e-4, orientation=Quaternion.Identity, origin=Vector3.Zero):
     """Block at rest on a plate inclined towards +x [rad], the whole scene turned by `orientation` and moved to `origin`."""
     tilted = orientation * turned((0, 1, 0), angle)
-    bodies = yt.box(PLATE, (0, 0, -PLATE[2] / 2), None, yt.timber(friction=MU), fixed=True), yt.box(BLOCK, (0, 0, BLOCK[2] / 2), None, yt.timber(friction=MU))
-    for body in bodies:
+    plate = yt.box(PLATE, (0, 0, -PLATE[2] / 2), None, yt.timber(friction=MU), fixed=True)
+    block = yt.box(BLOCK, (0, 0, BLOCK[2] / 2), None, yt.timber(friction=MU))
+    for body in (plate, block):
         place(body, tilted, origin)
-    scene(bodies, dt, gravity=orientation * Vector3(0, 0, -G))
-    return bodies[1], tilted * Vector3(1, 0, 0)
+    scene((plate, block), dt, gravity=orientation * Vector3(0, 0, -G))
+    return block, tilted * Vector3(1, 0, 0)
 
 
 @case
 def sticks_below_the_friction_angle():
-    """10 s at 98 % of tan(phi), after half a second in which the springs take up the load. Nothing creeps: seen 4e-15 m, the last bits of a coordinate."""
+    """10 s at 98 % of tan(phi), after half a second in which the springs take up the load.
+
+    Nothing creeps: seen 4e-15 m, the last bits of a coordinate.
+    """
     block, down = incline(np.arctan(0.98 * MU))
     steps(5000)
     before = block.state.pos
     steps(100000)
-    return [Row("2", "incline at 0.98 tan(phi): creep in 10 s [m]", 0.0, (block.state.pos - before).norm(), bound=1e-12, dt=1e-4, note="rounding")]
+    return [
+        Row(
+            "2",
+            "incline at 0.98 tan(phi): creep in 10 s [m]",
+            0.0,
+            (block.state.pos - before).norm(),
+            bound=1e-12,
+            dt=1e-4,
+            note="rounding",
+        )
+    ]
 
 
 @case
 def slides_above_the_friction_angle():
-    """g (sin - mu cos), from the gain of speed in 0.5 s. A constant force has no dt error: what is left is rounding and the block's swing on its springs; seen 5e-11."""
+    """g (sin - mu cos), from the gain of speed in 0.5 s.
+
+    A constant force has no dt error: what is left is rounding and the block's swing on its springs; seen 5e-11.
+    """
     rows = []
     for share in (1.02, 1.5, 2.0):
         angle = np.arctan(share * MU)
@@ -51,12 +68,24 @@ def slides_above_the_friction_angle():
         speed = block.state.vel.dot(down)
         steps(5000)
         got = (block.state.vel.dot(down) - speed) / 0.5
-        rows.append(Row("2", f"incline at {share:g} tan(phi): acceleration [m/s2]", G * (np.sin(angle) - MU * np.cos(angle)), got, bound=1e-8, dt=1e-4, note="swing of the block on its contact springs"))
+        rows.append(
+            Row(
+                "2",
+                f"incline at {share:g} tan(phi): acceleration [m/s2]",
+                G * (np.sin(angle) - MU * np.cos(angle)),
+                got,
+                bound=1e-8,
+                dt=1e-4,
+                note="swing of the block on its contact springs",
+            )
+        )
     return rows
 
 
 def sliding_run(dt, v=1.0, orientation=Quaternion.Identity, origin=Vector3.Zero):
-    """Block set in motion at v [m/s] on a level plate until it rests: dictionary of distance [m], heat [J] (friction and dashpots), residual of the energy balance [J], end (3,) in the scene's own frame [m]."""
+    """Block set in motion at v [m/s] on a level plate until it rests: dictionary of distance [m], heat [J] (friction and
+    dashpots), residual of the energy balance [J], end (3,) in the scene's own frame [m].
+    """
     block, along = incline(0.0, dt, orientation, origin)
     steps(int(round(0.1 / dt)))
     start, before = block.state.pos, energy_residual(energy())
@@ -81,20 +110,51 @@ def dissipated():
 def sliding_distance():
     """v^2 / (2 mu g), and the heat m v^2 / 2.
 
-    The set speed belongs to half a step before (leapfrog), so the distance is short by v dt / 2: order 1; seen 2.7e-4 at 5e-5 s, of
-    which 2.4e-4 are that half step. The heat knows nothing of it; seen 1e-7, energy that stays in the springs.
+    The set speed belongs to half a step before (leapfrog), so the distance is short by v dt / 2: order 1; seen 2.7e-4 at 5e-5 s,
+    of which 2.4e-4 are that half step. The heat knows nothing of it; seen 1e-7, energy that stays in the springs.
     """
     dts = (4e-4, 2e-4, 1e-4, 5e-5)
     runs = [sliding_run(dt) for dt in dts]
     kinetic = DENSITY * np.prod(BLOCK) / 2
-    rows = series("2", "sliding distance from 1 m/s [m]", 1 / (2 * MU * G), [r["distance"] for r in runs], dts, 4e-4, 0.9, note="leapfrog: speed set at a half step")
-    rows.append(Row("2", "heat of sliding from 1 m/s [J]", kinetic, runs[2]["heat"], bound=1e-6, dt=dts[2], note="energy left in the springs"))
-    return rows + [Row("2", "energy balance of sliding: residual / (m v^2/2) [-]", 0.0, runs[2]["residual"] / kinetic, bound=1e-9, dt=dts[2], note="rounding")]
+    rows = series(
+        "2",
+        "sliding distance from 1 m/s [m]",
+        1 / (2 * MU * G),
+        [r["distance"] for r in runs],
+        dts,
+        4e-4,
+        0.9,
+        note="leapfrog: speed set at a half step",
+    )
+    rows.append(
+        Row(
+            "2",
+            "heat of sliding from 1 m/s [J]",
+            kinetic,
+            runs[2]["heat"],
+            bound=1e-6,
+            dt=dts[2],
+            note="energy left in the springs",
+        )
+    )
+    return rows + [
+        Row(
+            "2",
+            "energy balance of sliding: residual / (m v^2/2) [-]",
+            0.0,
+            runs[2]["residual"] / kinetic,
+            bound=1e-9,
+            dt=dts[2],
+            note="rounding",
+        )
+    ]
 
 
 @case
 def independent_of_place_and_direction():
-    """The sliding run turned into three directions, and 1 km away, ends at the same place of its own frame: seen 3e-14 m and 2e-11 m (a coordinate of 1 km has a last bit of 1e-13 m)."""
+    """The sliding run turned into three directions, and 1 km away, ends at the same place of its own frame: seen 3e-14 m and
+    2e-11 m (a coordinate of 1 km has a last bit of 1e-13 m).
+    """
     reference = sliding_run(1e-4)["end"]
     poses = {
         "turned": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
@@ -103,5 +163,7 @@ def independent_of_place_and_direction():
     rows = []
     for name, where in poses.items():
         off = max((sliding_run(1e-4, orientation=q, origin=o)["end"] - reference).norm() for q, o in where)
-        rows.append(Row("2", f"sliding, {name}: distance from the reference's end [m]", 0.0, off, bound=1e-9, dt=1e-4, note="rounding"))
+        rows.append(
+            Row("2", f"sliding, {name}: distance from the reference's end [m]", 0.0, off, bound=1e-9, dt=1e-4, note="rounding")
+        )
     return rows

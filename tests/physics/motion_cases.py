@@ -19,7 +19,10 @@ MOMENTS = DENSITY * EDGES.prod() / 12 * ((EDGES**2).sum() - EDGES**2)
 """[kg m2]"""
 START = np.array((0.05, 6.0, 0.1))
 """Angular velocity at t = 0: almost about the intermediate axis. [rad/s]"""
-INTEGRATORS = {"SymplecticIntegrator": yw.SymplecticIntegrator, "NewtonIntegrator": lambda: yw.NewtonIntegrator(damping=0, exactAsphericalRot=True)}
+INTEGRATORS = {
+    "SymplecticIntegrator": yw.SymplecticIntegrator,
+    "NewtonIntegrator": lambda: yw.NewtonIntegrator(damping=0, exactAsphericalRot=True),
+}
 
 
 class Jacobi:
@@ -56,7 +59,8 @@ JACOBI = Jacobi(MOMENTS, START)
 
 
 def attitude(time):
-    """Rotation matrix from the body frame of t = 0 to that of `time` [s], by scipy: R' = R [omega], Euler's equations for omega."""
+    """Rotation matrix from the body frame of t = 0 to that of `time` [s], by scipy: R' = R [omega], Euler's equations for omega.
+    """
 
     def rates(t, y):
         r, w = y[:9].reshape(3, 3), y[9:]
@@ -84,7 +88,9 @@ def tumbling(integrator, dt):
 
 
 def tumble(integrator, dt):
-    """Torque-free for three flips: dictionary of the third flip's time [s], largest change of energy and momentum [-], angle between the last attitude and scipy's [rad]."""
+    """Torque-free for three flips: dictionary of the third flip's time [s], largest change of energy and momentum [-], angle
+    between the last attitude and scipy's [rad].
+    """
     body, probe = tumbling(integrator, dt)
     start = body.state.ori
     count = int((JACOBI.flips(FLIPS)[-1] + 0.2) / dt)
@@ -112,7 +118,10 @@ def table(integrator, dts, quantities):
 
 @case
 def symplectic_integrator_flips():
-    """Second order in everything but |L|, which is kept to rounding. Seen at 5e-4 s: flip 1.0e-6, energy 7e-8, attitude 2.3e-5 rad."""
+    """Second order in everything but |L|, which is kept to rounding.
+
+    Seen at 5e-4 s: flip 1.0e-6, energy 7e-8, attitude 2.3e-5 rad.
+    """
     flip = JACOBI.flips(FLIPS)[-1]
     return table(
         "SymplecticIntegrator",
@@ -127,17 +136,32 @@ def symplectic_integrator_flips():
 
 @case
 def symplectic_integrator_does_not_drift():
-    """One minute, 19 flips: energy stays within the band of the first flips, (dt)^2 wide; no drift."""
+    """One minute, 20 flips: energy stays within the band of the first flips, (dt)^2 wide; no drift."""
     body, probe = tumbling("SymplecticIntegrator", 1e-3)
     energy = np.abs(steps(60000, probe, every=20)[:, 1] / JACOBI.twice_energy - 1)
-    return [Row("5", "SymplecticIntegrator: largest change of energy in the last of 60 s [-]", 0.0, energy[-500:].max(), bound=5e-7, dt=1e-3, note="second order; no drift")]
+    return [
+        Row(
+            "5",
+            "SymplecticIntegrator: largest change of energy in the last of 60 s [-]",
+            0.0,
+            energy[-500:].max(),
+            bound=5e-7,
+            dt=1e-3,
+            note="second order; no drift",
+        )
+    ]
 
 
 @case
 def yades_integrator_flips():
-    """YADE's rotation gains energy at order 1.3, which hastens the flips by a third at 2.5e-4 s: why the package has its own. Shown, not judged."""
+    """YADE's rotation gains energy at order 1.3, which hastens the flips by a third at 2.5e-4 s: why the package has its own.
+
+    Shown, not judged.
+    """
     flip = JACOBI.flips(FLIPS)[-1]
-    quantities = {"time of the third flip [s]": ("flip", flip, np.inf, None), "largest change of energy [-]": ("energy", 0.0, np.inf, None)}
+    quantities = {
+        "time of the third flip [s]": ("flip", flip, np.inf, None), "largest change of energy [-]": ("energy", 0.0, np.inf, None)
+    }
     return table("NewtonIntegrator", (1e-3, 5e-4, 2.5e-4), quantities)
 
 
@@ -152,7 +176,20 @@ def fall(dt, speed, time=1.0):
 
 @case
 def free_fall():
-    """Exact to rounding when the leapfrog is given the speed of half a step before, g dt / 2 upward; a body set to rest at t = 0 is late by dt / 2, order 1."""
+    """Exact to rounding when the leapfrog is given the speed of half a step before, g dt / 2 upward; a body set to rest at t = 0
+    is late by dt / 2, order 1.
+    """
     expected, dts = -G / 2, (4e-4, 2e-4, 1e-4)
-    rows = series("5", "free fall for 1 s, at rest at -dt/2 [m]", expected, [fall(dt, 0.0) for dt in dts], dts, 2e-4, 0.9, note="leapfrog: speed set at a half step")
-    return rows + [Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4, note="rounding")]
+    rows = series(
+        "5",
+        "free fall for 1 s, at rest at -dt/2 [m]",
+        expected,
+        [fall(dt, 0.0) for dt in dts],
+        dts,
+        2e-4,
+        0.9,
+        note="leapfrog: speed set at a half step",
+    )
+    return rows + [
+        Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4, note="rounding")
+    ]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 2, friction: the tangential spring along prescribed paths.
 
-Bodies so heavy that they follow the velocity they are given (the elastic law does not know the mass), no dashpots, no gravity: what
-the contact does along a path is then a matter of geometry alone.
+Bodies so heavy that they follow the velocity they are given (the elastic law does not know the mass), no dashpots, no gravity:
+what the contact does along a path is then a matter of geometry alone.
 """
 import dataclasses
 
@@ -56,8 +56,12 @@ def move(block, displacement, count):
 
 def by_count(quantity, expected, work, counts, bound, least_order, note):
     """Rows for paths cut into more and more steps: these scenes have no time scale, the order is that in the length of a step."""
-    rows = series("2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound, least_order, note=note)
-    return [dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None) for row, count in zip(rows, counts)]
+    rows = series(
+        "2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound, least_order, note=note
+    )
+    return [
+        dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None) for row, count in zip(rows, counts)
+    ]
 
 
 def deeper(overlap):
@@ -71,14 +75,24 @@ def elastic_cycle():
     block = pair()[1]
     reach = 0.5 * MU * FORCE / STIFFNESS
     work = sum(move(block, (d, 0, 0), 50) for d in (reach, -2 * reach, reach))
-    return [Row("2", "elastic tangential cycle: work / stored energy [-]", 0.0, work / (STIFFNESS * reach**2 / 2), bound=1e-9, note="rounding")]
+    return [
+        Row(
+            "2",
+            "elastic tangential cycle: work / stored energy [-]",
+            0.0,
+            work / (STIFFNESS * reach**2 / 2),
+            bound=1e-9,
+            note="rounding",
+        )
+    ]
 
 
 @case
 def slip_cycle():
     """Hysteresis of spring and slider: 4 mu N (S - mu N / K_s) a cycle, once the first quarter is past.
 
-    The corners of the loop fall inside a step, where the trapezoid errs by up to K_s ds^2 / 2: order 2, seen 1.6e-6 at 1600 steps.
+    The corners of the loop fall inside a step, where the trapezoid errs by up to K_s ds^2 / 2: order 2, seen 1.6e-6 at 1600
+    steps.
     """
     limit = MU * FORCE / STIFFNESS
     reach = 3 * limit
@@ -88,12 +102,21 @@ def slip_cycle():
         move(block, (reach, 0, 0), count // 4)
         return move(block, (-2 * reach, 0, 0), count // 2) + move(block, (2 * reach, 0, 0), count // 2)
 
-    return by_count("slip cycle: work [J]", 4 * MU * FORCE * (reach - limit), work, (400, 800, 1600), 5e-6, 1.8, "corner of the loop inside a step")
+    return by_count(
+        "slip cycle: work [J]",
+        4 * MU * FORCE * (reach - limit),
+        work,
+        (400, 800, 1600),
+        5e-6,
+        1.8,
+        "corner of the loop inside a step",
+    )
 
 
 @case
 def slip_circle():
-    """The block led on a circle of radius R: the sliders follow on one of radius sqrt(R^2 - l^2), l = mu N / K_s, and take mu N 2 pi sqrt(R^2 - l^2) a turn.
+    """The block led on a circle of radius R: the sliders follow on one of radius sqrt(R^2 - l^2), l = mu N / K_s, and take mu N 2
+    pi sqrt(R^2 - l^2) a turn.
 
     Radial return at the end of each step is first order in the step's angle; seen 9e-4 at 2000 steps.
     """
@@ -106,15 +129,24 @@ def slip_circle():
         move(block, path[0], 100)
         return [sum(move(block, step, 1) for step in np.diff(path, axis=0)) for _ in range(2)][1]
 
-    return by_count("slip on a circle, a turn: work [J]", 2 * np.pi * MU * FORCE * np.sqrt(reach**2 - limit**2), work, (500, 1000, 2000), 2e-3, 0.9, "radial return")
+    return by_count(
+        "slip on a circle, a turn: work [J]",
+        2 * np.pi * MU * FORCE * np.sqrt(reach**2 - limit**2),
+        work,
+        (500, 1000, 2000),
+        2e-3,
+        0.9,
+        "radial return",
+    )
 
 
 @case
 def squeeze_and_shear_cycle():
-    """Shear by s at n1, squeeze to n2, shear back, release, and the other way round: both take (K_s2 - K_s1) s^2 / 2 from whoever moves the block.
+    """Shear by s at n1, squeeze to n2, shear back, release, and the other way round: both take (K_s2 - K_s1) s^2 / 2 from whoever
+    moves the block.
 
-    A spring that kept its length instead of its force while n grows, or its force while n shrinks, would give energy on one of the
-    two ways. The trapezoid is exact on straight parts; rounding remains.
+    A spring that kept its length instead of its force while n grows, or its force while n shrinks, would give energy on one of
+    the two ways. The trapezoid is exact on straight parts; rounding remains.
     """
     squeezed, shift = 1.5 * OVERLAP, 0.3 * MU * FORCE / STIFFNESS
     expected = POINTS * (shear_stiffness(CONSTANT, squeezed) - shear_stiffness(CONSTANT, OVERLAP)) * shift**2 / 2
@@ -123,13 +155,24 @@ def squeeze_and_shear_cycle():
     rows = []
     for name, parts in ways.items():
         block = pair()[1]
-        rows.append(Row("2", f"cycle of shear and squeeze, {name}: work [J]", expected, sum(move(block, part, 50) for part in parts), bound=1e-6, note="rounding"))
+        rows.append(
+            Row(
+                "2",
+                f"cycle of shear and squeeze, {name}: work [J]",
+                expected,
+                sum(move(block, part, 50) for part in parts),
+                bound=1e-6,
+                note="rounding",
+            )
+        )
     return rows
 
 
 @case
 def no_closed_path_gives_energy():
-    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring: the least work is not negative."""
+    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring: the least
+    work is not negative.
+    """
     random, limit = np.random.default_rng(1), MU * FORCE / STIFFNESS
     least = np.inf
     for _ in range(40):
@@ -139,11 +182,22 @@ def no_closed_path_gives_energy():
         parts = [leg * mask for leg in legs for mask in ((1, 1, 0), (0, 0, 1))]
         least = min(least, sum(move(block, part, 20) for part in parts))
     scale = STIFFNESS * limit**2 / 2
-    return [Row("2", "random closed paths: energy given / stored at the limit [-]", 0.0, max(0.0, -least / scale), bound=1e-9, note="rounding; only a gain counts")]
+    return [
+        Row(
+            "2",
+            "random closed paths: energy given / stored at the limit [-]",
+            0.0,
+            max(0.0, -least / scale),
+            bound=1e-9,
+            note="rounding; only a gain counts",
+        )
+    ]
 
 
 def turned_force(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
-    """Sheared pair that turns as a whole by `angle` [rad] in `time` [s]: change of the tangential force in its own frame, share of it."""
+    """Sheared pair that turns as a whole by `angle` [rad] in `time` [s]: change of the tangential force in its own frame, share
+    of it.
+    """
     bodies = pair(dt, friction=1e6, offset=offset)
     move(bodies[1], (1e-6, 2e-6, 0), 50)
     before, starts = shear_force(), [body.state.pos for body in bodies]
@@ -161,10 +215,20 @@ def turned_force(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
 def turns_with_the_pair():
     """A quarter turn in 1 s about x, y and z leaves the tangential force as it was, in the pair's frame.
 
-    Concentric, and with the centres 1 m apart along the face, as a column on the end of a beam. Both err by second order.
+    Concentric, and with the centres 1 m apart along the face, as a column on the end of a beam. Both err by second order: in a
+    step a point moves along the chord, not the arc. Seen 1.1e-3 and 2.9e-3 at 1e-4 s.
     """
     rows, dts = [], (4e-4, 2e-4, 1e-4)
-    for name, offset, bound in (("centres in line", 0.0, 2e-3), ("centres 1 m apart", 1.0, 2e-2)):
+    for name, offset, bound in (("centres in line", 0.0, 2e-3), ("centres 1 m apart", 1.0, 5e-3)):
         got = [max(turned_force(axis, dt, offset) for axis in np.eye(3)) for dt in dts]
-        rows += series("2", f"quarter turn of a sheared pair, {name}: change of force [-]", 0.0, got, dts, bound, 1.8, note="chord instead of arc in a step")
+        rows += series(
+            "2",
+            f"quarter turn of a sheared pair, {name}: change of force [-]",
+            0.0,
+            got,
+            dts,
+            bound,
+            1.8,
+            note="chord instead of arc in a step",
+        )
     return rows

@@ -20,16 +20,17 @@ def bearing_brace(foot, head, run, rise):
     return np.array([[x0, z0], [x0 + run, z0], [x1, z1 - rise], [x1, z1], [x1 - run, z1], [x0, z0 + rise]])
 
 
-def portal():
-    """Frame of a fixed plate, two columns, a beam and a brace that bears on column and plate, and on beam and column."""
+def portal(beam=0.3):
+    """Frame of a fixed plate, two columns, a beam (its depth and width [m]) and a brace that bears on column and plate, and
+    on beam and column."""
     half = COLUMN / 2
     run, rise = 0.08, 0.11
     brace = bearing_brace((half, 0), (SPAN - half, HEIGHT), run, rise)
     parts = [
-        Part("plate", rectangle(-1.0, -0.3, SPAN + 1.0, 0), 0.4, True),
+        Part("plate", rectangle(-4.0, -0.3, SPAN + 4.0, 0), 4.0, True),
         Part("left", rectangle(-half, 0, half, HEIGHT), COLUMN),
         Part("right", rectangle(SPAN - half, 0, SPAN + half, HEIGHT), COLUMN),
-        Part("beam", rectangle(-0.4, HEIGHT, SPAN + 0.4, HEIGHT + 0.3), 0.3),
+        Part("beam", rectangle(-0.4, HEIGHT, SPAN + 0.4, HEIGHT + beam), beam),
         Part("brace", brace, 0.045),
     ]
     ends = lambda x, z: np.array([[x - half, z], [x + half, z]])  # noqa: E731

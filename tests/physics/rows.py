@@ -40,7 +40,9 @@ class Row:
     @property
     def passes(self):
         """Whether the error is within the bound and the order is reached; NaN never is."""
-        return math.isfinite(self.got) and self.error <= self.bound and (self.least_order is None or (self.order or math.nan) >= self.least_order)
+        return math.isfinite(self.got) and self.error <= self.bound and (
+            self.least_order is None or (self.order or math.nan) >= self.least_order
+        )
 
 
 class Registry:
@@ -60,7 +62,8 @@ def check(rows):
     assert rows, "no rows: nothing was compared"
     wrong = [row for row in rows if not row.passes]
     assert not wrong, "\n" + "\n".join(
-        f"{r.item} {r.quantity}: expected {r.expected:.9g}, got {r.got:.9g}, error {r.error:.3g} (bound {r.bound:.3g}), order {r.order} (least {r.least_order}), dt {r.dt}"
+        f"{r.item} {r.quantity}: expected {r.expected:.9g}, got {r.got:.9g}, error {r.error:.3g} (bound {r.bound:.3g}), "
+        f"order {r.order} (least {r.least_order}), dt {r.dt}"
         for r in wrong
     )
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Gap and least overlap of two convex bodies: closed forms, symmetry, and no direction that would part them sooner.
+#include "shapes.hpp"
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace timber;
+using namespace timber::shapes;
+
+namespace {
+
+constexpr double rounding = 1e-13; ///< of placements of metre-sized bodies [m]
+
+struct Placed {
+	Polyhedron a, b;
+	Mat3 rotation;
+	Vec3 translation;
+	double gap(Vec3& axis) const { return coreGap(a, b, rotation, translation, axis); }
+	/// How far B lies beyond A along a direction. [m]
+	double along(const Vec3& direction) const
+	{
+		double farA = -1e9, nearB = 1e9;
+		for (const Vec3& v : a.vertices)
+			farA = std::max(farA, v.dot(direction));
+		for (const Vec3& v : b.vertices)
+			nearB = std::min(nearB, (rotation * v + translation).dot(direction));
+		return nearB - farA;
+	}
+};
+
+Placed randomPair(Random& random, double distance)
+{
+	const auto hull = [&] { return Polyhedron::fromVertices(ellipsoidPoints(random, 4 + int(uniform(random, 0, 5)), { 1, 0.6, 0.4 })); };
+	const Polyhedron a = hull(), b = hull();
+	const Mat3 rotation = randomRotation(random).toRotationMatrix();
+	return { a, b, rotation, distance * randomDirection(random) };
+}
+
+} // namespace
+
+TEST(CoreGap, AlignedBoxes)
+{
+	const Polyhedron box = Polyhedron::fromVertices(boxVertices({ 1, 2, 3 }));
+	Vec3 axis;
+	EXPECT_NEAR(coreGap(box, box, Mat3::Identity(), { 1.5, 0.3, 0.2 }, axis), 0.5, rounding);
+	EXPECT_EQ(axis, Vec3::UnitX());
+	EXPECT_NEAR(coreGap(box, box, Mat3::Identity(), { 0.9, -1.95, 0.2 }, axis), -0.05, rounding);
+	EXPECT_EQ(axis, -Vec3::UnitY());
+}
+
+/// Edges crossed at a right angle, both bars turned by 45 degrees.
+TEST(CoreGap, CrossedEdges)
+{
+	const Polyhedron bar = Polyhedron::fromVertices(boxVertices({ 4, 1, 1 }));
+	const Mat3 turn = (about({ 1, 0, 0 }, -M_PI / 4) * about({ 0, 0, 1 }, M_PI / 2) * about({ 1, 0, 0 }, M_PI / 4)).toRotationMatrix();
+	const Vec3 up = about({ 1, 0, 0 }, -M_PI / 4) * Vec3::UnitZ();
+	for (const double gap : { -0.1, 0.2 }) {
+		Vec3 axis;
+		EXPECT_NEAR(coreGap(bar, bar, turn, (std::sqrt(2.) + gap) * up, axis), gap, rounding);
+		EXPECT_LT((axis - up).norm(), 10 * rounding); // an angle
+	}
+}
+
+/// The largest separation over all directions is a maximum: none of many directions beats it where the bodies overlap.
+TEST(CoreGap, NoDirectionPartsOverlappingBodiesSooner)
+{
+	Random random(81);
+	int overlapping = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		const Placed pair = randomPair(random, uniform(random, 0, 1));
+		Vec3 axis;
+		const double gap = pair.gap(axis);
+		EXPECT_NEAR(axis.norm(), 1, rounding);
+		EXPECT_NEAR(pair.along(axis), gap, rounding);
+		if (gap >= 0) continue;
+		++overlapping;
+		for (int k = 0; k < 300; ++k)
+			EXPECT_LE(pair.along(randomDirection(random)), gap + rounding) << trial;
+	}
+	EXPECT_GT(overlapping, 100);
+}
+
+/// Reflected in a point, both bodies have the same gap along the opposite axis; so have swapped bodies.
+TEST(CoreGap, PointReflectionAndSwap)
+{
+	Random random(82);
+	for (int trial = 0; trial < 300; ++trial) {
+		const Placed pair = randomPair(random, uniform(random, 0, 2));
+		const auto reflected = [](std::vector<Vec3> points) {
+			for (Vec3& p : points)
+				p = -p;
+			return Polyhedron::fromVertices(points);
+		};
+		const Placed mirror { reflected(pair.a.vertices), reflected(pair.b.vertices), pair.rotation, -pair.translation };
+		const Placed swapped { pair.b, pair.a, pair.rotation.transpose(), -(pair.rotation.transpose() * pair.translation) };
+		Vec3 axis, axisMirror, axisSwapped;
+		EXPECT_NEAR(pair.gap(axis), mirror.gap(axisMirror), rounding);
+		EXPECT_NEAR(pair.gap(axis), swapped.gap(axisSwapped), rounding);
+		EXPECT_LT((axis + axisMirror).norm(), 1e-9); // normals of random triangles: rounding over their sharpness
+		EXPECT_LT((axis + pair.rotation * axisSwapped).norm(), 1e-9);
+	}
+}

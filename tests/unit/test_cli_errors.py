@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bad input ends a run script with one line on standard error and status 1, before anything is built or written."""
+import numpy as np
+import pytest
+from yade_timber import cli
+from yade_timber.errors import RunError
+from yade_timber.motion import GroundMotion, write_csv
+from yade_timber.runner import main
+
+
+@pytest.fixture
+def record(tmp_path):
+    """A good record, which the tests damage."""
+    path = tmp_path / "record.csv"
+    write_csv(GroundMotion(0.01, np.ones((50, 3))), path, ["test"])
+    return path
+
+
+@pytest.fixture
+def refused(tmp_path, capsys):
+    """Call a script with options; returns its line on standard error."""
+
+    def call(*options, house="C2", out=tmp_path / "out", earthquake=True):
+        with pytest.raises(SystemExit) as stop:
+            main(house, earthquake=earthquake, argv=["scripts/modelC2_quake.py", "--out", str(out), *map(str, options)])
+        said = capsys.readouterr()
+        assert stop.value.code == 1
+        assert said.err.startswith("error: ") and said.err.count("\n") == 1, said.err
+        assert not (tmp_path / "out" / "summary.json").exists()
+        return said.err
+
+    return call
+
+
+@pytest.mark.parametrize("dt", ["0", "-1e-4", "nan", "inf", "1e-2"])
+def test_time_step(refused, dt):
+    assert "--dt" in refused("--dt", dt) and "0.0005" in refused("--dt", dt)
+
+
+@pytest.mark.parametrize("option", ["--duration", "--scale", "--checkpoint"])
+@pytest.mark.parametrize("value", ["-1", "nan", "inf"])
+def test_numbers_out_of_range(refused, option, value):
+    assert option in refused(option, value) and ">= 0" in refused(option, value)
+
+
+def test_not_a_number(refused):
+    assert "--duration" in refused("--duration", "long")
+
+
+def test_unknown_option(refused):
+    assert "--snow" in refused("--snow", "2")
+    assert "before the script" in refused("-x")
+
+
+def test_no_abbreviations(refused):
+    refused("--dur", "1")
+
+
+def test_unknown_model(refused):
+    assert "unknown house 'D9'" in refused("--duration", 0, house="D9")
+
+
+def test_missing_record(refused, tmp_path):
+    assert "no-such" in refused("--record", tmp_path / "no-such")
+
+
+def test_truncated_record(refused, record):
+    record.write_text("\n".join(record.read_text().splitlines()[:-5]))
+    assert record.name in refused("--record", record)
+
+
+def test_nan_in_record(refused, record):
+    lines = record.read_text().splitlines()
+    record.write_text("\n".join(lines[:-3] + ["nan,1,1"] + lines[-2:]))
+    assert record.name in refused("--record", record)
+
+
+def test_unknown_record_format(refused, record):
+    record.write_text("to be or not to be\n")
+    assert record.name in refused("--record", record)
+
+
+def test_binary_record(refused, record):
+    record.write_bytes(bytes(range(256)) * 4)
+    assert record.name in refused("--record", record)
+
+
+@pytest.mark.parametrize("option", ["--record=x", "--scale=2"])
+def test_no_earthquake_to_change(refused, option):
+    assert "no earthquake" in refused(option, earthquake=False)
+
+
+def test_unwritable_folder(refused, record):
+    """A folder below a file: not even root can write there."""
+    assert "cannot write" in refused("--duration", 0, out=record / "below")
+
+
+def test_unwritable_export(refused, tmp_path):
+    assert "--export" in refused("--duration", 0, "--export", tmp_path / "nowhere" / "scene.json")
+
+
+@pytest.mark.parametrize("content", [b"", b"no checkpoint", b"\n{}", b"\x00" * 1000 + b"\n[1]", b'xyz\n{"sha256": "0"}'])
+def test_damaged_checkpoint(refused, tmp_path, content):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "checkpoint.yade").write_bytes(content)
+    assert "damaged" in refused("--resume")
+
+
+def test_defaults():
+    """Options that are not given come from the motion and the package's constants."""
+    scenario, output = cli.read("C2", True, True, ["scripts/modelC2_snow.py"])
+    assert (scenario.name, scenario.duration, scenario.snow_depth, scenario.scale) == ("modelC2_snow", scenario.motion.duration, 1.0, 1.0)
+    assert str(output.folder) == "results/modelC2_snow" and output.views and not output.resume
+    scenario, _ = cli.read("A", False, True, ["scripts/modelA_snow.py"])
+    assert scenario.motion is None and scenario.duration == cli.QUIET_DURATION
+
+
+def test_record_warnings_are_one_line(monkeypatch, capsys, record):
+    def noisy(path):
+        import warnings
+
+        warnings.warn("samples: 50, header says 60")
+        return GroundMotion(0.01, np.ones((50, 3)))
+
+    monkeypatch.setattr(cli, "read_motion", noisy)
+    cli.read("A", True, False, ["x.py", "--record", str(record)])
+    assert capsys.readouterr().err == "note: samples: 50, header says 60\n"
+
+
+def test_help_names_every_option(capsys):
+    with pytest.raises(SystemExit) as stop:
+        cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
+    assert stop.value.code == 0
+    shown = capsys.readouterr().out
+    for option in ("--duration", "--dt", "--record", "--scale", "--out", "--resume", "--no-views", "--export", "--quiet"):
+        assert option in shown
+
+
+def test_error_is_a_value_error():
+    assert issubclass(RunError, ValueError)

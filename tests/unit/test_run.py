@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""Whole runs of the scripts in YADE processes of their own: results, resume after a kill, interruption, failure, live session."""
+import ast
+import csv
+import hashlib
+import json
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from yade_timber.motion import GroundMotion, write_csv
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+YADE = [shutil.which("yade") or "yade", "-n", "-x", "-j1"]
+SHORT = ["--dt", "2e-4", "--no-views", "--quiet"]
+PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
+    **{f"model{house}_quake": (house, True, False) for house in ("A", "B", "C", "B1", "B2", "C1", "C2")},
+    **{f"model{house}_snow": (house, False, True) for house in "ABC"},
+    **{f"model{house}_snow": (house, True, True) for house in ("B1", "B2", "C1", "C2")},
+}
+KEYS = (
+    "scenario model earthquake snow record dt duration_s steps wall_s real_time_factor threads elements joints broken tilt_time_s collapsed "
+    "collapse_time_s peak_drift residual_drift energy versions"
+).split()
+RUN_TIME = {"wall_s", "real_time_factor"}
+
+
+def run(script, *options, **changes):
+    """CompletedProcess of a script."""
+    command = [*YADE, str(SCRIPTS / f"{script}.py"), *map(str, options)]
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, **changes)
+
+
+def own_errors(process):
+    """Lines on standard error that are not YADE's greeting."""
+    return [line for line in process.stderr.splitlines() if line and not line.startswith(("TCP python", "XMLRPC", "Running script"))]
+
+
+def summary(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.fixture(scope="module")
+def shove(tmp_path_factory):
+    """A record that breaks joints within half a second: 4 g to the east and 2 g to the south, and up."""
+    path = tmp_path_factory.mktemp("record") / "shove.csv"
+    write_csv(GroundMotion(0.01, np.tile([40.0, -20.0, 15.0], (60, 1))), path, ["test"])
+    return path
+
+
+@pytest.fixture(scope="module")
+def straight(tmp_path_factory, shove):
+    """Folder of a run with many broken joints."""
+    folder = tmp_path_factory.mktemp("straight")
+    done = run("modelB1_quake", *SHORT, "--duration", 0.6, "--record", shove, "--out", folder)
+    assert done.returncode == 0 and not own_errors(done), done.stderr
+    return folder
+
+
+def test_fourteen_scripts():
+    """Each script is one call of main with its house and loads."""
+    found = {}
+    for path in SCRIPTS.glob("model*.py"):
+        calls = [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Call) and n.func.id == "main"]
+        given = {k.arg: k.value.value for k in calls[0].keywords}
+        found[path.stem] = (calls[0].args[0].value, given.get("earthquake", False), given.get("snow", False))
+    assert found == PUBLISHED and len(PUBLISHED) == 14
+
+
+def test_summary(straight, shove):
+    found = summary(straight)
+    assert set(KEYS) <= set(found)
+    assert (found["scenario"], found["model"], found["earthquake"], found["snow"]) == ("modelB1_quake", "B1", True, False)
+    assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (3000, 0.6, 2e-4, 1)
+    assert found["record"]["pga_gal"] == {"ns": 2000, "ew": 4000, "ud": 1500} and shove.name in found["record"]["source"]
+    assert found["joints"]["total"] == sum(n for kind, n in found["joints"].items() if kind != "total")
+    assert set(found["broken"]["by_side"]) == {"north", "south", "east", "west", "inside"}
+    assert set(found["broken"]["by_storey"]) == {"1", "2", "entrance"}
+    assert found["broken"]["damaged_at_start"]["column_beam"] == 8
+    for drift in ("peak_drift", "residual_drift"):
+        assert all(found[drift][storey][way] >= 0 for storey in ("storey1", "storey2") for way in ("ns", "ew"))
+    assert set(found["versions"]) == {"yade", "package"} and all(found["versions"].values())
+
+
+def test_broken_joints_agree(straight):
+    """The summary counts what the list of breaks lists: joints whose springs all broke, by storey, and springs."""
+    found, lines = summary(straight)["broken"], list(csv.DictReader(open(straight / "breaks.csv")))
+    assert len(lines) == found["springs"] > 20
+    springs = {}
+    for line in lines:
+        springs.setdefault((line["joint"], line["storey"], line["kind"]), set()).add(line["spring"])
+    whole = [joint for joint, broken in springs.items() if len(broken) == 4]
+    assert len(whole) == found["total"] > 0 and len(springs) - len(whole) == found["partly_broken"]
+    assert sum(kind == "column_beam" for _, _, kind in whole) == found["column_beam"]
+    assert {s: sum(place == s for _, place, _ in whole) for s in found["by_storey"]} == found["by_storey"]
+    assert {line["cause"] for line in lines} <= {"tension", "compression", "shear"}
+
+
+def test_history(straight):
+    """Units in every column; a sample every 0.01 s."""
+    header, *rows = list(csv.reader(open(straight / "history.csv")))
+    assert header[0] == "time [s]" and all(name.endswith("]") and " [" in name for name in header)
+    times = [float(row[0]) for row in rows]
+    assert len(times) in (60, 61) and np.allclose(np.diff(times), 0.01)
+
+
+def test_energy_is_accounted_for(straight):
+    """input = kinetic + elastic + dissipated - residual, as the summary defines it."""
+    energy = summary(straight)["energy"]
+    kept = energy["kinetic"] + energy["elastic"] + sum(energy["dissipated"].values())
+    assert kept - energy["input"] == pytest.approx(energy["residual"], abs=1e-9 * energy["input"])
+    assert energy["residual_fraction"] == pytest.approx(abs(energy["residual"]) / energy["input"])
+
+
+def assert_same_results(one, other):
+    """Byte for byte, but for the wall time."""
+    for name in ("history.csv", "breaks.csv"):
+        assert digest(one / name) == digest(other / name), name
+    first, second = ({k: v for k, v in summary(folder).items() if k not in RUN_TIME} for folder in (one, other))
+    assert json.dumps(first) == json.dumps(second)
+
+
+def test_killed_and_resumed(tmp_path, shove, straight):
+    """SIGKILL right after a checkpoint and again later: the end is the same to the last bit."""
+    options = [*SHORT, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05, "--duration"]
+    victim = subprocess.Popen([*YADE, str(SCRIPTS / "modelB1_quake.py"), *map(str, options), "0.6"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
+    victim.kill()
+    victim.wait()
+    assert not (tmp_path / "summary.json").exists()
+    assert run("modelB1_quake", *options, 0.35, "--resume").returncode == 0  # ends early, goes on later
+    done = run("modelB1_quake", *options, 0.6, "--resume")
+    assert done.returncode == 0, done.stderr
+    assert_same_results(straight, tmp_path)
+
+
+def wait_for(condition, process, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert process.poll() is None and time.monotonic() < end, "the run ended too early or did not begin"
+        time.sleep(0.02)
+
+
+def test_interrupted(tmp_path):
+    """SIGTERM: a checkpoint, one line, status 128 + 15; a checkpoint of another scenario is refused."""
+    victim = subprocess.Popen([*YADE, str(SCRIPTS / "modelA_quake.py"), *SHORT, "--checkpoint", "0.02", "--out", str(tmp_path)], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
+    victim.terminate()
+    _, said = victim.communicate(timeout=60)
+    assert victim.returncode == 128 + signal.SIGTERM and "go on with --resume" in said.splitlines()[-1]
+    other = run("modelA_quake", *SHORT, "--dt", "1e-4", "--out", tmp_path, "--resume")
+    assert other.returncode == 1 and len(own_errors(other)) == 1, other.stderr
+    assert "another scenario: dt is 0.0002 there and 0.0001 here" in other.stderr
+    early = run("modelA_quake", *SHORT, "--duration", "0.001", "--out", tmp_path, "--resume")
+    assert early.returncode == 1 and "ask for more" in early.stderr
+
+
+def test_failed_run_leaves_no_summary(tmp_path):
+    """A ground motion beyond all physics: the health check's line, status 1, and the results of an earlier run are gone."""
+    record = tmp_path / "wild.csv"
+    write_csv(GroundMotion(0.01, np.full((20, 3), 1e5)), record, ["test"])
+    (tmp_path / "summary.json").write_text("{}")
+    done = run("modelA_quake", *SHORT, "--duration", 0.2, "--record", record, "--out", tmp_path)
+    lines = own_errors(done)
+    assert done.returncode == 1 and len(lines) == 1 and "left the physical range" in lines[0] and "without results" in lines[0], done.stderr
+    assert not (tmp_path / "summary.json").exists()
+
+
+def test_words_pictures_export(tmp_path):
+    """Without --quiet: bar, a plain sentence, the files written; all of them are there. Snow only, with the scene exported."""
+    done = run("modelA_snow", "--dt", "2e-4", "--duration", "0.02", "--out", tmp_path / "out", "--export", tmp_path / "scene.json")
+    assert done.returncode == 0, done.stderr
+    assert "House A stands: largest storey drift" in done.stdout and "snow 5.6 t" in done.stdout
+    files = done.stdout.split("written: ")[1].strip().split(", ")
+    assert {Path(name).name for name in files} >= {"summary.json", "history.csv", "breaks.csv", "end_state.png", "checkpoint.yade", "scene.json"}
+    assert all(Path(name).stat().st_size > 0 for name in files) and "0.02 s" in done.stderr
+    assert summary(tmp_path / "out")["record"] is None and not list(tmp_path.rglob(".part*"))
+    assert json.loads((tmp_path / "scene.json").read_text())["joints"]
+
+
+def test_live_session(tmp_path):
+    """Without -x, at a terminal: the scene runs, O, yt and run are there, and the results follow by themselves."""
+    ours, theirs = pty.openpty()
+    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.05", "--no-views", "--out", str(tmp_path)]
+    session = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=subprocess.STDOUT, close_fds=True, env={**os.environ, "TERM": "dumb"})
+    os.close(theirs)
+    try:
+        wait_for(lambda: (tmp_path / "summary.json").exists(), session)
+        said = os.read(ours, 1 << 20).decode(errors="replace")
+    finally:
+        session.kill()
+        session.wait()
+        os.close(ours)
+    assert summary(tmp_path)["steps"] == 250 and "<modelA_snow" in said
