@@ -112,7 +112,7 @@ void ContactForces::storePoints()
 			torque[p.bodyB] += p.armB.cross(f);
 			if (!trackEnergy) continue;
 			bookEnergy(p, s, *pair.phys);
-			elasticNormal += pair.phys->normalEnergy(s, pair.geom->points[i].overlap);
+			elasticNormal += s.energy;
 		}
 		lost += pair.phys->lostEnergy;
 	}
@@ -146,7 +146,7 @@ void ContactForces::action()
 	collectPairs();
 	collectBodies();
 	collectPoints();
-	solver.solve(bodies, points, scene->dt, sweeps);
+	sweepsDone += solver.solve(bodies, points, scene->dt, sweeps, tolerance);
 	storePoints();
 	applyForces();
 }

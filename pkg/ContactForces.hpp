@@ -42,7 +42,9 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 4, , "Gauss-Seidel sweeps for the implicit dashpots; 0: explicit dashpots, as in the paper, stable only for very small steps. [-]"))
+		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit dashpots; 0: explicit dashpots, as in the paper, stable only for very small steps. [-]"))
+		((Real, tolerance, 1e-3, , "The sweeps end once one changes the contact impulses by less than this share. [-]"))
+		((long, sweepsDone, 0, , "Sweeps of all steps so far. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))

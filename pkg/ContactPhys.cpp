@@ -29,10 +29,16 @@ namespace {
 		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
 	}
 
-	/// Relative motion at a contact point, from the velocities that led to the present placement.
-	timber::PointMotion motionAt(const Vector3r& x, const State& s1, const State& s2)
+	/// Relative motion at a contact point, from the velocities that led to the present placement. They belong to the middle of
+	/// the last step, and so do the arms: with those of now, a pair that turns as a whole would seem to slide, by h/2 omega^2 per
+	/// metre between the centres.
+	timber::PointMotion motionAt(const Vector3r& x, const State& s1, const State& s2, Real h)
 	{
-		return { s2.vel + s2.angVel.cross(x - s2.pos) - s1.vel - s1.angVel.cross(x - s1.pos), (s1.angVel + s2.angVel) / 2 };
+		const auto velocity = [&](const State& s) {
+			const Vector3r arm = x - s.pos;
+			return Vector3r(s.vel + s.angVel.cross(arm - h / 2 * s.angVel.cross(arm)));
+		};
+		return { velocity(s2) - velocity(s1), (s1.angVel + s2.angVel) / 2 };
 	}
 
 	bool boundsOverlap(const Body& b1, const Body& b2)
@@ -56,11 +62,11 @@ namespace {
 		/// Returns the closing displacement of the last step. [m]
 		Real step(const timber::ContactPoint& point, bool isNew, timber::PointState& state) const
 		{
-			const timber::PointMotion motion = motionAt(point.position, s1, s2);
+			const timber::PointMotion motion = motionAt(point.position, s1, s2, dt);
 			timber::elasticStep(law, pair, point, motion, dt, isNew, form, state);
 			return -motion.velocity.dot(point.normal) * dt;
 		}
-		Real stored(const timber::PointState& s) const { return law.energy(s.overlap) + timber::shearEnergy(s, pair); }
+		Real stored(const timber::PointState& s) const { return s.energy + timber::shearEnergy(s, pair); }
 
 	public:
 		PairStep(const Law& l, const timber::PairProperties& p, const State& a, const State& b, Real h, timber::NormalForm f)
@@ -94,7 +100,7 @@ namespace {
 				if (!isNew) next[k] = *old++;
 				next[k].id        = points[k].id;
 				const Real closed = step(points[k], isNew, next[k]);
-				if (isNew) lost -= law.energy(next[k].overlap) - law.energy(math::max(Real(0), math::min(next[k].overlap, closed)));
+				if (isNew) lost -= next[k].energy - law.energy(math::max(Real(0), math::min(next[k].overlap, closed)));
 			}
 			for (; old != states.end(); ++old)
 				lost += stored(*old);

@@ -11,7 +11,7 @@ namespace serialization {
 	{
 		ar & BOOST_SERIALIZATION_NVP(s.id.bits);
 		ar & boost::serialization::make_nvp("excess", s.excess) & boost::serialization::make_nvp("overlap", s.overlap);
-		ar & boost::serialization::make_nvp("stiffness", s.stiffness) & boost::serialization::make_nvp("normal", s.normal);
+		ar & boost::serialization::make_nvp("stiffness", s.stiffness) & boost::serialization::make_nvp("normal", s.normal) & boost::serialization::make_nvp("energy", s.energy);
 		ar & boost::serialization::make_nvp("shear", s.shear) & boost::serialization::make_nvp("dashpot", s.dashpot);
 	}
 }
@@ -23,8 +23,6 @@ namespace yade {
 class ManifoldPhys : public IPhys {
 public:
 	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit }; }
-	/// Stored energy of the normal spring of a point with this overlap. [J]
-	virtual Real normalEnergy(const timber::PointState&, Real) const { return 0; }
 	/// Contact points as dictionaries, see ``yade_timber.contacts``.
 	boost::python::list pyStates() const;
 
@@ -47,7 +45,6 @@ REGISTER_SERIALIZABLE(ManifoldPhys);
 
 class TimberPhys : public ManifoldPhys {
 public:
-	Real normalEnergy(const timber::PointState& s, Real overlap) const override { return timber::normalEnergy(law(), s, properties(), overlap); }
 	timber::HertzLaw law() const { return { modulus, radius }; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberPhys, ManifoldPhys, "Hertz contact between two timber elements.",
@@ -62,7 +59,6 @@ REGISTER_SERIALIZABLE(TimberPhys);
 
 class SnowPhys : public ManifoldPhys {
 public:
-	Real normalEnergy(const timber::PointState& s, Real overlap) const override { return timber::normalEnergy(law(), s, properties(), overlap); }
 	timber::LinearLaw law() const { return { stiffness }; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowPhys, ManifoldPhys, "Linear contact of snow with snow or timber.",

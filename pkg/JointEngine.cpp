@@ -6,10 +6,10 @@ namespace yade {
 YADE_PLUGIN((TimberJoint)(JointBreak)(JointEngine));
 
 namespace {
-	/// Velocity of a spring's end on body 2 against that on body 1. [m/s]
-	Vector3r partingVelocity(const State& s1, const State& s2, const Vector3r& end1, const Vector3r& end2)
+	/// Velocity of a spring's end on body 2 as seen from body 1, with which the spring's normal turns. [m/s]
+	Vector3r partingVelocity(const State& s1, const State& s2, const Vector3r& end2)
 	{
-		return s2.vel + s2.angVel.cross(end2 - s2.pos) - s1.vel - s1.angVel.cross(end1 - s1.pos);
+		return s2.vel + s2.angVel.cross(end2 - s2.pos) - s1.vel - s1.angVel.cross(end2 - s1.pos);
 	}
 }
 
@@ -87,7 +87,7 @@ void JointEngine::breakSpring(size_t joint, const Acting& broken, const State& s
 	entry->cause  = names[int(timber::breakCause(f))];
 	entry->force  = f.force.norm();
 	breaks.push_back(entry);
-	released += f.energy - scene->dt / 2 * f.force.dot(partingVelocity(s1, s2, broken.end1, broken.end2));
+	released += f.energy - scene->dt / 2 * f.force.dot(partingVelocity(s1, s2, broken.end2));
 	joints[joint]->broken[spring]    = 1;
 	joints[joint]->forces[spring]    = Vector3r::Zero();
 	joints[joint]->stretches[spring] = 0;
@@ -116,7 +116,7 @@ void JointEngine::act(size_t index)
 		joint.stretches[s.spring] = (s.end2 - s.end1).norm();
 		elastic += s.force.energy;
 		force += f;
-		torque1 += (s.end1 - s1.pos).cross(f);
+		torque1 += (s.end2 - s1.pos).cross(f); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
 		torque2 -= (s.end2 - s2.pos).cross(f);
 	}
 	scene->forces.addForce(joint.id1, force);
@@ -132,7 +132,7 @@ Real JointEngine::elasticPower() const
 		const TimberJoint& j  = *joints[index];
 		const State &      s1 = *Body::byId(j.id1, scene)->state, &s2 = *Body::byId(j.id2, scene)->state;
 		for (size_t k = 0; k < j.broken.size(); ++k)
-			power += j.forces[k].dot(partingVelocity(s1, s2, s1.pos + s1.ori * j.anchors1[k], s2.pos + s2.ori * j.anchors2[k]));
+			power += j.forces[k].dot(partingVelocity(s1, s2, s2.pos + s2.ori * j.anchors2[k]));
 	}
 	return power;
 }

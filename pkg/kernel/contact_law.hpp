@@ -54,6 +54,7 @@ struct PointState {
 	double overlap = 0; ///< counted overlap n = overlap - excess, at most the limit [m]
 	double stiffness = 0; ///< K_n [N/m]
 	double normal = 0; ///< elastic normal force e_n [N]
+	double energy = 0; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
 	Vec3 shear = Vec3::Zero(); ///< elastic tangential force e_s [N]
 	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step [N]
 	Vec3 slide = Vec3::Zero(); ///< tangential displacement of B against A in the last step [m]
@@ -77,12 +78,6 @@ inline double shearEnergy(const PointState& s, const PairProperties& p)
 {
 	const double stiffness = p.shearRatio * s.stiffness;
 	return stiffness > 0 ? s.shear.squaredNorm() / (2 * stiffness) : 0;
-}
-
-/// Stored energy of the normal spring; beyond the limit the force is constant. [J]
-template <class Law> double normalEnergy(const Law& law, const PointState& s, const PairProperties& p, double overlap)
-{
-	return law.energy(s.overlap) + std::max(0., overlap - s.excess - p.overlapLimit) * s.normal;
 }
 
 /// Turns a tangential force with the contact: with the mean spin of the bodies, then into the plane normal to n.
@@ -113,6 +108,8 @@ void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint&
 	state.overlap = std::min(point.overlap - state.excess, pair.overlapLimit);
 	state.stiffness = law.stiffness(state.overlap);
 	state.normal = form == NormalForm::Closed ? law.force(state.overlap) : std::max(0., state.normal + state.stiffness * (state.overlap - before));
+
+	state.energy = law.energy(state.overlap) + (point.overlap - state.excess - state.overlap) * state.normal;
 
 	state.shear = turned(state.shear, motion.spin * dt, point.normal);
 	state.shearBefore = state.shear;

@@ -88,7 +88,8 @@ DashpotSolver::Row DashpotSolver::prepare(const std::vector<DashpotBody>& bodies
 	return row;
 }
 
-void DashpotSolver::relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row)
+/// Returns the squared change of the impulse. [N2 s2]
+double DashpotSolver::relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row)
 {
 	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
 	Vec3 v = relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
@@ -100,11 +101,25 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, con
 	const Vec3 tangential = p.impulse - normal * p.normal;
 	const Vec3 shearError = tangential - row.shearTarget + row.shearRate * row.shearTheta * (v - v.dot(p.normal) * p.normal);
 	const Vec3 impulse = newNormal * p.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, p.friction * newNormal);
-	apply(bodies, p, impulse - p.impulse);
+	const Vec3 change = impulse - p.impulse;
+	apply(bodies, p, change);
 	p.impulse = impulse;
+	return change.squaredNorm();
 }
 
-void DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps)
+/// Returns the squared change of all impulses. [N2 s2]
+double DashpotSolver::sweep(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, bool forwards)
+{
+	const size_t count = points.size();
+	double change = 0;
+	for (size_t k = 0; k < count; ++k) {
+		const size_t place = forwards ? k : count - 1 - k;
+		change += relax(bodies, points[place], rows[place]);
+	}
+	return change;
+}
+
+int DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance)
 {
 	const size_t count = points.size();
 	rows.resize(count);
@@ -115,11 +130,14 @@ void DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotP
 	}
 	for (const DashpotPoint& p : points)
 		apply(bodies, p, p.impulse);
-	for (int sweep = 0; sweep < sweeps; ++sweep)
-		for (size_t k = 0; k < count; ++k) {
-			const size_t place = sweep % 2 == 0 ? k : count - 1 - k;
-			relax(bodies, points[place], rows[place]);
-		}
+	for (int done = 0; done < sweeps; ++done) {
+		const double change = sweep(bodies, points, done % 2 == 0);
+		double size = 0;
+		for (const DashpotPoint& p : points)
+			size += p.impulse.squaredNorm();
+		if (change <= tolerance * tolerance * size) return done + 1;
+	}
+	return sweeps;
 }
 
 } // namespace timber

@@ -4,6 +4,8 @@
 /// Every point joins a feature of core A to a feature of core B and has the overlap r_A + r_B - distance.
 /// A vertex counts against a face while its foot lies in the core face; two edges count while they cross inside both.
 /// A face on a face thus gets a point per supported vertex and per crossing pair of border edges.
+/// Once the cores overlap (deep contact), only points that push along the axis of least overlap count, or one point in the
+/// common part if there is none: the pair is always pushed apart.
 /// Vertices over a border (the normal case in a house, where members are flush) are decided by `Patterns::flushSupports`.
 #pragma once
 #include "polyhedron.hpp"

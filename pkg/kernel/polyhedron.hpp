@@ -38,6 +38,7 @@ struct Polyhedron {
 	std::vector<Edge> edges;
 
 	/// Polyhedron whose corners are exactly these points [m].
+	/// Points nearly in a plane make one face (planarShare; up to warpShare where the faces would not close otherwise).
 	/// Throws PolyhedronError: fewer than 4 points, NaN, two equal, all in a plane, one that is no corner of the hull.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
 	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if empty, flat or unbounded.
@@ -68,7 +69,8 @@ struct RoundedPolyhedron {
 	double reach = 0; ///< distance of the farthest core vertex from the frame's origin [m]
 	double coreHalfThickness = 0; ///< deepest overlap beyond the cores' contact that a face or edge answers to [m]
 
-	/// radius <= 0 takes the paper's 10 % of the shortest edge. Throws PolyhedronError if the core vanishes.
+	/// radius <= 0 takes the paper's 10 % of the shortest edge. Warped faces may become plane in `sharp` (warpShare).
+	/// Throws PolyhedronError if the core vanishes.
 	static RoundedPolyhedron fromSharp(Polyhedron sharp, double radius = 0);
 };
 

@@ -23,7 +23,8 @@ def engines(
     flush_supports=True,
     increment=False,
     damping_ratio=1.0,
-    sweeps=4,
+    sweeps=50,
+    tolerance=1e-3,
     track_energy=True,
     health_check=100,
 ):
@@ -37,7 +38,8 @@ def engines(
     flush_supports whether a vertex exactly over a face's border is supported
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
     damping_ratio  share of critical damping [-]
-    sweeps         Gauss-Seidel sweeps of the implicit dashpots; 0: explicit dashpots as in the paper
+    sweeps         most Gauss-Seidel sweeps of the implicit dashpots; 0: explicit dashpots as in the paper
+    tolerance      share of the contact impulses that the last sweep may change [-]
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
     """
@@ -61,7 +63,7 @@ def engines(
         chain.append(yw.GravityEngine(gravity=Vector3(*gravity), warnOnce=False))
     if ground_motion is not None:
         chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion))
-    chain.append(yw.ContactForces(sweeps=sweeps, trackEnergy=track_energy))
+    chain.append(yw.ContactForces(sweeps=sweeps, tolerance=tolerance, trackEnergy=track_energy))
     chain.append(yw.SymplecticIntegrator())
     if health_check:
         chain.append(yw.HealthCheck(every=health_check))

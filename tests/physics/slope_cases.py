@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 8: every force is minus the slope of its energy, and every torque, by central differences."""
+import numpy as np
+import yade.wrapper as yw
+import yade_timber as yt
+from rows import Registry, Row
+from yade.minieigenHP import Quaternion, Vector3
+from yade_timber.scene import find_engine
+
+case = Registry()
+O = yw.Omega()
+DT = 1e-9
+"""A body is moved by hand within a step, so short that forces change no velocity that counts. [s]"""
+WAY = 1e-8
+"""Of the differences [m]: F'' WAY^2 / 6 is 1e-6 of F for overlaps of 5 um; rounding of the energies 1e-16 J / WAY is less. Also [rad]."""
+LEVER = np.eye(3)
+
+
+def load(bodies):
+    """Two bodies, no gravity, no dashpots, and the integrator first: a velocity moves a body and the laws answer at once."""
+    O.reset()
+    O.bodies.append(bodies)
+    chain = yt.engines(gravity=(0, 0, 0), damping_ratio=0, sweeps=0, health_check=0)
+    O.engines = [chain[-1]] + chain[:-1]
+    O.dt = DT
+
+
+def move(way, angle=(0, 0, 0)):
+    """Move body 1 by way (3,) [m] and turn it by angle (3,) [rad] within a step; returns its force and torque (6,) afterwards."""
+    body = O.bodies[1]
+    body.state.vel = Vector3(*way) / DT
+    body.state.angMom = body.state.ori * Vector3(*[w * i for w, i in zip(body.state.ori.conjugate() * Vector3(*angle) / DT, body.state.inertia)])
+    body.state.angVel = Vector3(*angle) / DT
+    O.step()
+    body.state.vel = body.state.angVel = body.state.angMom = Vector3.Zero
+    return np.array(list(O.forces.f(1)) + list(O.forces.t(1)))
+
+
+def slope(energy, direction):
+    """Force or torque along a direction (6,) and minus the slope of energy() along it; body 1 ends where it began."""
+    way, angle = np.array(direction[:3]) * WAY, np.array(direction[3:]) * WAY
+    move(-way, -angle)
+    low = energy()
+    acting = move(way, angle) @ direction
+    move(way, angle)
+    high = energy()
+    move(-way, -angle)
+    return acting, -(high - low) / (2 * WAY)
+
+
+def contact_energy():
+    """Of normal and tangential springs at the present place. [J]"""
+    solver = find_engine(yw.ContactForces)
+    return solver.elasticNormal + solver.elasticShear
+
+
+def block_on_plate(depth=5e-6):
+    """A turned block pressed into a plate by `depth` [m], with so much friction that it sticks."""
+    rough = yt.timber(friction=50)
+    plate = yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True, material=rough)
+    load([plate, yt.box((0.4, 0.3, 0.2), (0.05, 0.02, 0.1 - depth), Quaternion(Vector3(0, 0, 1), 0.3), rough)])
+    move((0, 0, 0))
+
+
+def compared(name, energy, directions, scale, bound):
+    """Rows: force along each direction against minus the slope of the energy."""
+    rows = []
+    for what, direction in directions.items():
+        acting, expected = slope(energy, np.array(direction, float))
+        rows.append(Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting, error=abs(acting - expected) / scale, bound=bound, note="minus the slope of the energy"))
+    return rows
+
+
+@case
+def contact_normal():
+    """Pressing, tilting: no tangential spring is stretched yet."""
+    block_on_plate()
+    scale = np.linalg.norm(move((0, 0, 0)))
+    # Central differences: (WAY / 5 um)^2 / 16 = 3e-7 for n^1.5; observed XX.
+    return compared("contact", contact_energy, {"pressing": (0, 0, 1, 0, 0, 0), "tilting": (0, 0, 0, 1, 0.5, 0)}, scale, 1e-5)
+
+
+@case
+def contact_tangential():
+    """Sideways and twisted, after the block has been pushed by 0.2 um at constant overlap."""
+    block_on_plate()
+    move((2e-7, 1e-7, 0), (0, 0, 3e-7))
+    scale = np.linalg.norm(move((0, 0, 0))[:2])
+    # The tangential spring is linear as long as the overlap stays: rounding of the energies.
+    return compared("stretched tangential spring", contact_energy, {"east": (1, 0, 0, 0, 0, 0), "north": (0, 1, 0, 0, 0, 0), "twist": (0, 0, 0, 0, 0, 1)}, scale, 1e-5)
+
+
+@case
+def joints():
+    """Springs of equal and of unequal stiffness, stretched by centimetres, along and about all axes."""
+    rows = []
+    for name, stiffness in (("equal", (58800.0, 58800.0)), ("unequal", (90000.0, 30000.0))):
+        load([yt.box((0.2, 0.3, 0.5), (0, 0, 0)), yt.box((0.2, 0.3, 0.5), (0.01, 0.02, 1.0))])
+        points = [[x, y, 0.5] for x in (-0.1, 0.1) for y in (-0.15, 0.15)]
+        yt.connect(0, 1, points, normal=(0.2, 0.1, 1), stiffness=stiffness, strength=1e9)
+        move((0.02, -0.01, 0.03), (0.1, 0.05, -0.2))
+        engine = find_engine(yw.JointEngine)
+        scale = np.linalg.norm(move((0, 0, 0)))
+        directions = {f"axis {k}": row for k, row in enumerate(np.eye(6))}
+        # Springs are linear, turns are not: WAY^2 = 1e-16; what is left is rounding, 1e-14 J / WAY of 5e3 N. Observed: XX.
+        rows += compared(f"joint, {name} stiffnesses, body 2", lambda: engine.elastic, directions, scale, 1e-7)
+        rows += first_body(name, engine, scale)
+    return rows
+
+
+def first_body(name, engine, scale):
+    """Forces on body 1 from balance: no sum of forces, no moment of the pair about any point."""
+    move((0, 0, 0))
+    force = [np.array(O.forces.f(k)) for k in (0, 1)]
+    moment = [np.array(O.forces.t(k)) + np.cross(O.bodies[k].state.pos, force[k]) for k in (0, 1)]
+    # Rounding of some 1e4 N m.
+    return [
+        Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0, np.linalg.norm(sum(force)) / scale, bound=1e-12),
+        Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0, np.linalg.norm(sum(moment)) / scale, bound=1e-12),
+    ]

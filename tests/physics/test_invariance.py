@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 8 of the accuracy list. What is compared, and why each bound is what it is: invariance_cases.py, slope_cases.py."""
+import invariance_cases
+import pytest
+import slope_cases
+from rows import check
+
+
+@pytest.mark.parametrize("function", invariance_cases.case.functions + slope_cases.case.functions, ids=lambda f: f.__name__)
+def test(function):
+    check(function())

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Item 8 of the accuracy list. What is compared, and why each bound is what it is: saving_cases.py."""
+import pytest
+from saving_cases import case
+from rows import check
+
+
+@pytest.mark.parametrize("function", case.functions, ids=lambda f: f.__name__)
+def test(function):
+    check(function())
