@@ -23,7 +23,7 @@ constexpr double flushTolerance = 1e-4;
 
 /// Edges whose directions differ by less (sine of the angle) are parallel and have no crossing point. [-]
 /// Larger drops real crossings; smaller lets the crossing point of nearly parallel edges jump along them.
-constexpr double parallelSine = 1e-3;
+constexpr double parallelSine = 5e-3;
 
 /// Candidate features are kept for a pair until it has moved by this length. [m]
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.

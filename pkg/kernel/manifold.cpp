@@ -278,8 +278,21 @@ namespace {
 					const Edge &ea = pair.a.core.edges[a], &eb = pair.b.core.edges[b];
 					const Vec3& tailA = pair.a.core.vertices[ea.tail];
 					const Vec3& tailB = verticesB[eb.tail];
-					if (segmentDistance(tailA, pair.a.core.vertices[ea.head] - tailA, tailB, verticesB[eb.head] - tailB) <= near) out.push_back({ Meeting::EdgeEdge, int(a), int(b) });
+					const Vec3 spanA = pair.a.core.vertices[ea.head] - tailA, spanB = verticesB[eb.head] - tailB;
+					if (segmentDistance(tailA, spanA, tailB, spanB) <= near && mayCross(ea, tailA, spanA, eb, tailB, spanB)) out.push_back({ Meeting::EdgeEdge, int(a), int(b) });
 				}
+		}
+		/// Two near edges can only come to cross within the skin if they are not too parallel, cross near both spans and look
+		/// towards each other. Half of the near pairs of flush members are none of it. Ill-conditioned crossings are kept.
+		bool mayCross(const Edge& ea, const Vec3& tailA, const Vec3& spanA, const Edge& eb, const Vec3& tailB, const Vec3& spanB) const
+		{
+			const double lengthA = spanA.norm(), lengthB = spanB.norm(), turn = candidateSkin / std::min(pair.a.reach, pair.b.reach);
+			const Crossing c = cross(tailA, spanA / lengthA, tailB, spanB / lengthB);
+			if (c.sine < parallelSine) return c.sine + turn >= parallelSine;
+			if (c.sine < 0.1) return true;
+			const double slack = 3 * (candidateSkin + pair.touch() * turn) / c.sine;
+			if (c.alongA < -slack || c.alongA > lengthA + slack || c.alongB < -slack || c.alongB > lengthB + slack) return false;
+			return c.across.dot(ea.outward) * c.across.dot(pair.rotation * eb.outward) <= 3 * turn / c.sine;
 		}
 		void edgesAgainst(Meeting meeting, const std::vector<Vec3>& points, const Polyhedron& body)
 		{
