@@ -58,32 +58,41 @@ namespace {
 		const State &                     s1, &s2;
 		const Real                        dt;
 		const timber::NormalForm          form;
+		const bool                        placed; ///< the pair is new: its bodies were put where they are, overlap and all
 
-		/// Returns the closing displacement of the last step. [m]
-		Real step(const timber::ContactPoint& point, bool isNew, timber::PointState& state) const
+		void step(const timber::ContactPoint& point, timber::PointState& state) const
 		{
-			const timber::PointMotion motion = motionAt(point.position, s1, s2, dt);
-			timber::elasticStep(law, pair, point, motion, dt, isNew, form, state);
-			return -motion.velocity.dot(point.normal) * dt;
+			timber::elasticStep(law, pair, point, motionAt(point.position, s1, s2, dt), dt, form, state);
 		}
-		Real stored(const timber::PointState& s) const { return s.energy + timber::shearEnergy(s, pair); }
+		/// Energy that goes with a point. Its normal spring has given its own back when the bodies simply parted. [J]
+		Real leaving(const timber::PointState& s) const { return (s.overlap + s.closing > 0 ? s.energy : 0) + timber::shearEnergy(s, pair); }
+
+		/// Gives a new point the overlap it may start with; returns what it takes of `energy`. [J]
+		Real bear(const timber::ContactPoint& point, Real energy, timber::PointState& state) const
+		{
+			const Real approach = math::max(Real(0), Real(-motionAt(point.position, s1, s2, dt).velocity.dot(point.normal) * dt));
+			const Real counted  = timber::bornOverlap(law, point.overlap, approach, energy);
+			state.excess        = point.overlap - counted;
+			return law.energy(counted) - law.energy(math::min(counted, approach));
+		}
 
 	public:
-		PairStep(const Law& l, const timber::PairProperties& p, const State& a, const State& b, Real h, timber::NormalForm f)
+		PairStep(const Law& l, const timber::PairProperties& p, const State& a, const State& b, Real h, timber::NormalForm f, bool isPlaced)
 		        : law(l)
 		        , pair(p)
 		        , s1(a)
 		        , s2(b)
 		        , dt(h)
 		        , form(f)
+		        , placed(isPlaced)
 		{
 		}
-		/// Returns the energy lost with points that ceased to exist, minus that of points born under load. [J]
+		/// Returns the energy lost with points that ceased to exist, less what points born under load took of it. [J]
 		Real run(const std::vector<timber::ContactPoint>& points, std::vector<timber::PointState>& states) const
 		{
 			if (!sameFeatures(points, states)) return runChanged(points, states);
 			for (size_t k = 0; k < points.size(); ++k)
-				step(points[k], false, states[k]);
+				step(points[k], states[k]);
 			return 0;
 		}
 
@@ -95,15 +104,16 @@ namespace {
 			auto                            old  = states.begin();
 			for (size_t k = 0; k < next.size(); ++k) {
 				for (; old != states.end() && old->id < points[k].id; ++old)
-					lost += stored(*old);
-				const bool isNew = old == states.end() || !(old->id == points[k].id);
-				if (!isNew) next[k] = *old++;
-				next[k].id        = points[k].id;
-				const Real closed = step(points[k], isNew, next[k]);
-				if (isNew) lost -= next[k].energy - law.energy(math::max(Real(0), math::min(next[k].overlap, closed)));
+					lost += leaving(*old);
+				if (old != states.end() && old->id == points[k].id) next[k] = *old++;
 			}
 			for (; old != states.end(); ++old)
-				lost += stored(*old);
+				lost += leaving(*old);
+			for (size_t k = 0; k < next.size(); ++k) {
+				if (!placed && !(next[k].id == points[k].id)) lost -= bear(points[k], lost, next[k]);
+				next[k].id = points[k].id;
+				step(points[k], next[k]);
+			}
 			states.swap(next);
 			return lost;
 		}
@@ -120,7 +130,7 @@ namespace {
 			return boundsOverlap(b1, b2);
 		}
 		const auto law  = phys.law();
-		phys.lostEnergy = PairStep<decltype(law)>(law, phys.properties(), *b1.state, *b2.state, scene->dt, form).run(geom.points, phys.states);
+		phys.lostEnergy = PairStep<decltype(law)>(law, phys.properties(), *b1.state, *b2.state, scene->dt, form, I->isFresh(scene)).run(geom.points, phys.states);
 		return true;
 	}
 

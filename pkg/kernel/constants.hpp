@@ -33,8 +33,4 @@ constexpr double candidateSkin = 2e-3;
 /// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.
 constexpr double outwardCosine = 0.5;
 
-/// Overlap that a new contact point may start with beyond what its approach speed explains. [m]
-/// A point born deeper (a vertex that slid in behind an edge) starts without force, see birthExcess().
-constexpr double birthAllowance = 1e-4;
-
 } // namespace timber

@@ -29,6 +29,7 @@ struct HertzLaw {
 	double force(double n) const { return 4. / 3 * modulus * std::sqrt(radius * n) * n; } ///< [N] (Eq. 37)
 	double stiffness(double n) const { return 2 * modulus * std::sqrt(radius * n); } ///< [N/m] (Eq. 39)
 	double energy(double n) const { return 0.4 * force(n) * n; } ///< [J]
+	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
 };
 
 /// Snow: constant stiffness, proportional to the snow's mass (Table 1).
@@ -37,6 +38,7 @@ struct LinearLaw {
 	double force(double n) const { return constant * n; }
 	double stiffness(double) const { return constant; }
 	double energy(double n) const { return 0.5 * constant * n * n; }
+	double overlapOf(double energy) const { return std::sqrt(2 * energy / constant); }
 };
 
 /// What two bodies in contact share.
@@ -50,13 +52,14 @@ struct PairProperties {
 /// What a contact point remembers between steps. Forces act on B.
 struct PointState {
 	FeatureId id;
-	double excess = 0; ///< overlap that was there at birth and carries no force, see birthExcess() [m]
+	double excess = 0; ///< overlap that was there at birth and carries no force, see bornOverlap() [m]
 	double overlap = 0; ///< counted overlap n = overlap - excess, at most the limit [m]
 	double stiffness = 0; ///< K_n [N/m]
 	double normal = 0; ///< elastic normal force e_n [N]
 	double energy = 0; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
 	Vec3 shear = Vec3::Zero(); ///< elastic tangential force e_s [N]
 	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step [N]
+	double closing = 0; ///< closing displacement of the last step [m]
 	Vec3 slide = Vec3::Zero(); ///< tangential displacement of B against A in the last step [m]
 	Vec3 shearBefore = Vec3::Zero(); ///< e_s before that displacement [N]
 	double shearEnergyBefore = 0; ///< [J]
@@ -68,10 +71,12 @@ struct PointMotion {
 	Vec3 spin; ///< mean angular velocity of the two bodies: the contact turns with it [rad/s]
 };
 
-/// Overlap of a new point that its approach does not explain. Patterns that the paper ignores (vertex on edge) let
-/// a vertex come deep before a face answers; answering at once with the full force would create energy.
-/// overlap [m] > 0, approach: closing displacement in one step [m] >= 0; returns [m].
-inline double birthExcess(double overlap, double approach) { return std::max(0., overlap - approach - birthAllowance); }
+/// Overlap with which a new point may start: what its approach in the last step explains, or what the energy that the pair
+/// lost with other points in that step can pay for (a vertex that slides over a border hands its load to the crossing
+/// edges). The patterns that the paper ignores (vertex on edge) let a vertex come deep before a face answers; answering at
+/// once with the full force would create energy.
+/// overlap [m] > 0, approach: closing displacement [m], energy [J] >= 0; returns [m].
+template <class Law> double bornOverlap(const Law& law, double overlap, double approach, double energy) { return std::min(overlap, std::max(approach, law.overlapOf(std::max(0., energy)))); }
 
 /// Stored energy of the tangential spring. [J]
 inline double shearEnergy(const PointState& s, const PairProperties& p)
@@ -98,12 +103,12 @@ enum class NormalForm { Closed, Increment };
 /// Elastic forces of one point for its new overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
 /// energy. Sliding is decided where the total normal force is known (dashpots.hpp).
-/// in: law, pair, point, motion, dt [s]; in-out: state (a new one has only its id).
+/// in: law, pair, point, motion, dt [s]; in-out: state (a new one has only its id and excess).
 template <class Law>
-void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint& point, const PointMotion& motion, double dt, bool isNew, NormalForm form, PointState& state)
+void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint& point, const PointMotion& motion, double dt, NormalForm form, PointState& state)
 {
-	const double closing = -motion.velocity.dot(point.normal) * dt;
-	state.excess = isNew ? birthExcess(point.overlap, std::max(0., closing)) : std::min(state.excess, point.overlap);
+	state.closing = -motion.velocity.dot(point.normal) * dt;
+	state.excess = std::min(state.excess, point.overlap);
 	const double before = state.overlap, stiffnessBefore = state.stiffness;
 	state.overlap = std::min(point.overlap - state.excess, pair.overlapLimit);
 	state.stiffness = law.stiffness(state.overlap);
@@ -115,7 +120,7 @@ void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint&
 	state.shearBefore = state.shear;
 	state.shearEnergyBefore = stiffnessBefore > 0 ? state.shear.squaredNorm() / (2 * pair.shearRatio * stiffnessBefore) : 0;
 	if (state.stiffness < stiffnessBefore) state.shear *= state.stiffness / stiffnessBefore;
-	state.slide = (motion.velocity + closing / dt * point.normal) * dt;
+	state.slide = (motion.velocity + state.closing / dt * point.normal) * dt;
 	state.shear -= pair.shearRatio * state.stiffness * state.slide;
 }
 

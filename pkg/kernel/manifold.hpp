@@ -19,7 +19,7 @@ enum class Meeting : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge
 
 /// Name of a contact point that lasts as long as the same two features meet: history follows it.
 struct FeatureId {
-	std::uint32_t bits = 0;
+	std::uint32_t bits = ~0u; ///< no features yet
 	FeatureId() = default;
 	FeatureId(Meeting m, int a, int b)
 	        : bits(std::uint32_t(m) << 28 | std::uint32_t(a) << 14 | std::uint32_t(b))

@@ -67,21 +67,26 @@ class Motion:
             return 0.0
         return (1 - (t - k)) * self.samples[k] + (t - k) * self.samples[k + 1]
 
+    def velocity_at(self, at, part, back=0.0):
+        """Velocity of a part's material point that is at `at` now, with its arm of `back` steps ago: velocities belong to half
+        a step ago, and a displacement is right only with the arm of then. [m/s]"""
+        arm = at - self.place[part]
+        return self.velocity[part] + 1j * self.spin[part] * arm * (1 - 1j * back * self.dt * self.spin[part])
+
     def contact_forces(self, at, overlap, normal):
         """Forces of each contact point on its corner's part (Eqs. 15-24, 37-43), friction included. [N]"""
         f = self.frame
         elastic, stiffness = f.normal_law(overlap)
-        moving = self.velocity[f.of] + 1j * self.spin[f.of] * (at - self.place[f.of])
-        moving -= self.velocity[f.on] + 1j * self.spin[f.on] * (at - self.place[f.on])
-        moving *= normal.conj()
+        moving = (self.velocity_at(at, f.of) - self.velocity_at(at, f.on)) * normal.conj()
         parting, slip = moving.real, moving.imag
+        way = self.dt * ((self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) * normal.conj()).imag
         kept = np.divide(stiffness, self.stiffness, out=np.zeros_like(stiffness), where=self.stiffness > 0)
-        shear = np.minimum(1, kept) * self.shear - f.shear_ratio * stiffness * slip * self.dt
+        shear = np.minimum(1, kept) * self.shear - f.shear_ratio * stiffness * way
         damping = 2 * np.sqrt(f.pair_mass * stiffness)
         push = np.maximum(0, elastic - damping * parting)
         limit = f.timber.friction * push
         sliding = np.abs(shear) > limit
-        self.slid += np.abs(slip[sliding & (limit > 0)]).sum() * self.dt
+        self.slid += np.abs(way[sliding & (limit > 0)]).sum()
         self.shear, self.stiffness = np.maximum(-limit, np.minimum(limit, shear)), stiffness
         drag = np.where(sliding, self.shear, self.shear - np.sqrt(f.shear_ratio) * damping * slip)
         return (push + 1j * np.maximum(-limit, np.minimum(limit, drag))) * normal

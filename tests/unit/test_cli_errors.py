@@ -34,7 +34,7 @@ def refused(tmp_path, capsys):
 
 @pytest.mark.parametrize("dt", ["0", "-1e-4", "nan", "inf", "1e-2"])
 def test_time_step(refused, dt):
-    assert "--dt" in refused("--dt", dt) and "0.0005" in refused("--dt", dt)
+    assert "--dt" in refused("--dt", dt) and "0.0002" in refused("--dt", dt)
 
 
 @pytest.mark.parametrize("option", ["--duration", "--scale", "--checkpoint"])
