@@ -16,5 +16,8 @@ public:
 };
 REGISTER_SERIALIZABLE(Gl1_RoundedPolyhedron);
 
+/// A viewer that was there before this module lists its drawing functors anew (renderer: what yade.qt.Renderer() returns).
+void refreshViewer(const boost::python::object& renderer);
+
 } // namespace yade
 #endif

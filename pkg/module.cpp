@@ -2,6 +2,7 @@
 // The Python module _yade_timber. Loading it defines the guard's functions only; host.py calls register_classes() once the guard is content.
 #include <pch.hpp>
 
+#include <Gl1_RoundedPolyhedron.hpp>
 #include <build_info.hpp>
 #include <layout_guard.hpp>
 
@@ -34,4 +35,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	defineLayoutGuard();
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
+#ifdef YADE_OPENGL
+	boost::python::def("refresh_viewer", &yade::refreshViewer);
+#endif
 }

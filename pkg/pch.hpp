@@ -26,6 +26,7 @@
 #include <lib/base/Logging.hpp>
 #ifdef YADE_OPENGL
 #include <pkg/common/GLDrawFunctors.hpp>
+#include <pkg/common/OpenGLRenderer.hpp>
 #endif
 
 #pragma pop_macro("_YADE_CLASS_BASE_DOC_ATTRS_DEPREC_PY")

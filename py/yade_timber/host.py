@@ -146,4 +146,8 @@ def load(package: str, directory):
     check_layout(plugin, wrapper, record, host)
     if not wrapper.Omega().running:
         check_containers(plugin, wrapper, record, host)
-    return plugin, list(plugin.register_classes())
+    names = list(plugin.register_classes())
+    viewer = sys.modules.get("yade.qt")
+    if viewer is not None and hasattr(plugin, "refresh_viewer"):
+        plugin.refresh_viewer(viewer.Renderer())
+    return plugin, names
