@@ -9,10 +9,11 @@ import sys
 import threading
 import time
 
+import numpy as np
 import yade.runtime
 import yade.wrapper as yw
 
-from . import checkpoint, cli, results, scene, views
+from . import checkpoint, cli, plots, results, scene, views
 from .errors import RunError
 from .export import export_scene
 from .house import HouseError, build_house, load_house
@@ -24,6 +25,7 @@ from .snapshot import marks, solids
 CHUNK = 0.05
 """Simulated time between two looks at signals, progress and the checkpoint's clock; results do not depend on it. [s]"""
 PICTURE = "end_state.png"
+CURVES = "history.png"
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 O = yw.Omega()
@@ -55,7 +57,7 @@ class Run:
         """Build the scene; results of an earlier run go, so that nothing in the folder passes for this run's."""
         self.model = build(self.scenario)
         self.identity = self._identity()
-        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, PICTURE, checkpoint.NAME):
+        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, PICTURE, CURVES, checkpoint.NAME):
             (self.output.folder / name).unlink(missing_ok=True)
         if self.output.resume:
             self.say(f"no checkpoint in {self.output.folder}: starting from the beginning")
@@ -143,7 +145,7 @@ class Run:
         """Write results and picture of the scene as it is now, and say so."""
         folder = self.output.folder
         found = results.summary(self.scenario, self.model, self.wall_s)
-        pictures = [self.picture(folder / PICTURE, found)] if self.output.views else []
+        pictures = [self.picture(folder / PICTURE, found), self.curves(folder / CURVES)] if self.output.views else []
         written = pictures + results.write(folder, found, self.model)
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.say(results.sentence(found))
@@ -153,6 +155,17 @@ class Run:
         """Picture of the scene as it is now; returns the path."""
         caption = views.Caption(title(self.scenario, self.model), f"after {O.time:.1f} s", results.sentence(found))
         views.end_state(path, solids(), solids(reference=True), marks(self.model), caption)
+        return path
+
+    def curves(self, path):
+        """Page of curves of the run so far; returns the path."""
+        monitor = scene.find_engine(yw.HouseMonitor)
+        motion = scene.find_engine(yw.GroundMotionEngine)
+        shaking = None
+        if motion:
+            place = range(len(motion.acceleration))
+            shaking = [motion.start + k * motion.step for k in place], motion.scale * np.array(motion.acceleration)
+        plots.history(path, monitor.columns(), results.rows(monitor), title(self.scenario, self.model), shaking)
         return path
 
     # --- live ---------------------------------------------------------------------------------------------------------
