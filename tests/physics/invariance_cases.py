@@ -83,13 +83,13 @@ def far_apart_pairs():
     return [Row("8", "second scene 100 m away: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt, note="of 52, all bits")]
 
 
-def in_other_process(threads):
+def in_other_process(threads, duration=DURATION):
     """Final state of the small scene from a YADE of its own: (threads it had, list of hexadecimal numbers)."""
     script = os.path.abspath(small_scene.__file__)
     path = os.pathsep.join([os.path.dirname(os.path.dirname(yt.__file__)), os.environ.get("PYTHONPATH", "")])
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run(
-            [shutil.which("yade"), f"-j{threads}", "-n", "-x", script, str(DURATION)], cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=120
+            [shutil.which("yade"), f"-j{threads}", "-n", "-x", script, str(duration)], cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=120
         )
     lines = {line.split()[0]: line.split()[1:] for line in run.stdout.splitlines() if line.startswith(("threads ", "state "))}
     if run.returncode or len(lines) != 2:
@@ -98,9 +98,9 @@ def in_other_process(threads):
 
 
 @case
-def one_thread_or_two():
+def one_thread_or_two(duration=DURATION):
     """Pairs are summed in the order of their ids: not a bit depends on the number of threads."""
-    (few, one), (many, two) = in_other_process(1), in_other_process(2)
+    (few, one), (many, two) = in_other_process(1, duration), in_other_process(2, duration)
     return [
         Row("8", "threads of the second run [-]", 2 * few, many, bound=0),
         Row("8", "1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4, note="of 52, all bits"),
