@@ -8,8 +8,8 @@ YADE_PLUGIN((ContactForces));
 void ContactForces::sortPairs()
 {
 	pairs.clear();
-	for (Interaction* I : seen)
-		pairs.push_back({ I, static_cast<ManifoldGeom*>(I->geom.get()), static_cast<ManifoldPhys*>(I->phys.get()) });
+	for (const shared_ptr<Interaction>& I : seen)
+		pairs.push_back({ I.get(), nullptr, nullptr });
 	const auto ids = [](const Pair& p) { return std::minmax(p.interaction->getId1(), p.interaction->getId2()); };
 	std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return ids(p) < ids(q); });
 }
@@ -24,12 +24,19 @@ void ContactForces::collectPairs()
 		const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (phys.states.empty() && phys.lostEnergy == 0) continue;
 		if (count == seen.size()) seen.push_back(nullptr);
-		changed       = changed || seen[count] != I.get();
-		seen[count++] = I.get();
+		if (seen[count] != I) {
+			seen[count] = I;
+			changed     = true;
+		}
+		++count;
 	}
 	changed = changed || count != pairs.size();
 	seen.resize(count);
 	if (changed) sortPairs();
+	for (Pair& p : pairs) {
+		p.geom = static_cast<ManifoldGeom*>(p.interaction->geom.get());
+		p.phys = static_cast<ManifoldPhys*>(p.interaction->phys.get());
+	}
 }
 
 void ContactForces::collectBodies()
@@ -65,7 +72,7 @@ void ContactForces::collectPoints()
 		const Real     rootShear = math::sqrt(pair.phys->shearRatio);
 		if (points.size() < count + pair.phys->states.size()) points.resize(count + pair.phys->states.size());
 		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
-			const timber::ContactPoint& at = pair.geom->points[k];
+			const timber::ContactPoint& at = pair.geom->contactPoints[k];
 			const timber::PointState&   s  = pair.phys->states[k];
 			timber::DashpotPoint&       p  = points[count++];
 			p.bodyA         = id1;
@@ -102,10 +109,11 @@ void ContactForces::storePoints()
 	for (const Pair& pair : pairs) {
 		for (size_t i = 0; i < pair.phys->states.size(); ++i, ++k) {
 			timber::PointState&         s = pair.phys->states[i];
-			const timber::DashpotPoint& p = points[k];
+			timber::DashpotPoint&       p = points[k];
 			const Vector3r              f = p.impulse / scene->dt;
 			s.shear   = timber::limitedShear(s.shear, p.friction, f.dot(p.normal));
 			s.dashpot = f - s.normal * p.normal - s.shear;
+			p.elasticShear = s.shear;
 			force[p.bodyA] -= f;
 			torque[p.bodyA] -= p.armA.cross(f);
 			force[p.bodyB] += f;
@@ -129,14 +137,12 @@ void ContactForces::applyForces()
 
 Real ContactForces::elasticPower() const
 {
-	Real   power = 0;
-	size_t k     = 0;
-	for (const Pair& pair : pairs)
-		for (const timber::PointState& s : pair.phys->states) {
-			const timber::DashpotPoint& p = points[k++];
-			const State &               a = *Body::byId(p.bodyA, scene)->state, &b = *Body::byId(p.bodyB, scene)->state;
-			power -= (s.normal * p.normal + s.shear).dot(timber::relativeVelocity(p, a.vel, a.angVel, b.vel, b.angVel));
-		}
+	Real power = 0;
+	for (const timber::DashpotPoint& p : points) {
+		const shared_ptr<Body>&a = Body::byId(p.bodyA, scene), &b = Body::byId(p.bodyB, scene);
+		if (!a || !b) continue; // taken out since the step
+		power -= (p.elasticNormal * p.normal + p.elasticShear).dot(timber::relativeVelocity(p, a->state->vel, a->state->angVel, b->state->vel, b->state->angVel));
+	}
 	return power;
 }
 
@@ -153,14 +159,14 @@ void ContactForces::action()
 
 Real ContactForces::largestEigenvalue(const boost::python::list& extra)
 {
-	if (!scene) scene = Omega::instance().getScene().get();
+	scene = Omega::instance().getScene().get(); // not that of before a load
 	collectPairs();
 	collectBodies();
 	std::vector<timber::StiffPoint> stiff;
 	for (const Pair& pair : pairs) {
 		const int id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
 		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
-			const timber::ContactPoint& at = pair.geom->points[k];
+			const timber::ContactPoint& at = pair.geom->contactPoints[k];
 			const Real                  kn = pair.phys->states[k].stiffness;
 			stiff.push_back({ id1, id2, at.position - Body::byId(id1, scene)->state->pos, at.position - Body::byId(id2, scene)->state->pos, at.normal, kn, pair.phys->shearRatio * kn });
 		}

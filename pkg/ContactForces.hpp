@@ -11,12 +11,12 @@ class ContactForces : public GlobalEngine {
 	/// A contact pair in this step. Pairs are handled in the order of their body ids, whatever the container's order:
 	/// the sums then do not depend on threads or on when the collider saw the pair.
 	struct Pair {
-		Interaction*        interaction;
-		const ManifoldGeom* geom;
+		Interaction*        interaction; ///< kept alive by `seen`
+		const ManifoldGeom* geom; ///< of this step: a reset interaction gets new ones
 		ManifoldPhys*       phys;
 	};
 	std::vector<Pair>                 pairs;
-	std::vector<Interaction*>         seen; ///< the interactions that `pairs` was sorted for, in the container's order
+	std::vector<shared_ptr<Interaction>> seen; ///< the interactions that `pairs` was sorted for, in the container's order
 	timber::DashpotSolver             solver;
 	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
 	std::vector<timber::DashpotPoint> points; ///< of all pairs, in their order

@@ -125,12 +125,12 @@ namespace {
 		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
 		Phys&               phys = *static_cast<Phys*>(p);
 		const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-		if (geom.points.empty() && phys.states.empty()) {
+		if (geom.contactPoints.empty() && phys.states.empty()) {
 			phys.lostEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
 		const auto law  = phys.law();
-		phys.lostEnergy = PairStep<decltype(law)>(law, phys.properties(), *b1.state, *b2.state, scene->dt, form, I->isFresh(scene)).run(geom.points, phys.states);
+		phys.lostEnergy = PairStep<decltype(law)>(law, phys.properties(), *b1.state, *b2.state, scene->dt, form, I->isFresh(scene)).run(geom.contactPoints, phys.states);
 		return true;
 	}
 

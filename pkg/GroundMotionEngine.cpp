@@ -16,7 +16,7 @@ void GroundMotionEngine::postLoad(GroundMotionEngine&)
 Vector3r GroundMotionEngine::at(Real time) const
 {
 	const Real place = (time - start) / step;
-	if (!(place >= 0) || place > acceleration.size() - 1) return Vector3r::Zero();
+	if (acceleration.empty() || !(place >= 0) || place > acceleration.size() - 1) return Vector3r::Zero();
 	const size_t k     = math::min(size_t(place), acceleration.size() - 1);
 	const Real   share = place - k;
 	const Vector3r next = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];

@@ -12,6 +12,11 @@ namespace {
 	bool isFree(const Body& b) { return b.state->blockedDOFs != State::DOF_ALL; }
 }
 
+void HouseMonitor::postLoad(HouseMonitor&)
+{
+	if (levels.size() != bodies.size()) throw std::invalid_argument("HouseMonitor: bodies and levels must have the same length");
+}
+
 Real HouseMonitor::kineticEnergy() const
 {
 	Real sum = 0;
@@ -39,8 +44,9 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 	Vector3r sum   = Vector3r::Zero();
 	int      count = 0;
 	for (size_t k = 0; k < bodies.size(); ++k) {
-		if (levels[k] != level) continue;
-		const State& s = *Body::byId(bodies[k], scene)->state;
+		const shared_ptr<Body>& b = Body::byId(bodies[k], scene);
+		if (!b || levels[k] != level) continue;
+		const State& s = *b->state;
 		sum += s.pos - s.refPos;
 		++count;
 	}
@@ -119,14 +125,18 @@ void HouseMonitor::action()
 {
 	if (scene->time < nextSample - scene->dt / 2) return;
 	record();
-	nextSample += interval;
+	nextSample = math::max(nextSample, scene->time) + interval;
 }
 
 void HealthCheck::action()
 {
 	if (scene->iter % every != 0) return;
+	if (!(scene->dt > 0)) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be > 0");
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
+		if (b->isClump()) throw std::runtime_error("body " + std::to_string(b->getId()) + " is a clump: make one convex polyhedron of it, or join its parts");
+		if (b->state->blockedDOFs != State::DOF_NONE && b->state->blockedDOFs != State::DOF_ALL)
+			throw std::runtime_error("body " + std::to_string(b->getId()) + " has some degrees of freedom blocked: contacts know free and fixed bodies only");
 		const State& s = *b->state;
 		if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) continue;
 		std::ostringstream what;

@@ -21,6 +21,7 @@ class HouseMonitor : public GlobalEngine {
 	}
 
 public:
+	void postLoad(HouseMonitor&);
 	void action() override;
 	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
 	std::vector<Real>   energies() const;
@@ -34,7 +35,7 @@ public:
 		((Real, storeyHeight, 2.73, , "Height that drifts refer to. [m] (paper, section 3.4)"))
 		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Gravity, for its potential energy. [m/s2]"))
 		((vector<int>, bodies, , , "Ids of the bodies that mark levels. [-]"))
-		((vector<int>, levels, , , "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
+		((vector<int>, levels, , Attr::triggerPostLoad, "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
 		((int, storeys, 0, , "Number of levels. [-]"))
 		((Real, tiltDrift, 0.1, , "Drift at which a storey counts as tilted. [-]"))
 		((Real, tiltTime, NaN, , "When the first storey drift passed tiltDrift. [s]"))

@@ -35,24 +35,40 @@ void SymplecticIntegrator::action()
 	}
 }
 
-void CollisionTrigger::action()
+Real CollisionTrigger::largestMotion() const
 {
-	if (!collider)
-		for (const shared_ptr<Engine>& e : scene->engines)
-			if (e->getClassName().find("Collider") != string::npos) collider = e.get();
-	if (!collider) return;
-	Real fastest = 0;
+	Real largest = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
-		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-		fastest          = math::max(fastest, b->state->vel.norm() + (shape ? b->state->angVel.norm() * shape->geometry.reach : 0));
+		const size_t id     = b->getId();
+		const auto   shape  = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
+		const Real   turned = 2 * (turns[id].conjugate() * b->state->ori).vec().norm();
+		largest             = math::max(largest, (b->state->pos - places[id]).norm() + (shape ? turned * shape->geometry.reach : 0));
 	}
-	moved += fastest * scene->dt;
-	const bool changed = bodyCount != scene->bodies->size() || scene->interactions->dirty;
-	collider->dead     = !(changed || !(moved < margin));
-	if (collider->dead) return;
-	bodyCount = scene->bodies->size();
-	moved     = 0;
+	return largest;
+}
+
+void CollisionTrigger::remember()
+{
+	places.resize(scene->bodies->size());
+	turns.resize(scene->bodies->size());
+	for (const shared_ptr<Body>& b : *scene->bodies) {
+		if (!b) continue;
+		places[b->getId()] = b->state->pos;
+		turns[b->getId()]  = b->state->ori;
+	}
+}
+
+void CollisionTrigger::action()
+{
+	const auto isCollider = [](const shared_ptr<Engine>& e) { return e->getClassName().find("Collider") != string::npos; };
+	const auto collider   = std::find_if(scene->engines.begin(), scene->engines.end(), isCollider);
+	if (collider == scene->engines.end()) return;
+	const bool changed = places.size() != scene->bodies->size() || scene->interactions->dirty;
+	moved              = changed ? NaN : largestMotion();
+	(*collider)->dead  = moved < margin;
+	if ((*collider)->dead) return;
+	remember();
 	++runs;
 }
 

@@ -18,7 +18,9 @@ void TimberJoint::postLoad(TimberJoint&)
 	if (anchors1.empty()) return;
 	if (anchors2.empty()) return; // attributes are set one after the other
 	if (anchors1.size() != anchors2.size()) throw std::invalid_argument("TimberJoint: anchors1 and anchors2 must have the same length");
-	broken.resize(anchors1.size(), 0);
+	if (broken.empty()) broken.resize(anchors1.size(), 0);
+	if (broken.size() != anchors1.size()) throw std::invalid_argument("TimberJoint.broken must have one entry for each spring");
+	if (!(kn > 0 && ks > 0 && strength > 0)) throw std::invalid_argument("TimberJoint: kn, ks and strength must be > 0 (the strength may be infinite)");
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), 0);
 }
@@ -66,15 +68,6 @@ boost::python::list JointEngine::pyBreaks() const
 	return all;
 }
 
-void JointEngine::listActive()
-{
-	active.clear();
-	known = joints.size();
-	for (size_t k = 0; k < joints.size(); ++k)
-		if (!joints[k]->isFinished()) active.push_back(k);
-}
-
-/// The work of the springs stands at the half step of the velocities; so does the energy that a breaking one releases.
 void JointEngine::breakSpring(size_t joint, const Acting& broken, const State& s1, const State& s2)
 {
 	static const char* const     names[] = { "tension", "compression", "shear" };
@@ -96,7 +89,12 @@ void JointEngine::breakSpring(size_t joint, const Acting& broken, const State& s
 void JointEngine::act(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	const shared_ptr<Body>&b1 = Body::byId(joint.id1, scene), &b2 = Body::byId(joint.id2, scene);
+	if (!b1 || !b2) { // taken out of the scene, and its joints with it
+		joint.broken.assign(joint.broken.size(), 1);
+		return;
+	}
+	const State &s1 = *b1->state, &s2 = *b2->state;
 	Real         sum = 0;
 	acting.clear();
 	for (size_t k = 0; k < joint.broken.size(); ++k) {
@@ -128,23 +126,19 @@ void JointEngine::act(size_t index)
 Real JointEngine::elasticPower() const
 {
 	Real power = 0;
-	for (const size_t index : active) {
-		const TimberJoint& j  = *joints[index];
-		const State &      s1 = *Body::byId(j.id1, scene)->state, &s2 = *Body::byId(j.id2, scene)->state;
-		for (size_t k = 0; k < j.broken.size(); ++k)
-			power += j.forces[k].dot(partingVelocity(s1, s2, s2.pos + s2.ori * j.anchors2[k]));
+	for (const shared_ptr<TimberJoint>& j : joints) {
+		const shared_ptr<Body>&b1 = Body::byId(j->id1, scene), &b2 = Body::byId(j->id2, scene);
+		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k)
+			if (!j->broken[k]) power += j->forces[k].dot(partingVelocity(*b1->state, *b2->state, b2->state->pos + b2->state->ori * j->anchors2[k]));
 	}
 	return power;
 }
 
 void JointEngine::action()
 {
-	if (known != joints.size()) listActive();
-	elastic             = 0;
-	const size_t before = breaks.size();
-	for (const size_t index : active)
-		act(index);
-	if (breaks.size() != before) listActive();
+	elastic = 0;
+	for (size_t k = 0; k < joints.size(); ++k)
+		if (!joints[k]->isFinished()) act(k);
 }
 
 } // namespace yade

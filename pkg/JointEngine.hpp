@@ -27,7 +27,7 @@ public:
 		((bool, perJoint, false, , "Whether stiffness and strength belong to the joint: each spring has its share of the stiffness and all break when the sum of their forces exceeds the strength. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
-		((vector<int>, broken, , , "1 for each broken spring, else 0. [-]"))
+		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
 		((vector<Real>, stretches, , Attr::readonly, "Distance of the two ends of each spring in the last step. [m]")),
 		,
@@ -52,8 +52,6 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
-	std::vector<size_t> active; ///< joints with springs left
-	size_t              known = 0; ///< joints seen when `active` was made
 	struct Acting {
 		size_t              spring;
 		timber::SpringForce force;
@@ -61,7 +59,6 @@ class JointEngine : public GlobalEngine {
 	};
 	std::vector<Acting> acting; ///< springs of the joint at hand that are not broken
 
-	void listActive();
 	void act(size_t joint);
 	void breakSpring(size_t joint, const Acting&, const State&, const State&);
 

@@ -4,18 +4,27 @@
 #include <RoundedPolyhedron.hpp>
 #include <kernel/manifold.hpp>
 
+namespace boost {
+namespace serialization {
+	template <class Archive> void serialize(Archive& ar, timber::ContactPoint& p, const unsigned int)
+	{
+		ar & make_nvp("id", p.id.bits) & make_nvp("position", p.position) & make_nvp("normal", p.normal) & make_nvp("overlap", p.overlap);
+	}
+}
+}
+
 namespace yade {
 
-/// Holds nothing that a step needs from the one before: it is made anew from the two placements.
+/// Made anew from the two placements in each step; the points are saved so that a loaded scene can be asked for them.
 class ManifoldGeom : public IGeom {
 public:
-	std::vector<timber::ContactPoint> points; ///< sorted by feature id
-	timber::CandidateCache            cache;
+	timber::CandidateCache cache;
 
 	boost::python::list pyPoints() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldGeom, IGeom, "Contact points between two :yref:`RoundedPolyhedron`; none while they are only near each other.",
-		, createIndex();,
+		((vector<timber::ContactPoint>, contactPoints, , Attr::hidden, "Contact points, sorted by feature id. [-]")),
+		createIndex();,
 		.add_property("points", &ManifoldGeom::pyPoints, "List of (position [m], normal from body 1 to body 2, overlap [m], feature id) of the points that touch, world frame.")
 	);
 	// clang-format on

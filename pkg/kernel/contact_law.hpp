@@ -97,6 +97,11 @@ inline Vec3 turned(const Vec3& shear, const Vec3& turn, const Vec3& normal)
 	return left > 0 ? Vec3(t * (length / left)) : Vec3(Vec3::Zero());
 }
 
+/// Force of a point that comes or goes within a step: its overlap n [m] is below its displacement d in a step [m]. Before
+/// or after it there was none, and the trapezoid sum of the work over the two steps, F(n) d + F(n + d) d / 2, must be the
+/// energy at n + d; with the force of n itself, impacts that last few steps lose energy. Exact for a linear law. [N]
+template <class Law> double grazingForce(const Law& law, double n, double d) { return std::max(0., law.energy(n + d) / d - law.force(n + d) / 2); }
+
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.
 enum class NormalForm { Closed, Increment };
 
@@ -114,6 +119,9 @@ void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint&
 	state.stiffness = law.stiffness(state.overlap);
 	state.normal = form == NormalForm::Closed ? law.force(state.overlap) : std::max(0., state.normal + state.stiffness * (state.overlap - before));
 
+	const double way = std::abs(state.closing);
+	const bool grazes = 0 < state.overlap && state.overlap < std::min(way, pair.overlapLimit);
+	if (form == NormalForm::Closed && grazes) state.normal = grazingForce(law, state.overlap, way);
 	state.energy = law.energy(state.overlap) + (point.overlap - state.excess - state.overlap) * state.normal;
 
 	state.shear = turned(state.shear, motion.spin * dt, point.normal);

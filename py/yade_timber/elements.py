@@ -4,9 +4,6 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
-FIXED_MASK = 3  # shares the bit 2 with other fixed bodies only; see `engines`
-FREE_MASK = 1
-
 TIMBER_DENSITY = 340.0
 """Japanese cypress. [kg/m3] (paper, section 3.4)"""
 TIMBER_YOUNG = 90e3 * 9.8e4
@@ -33,8 +30,11 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     material  from `timber()` or `snow()`; default timber
     fixed     whether it never moves
     radius    rounding radius [m]; None: 10 % of the shortest edge (paper, section 2.2)
-    Raises ValueError when the vertices are no corners of a convex polyhedron or the radius leaves no core.
+    Raises ValueError when the vertices are no corners of a convex polyhedron or the radius leaves no core, TypeError for a
+    material of another kind.
     """
+    if material is not None and not isinstance(material, yw.ElementMat):
+        raise TypeError(f"material {type(material).__name__}: it must come from timber() or snow()")
     vertices = np.asarray(vertices, float)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
         raise ValueError(f"vertices of shape {vertices.shape}: they must be (n, 3), n >= 4")
@@ -59,7 +59,6 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     body.state.ori = body.state.refOri = axes
     body.bound = yw.Aabb()
     body.aspherical = True
-    body.groupMask = FIXED_MASK if fixed else FREE_MASK
     if fixed:
         body.dynamic = False
     return body
@@ -77,3 +76,11 @@ def box(extents, centre, orientation=None, material=None, fixed=False, radius=No
     if orientation is not None:
         corners = np.array([orientation * Vector3(*c) for c in corners])
     return polyhedron(corners + centre, material, fixed, radius, name, kind, color)
+
+
+def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
+    """Give a body a velocity (3,) [m/s] and angular velocity (3,) [rad/s], world frame: the integrator goes by its momenta."""
+    state = body.state
+    state.vel, state.angVel = Vector3(*velocity), Vector3(*angular_velocity)
+    local = state.ori.conjugate() * state.angVel
+    state.angMom = state.ori * Vector3(*(local[k] * state.inertia[k] for k in range(3)))

@@ -7,7 +7,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
 from . import elements, scene
-from .house import build_house, load_house
+from .house import HouseError, build_house, load_house
 
 O = yw.Omega()
 
@@ -74,6 +74,7 @@ def build(scenario):
 def add_elements(model):
     """Append the model's elements to O.bodies; returns {element name: body id}."""
     materials = {name: make_material(name, spec, model) for name, spec in model.materials.items()}
+    check_friction(materials, model)
     ids = {}
     for element in model.elements:
         body = elements.polyhedron(
@@ -95,6 +96,14 @@ def make_material(name, spec, model):
     if spec["law"] == "snow":
         return elements.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
     return elements.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
+
+
+def check_friction(materials, model):
+    """Raise HouseError when a pair's coefficient is not the smaller one of its two materials."""
+    for a, b, wanted in model.friction:
+        got = min(materials[a].friction, materials[b].friction)
+        if got != wanted:
+            raise HouseError(f"{model.name}: friction of {a} and {b} is {wanted}, but the smaller one of the two materials' own is {got}: a pair takes that")
 
 
 def add_joints(model, ids):

@@ -32,7 +32,7 @@ def engines(
 
     gravity        (3,) [m/s2]
     ground_motion  `yade_timber.motion.GroundMotion`, a GroundMotionEngine, or None
-    joints         list of TimberJoint, or None: joints are also added by `connect`
+    joints         list of TimberJoint; None keeps the joints that are in O.engines already (`connect` adds to them)
     monitor        HouseMonitor, or None
     vertex_edge    whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them)
     flush_supports whether a vertex exactly over a face's border is supported
@@ -43,22 +43,20 @@ def engines(
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
     """
-    has_snow = any(isinstance(b.material, yw.SnowMat) for b in O.bodies) if len(O.bodies) else True
-    laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=increment)]
-    pairs = [yw.Ip2_TimberMat_TimberMat_TimberPhys(dampingRatio=damping_ratio)]
-    if has_snow:
-        laws.append(yw.Law2_ManifoldGeom_SnowPhys_Linear())
-        pairs.append(yw.Ip2_ElementMat_ElementMat_SnowPhys(dampingRatio=damping_ratio))
+    # the snow functors cost nothing without snow, and YADE ends the process when a pair of materials has none
+    laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=increment), yw.Law2_ManifoldGeom_SnowPhys_Linear()]
+    pairs = [yw.Ip2_TimberMat_TimberMat_TimberPhys(dampingRatio=damping_ratio), yw.Ip2_ElementMat_ElementMat_SnowPhys(dampingRatio=damping_ratio)]
     geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=vertex_edge, flushSupports=flush_supports)
     chain = [
         yw.ForceResetter(),
         yw.CollisionTrigger(margin=BOUND_MARGIN),
         # verletDist = 0: the boxes' own margin and CollisionTrigger do that work without NewtonIntegrator
-        yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0, avoidSelfInteractionMask=2),
+        yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0),
         yw.InteractionLoop([geometry], pairs, laws),
     ]
-    if joints:
-        chain.append(joint_engine(joints))
+    kept = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
+    if kept is not None:
+        chain.append(kept)
     if np.any(gravity):
         chain.append(yw.GravityEngine(gravity=Vector3(*gravity), warnOnce=False))
     if ground_motion is not None:
@@ -98,6 +96,8 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
     Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown reading.
     """
+    if id1 == id2:
+        raise ValueError(f"connect: body {id1} cannot be joined with itself")
     for body in (id1, id2):
         if not 0 <= body < len(O.bodies):
             raise ValueError(f"connect: there is no body {body}; bodies have the ids 0 ... {len(O.bodies) - 1}")

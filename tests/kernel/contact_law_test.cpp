@@ -103,12 +103,28 @@ TEST(NormalSpring, ForceStaysConstantBeyondTheLimit)
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4, 2e-3) };
 	double energy = 0;
 	for (const double n : { 1e-3, 2e-3, 3e-3, 8e-3 }) {
-		spring.step(n, 2e-2, Vec3::Zero());
+		spring.step(n, 0, Vec3::Zero());
 		EXPECT_NEAR(spring.state.normal, timberLaw.force(std::min(n, 2e-3)), 1e-9); // same formula
 		EXPECT_GT(spring.state.energy, energy); // beyond the limit it grows linearly
 		energy = spring.state.energy;
 	}
 	EXPECT_NEAR(energy, timberLaw.energy(2e-3) + 6e-3 * timberLaw.force(2e-3), rounding * energy);
+}
+
+TEST(NormalSpring, ComingOrGoingWithinAStepDoesTheWorkThatIsStored)
+{
+	const double d = 1e-3;
+	for (const double n : { 4e-4, 9e-4 }) {
+		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
+		spring.step(n, d, Vec3::Zero()); // touched within the step
+		const double work = spring.state.normal * d + timberLaw.force(n + d) * d / 2; // trapezoid: 0, this force, F(n + d)
+		EXPECT_NEAR(work, timberLaw.energy(n + d), rounding * work);
+		Spring<HertzLaw> leaving { timberLaw, pairOf(0.4) };
+		leaving.step(n, -d, Vec3::Zero()); // will have left after the next step
+		EXPECT_EQ(leaving.state.normal, spring.state.normal);
+	}
+	EXPECT_NEAR(grazingForce(LinearLaw { 1e6 }, d, d), 1e6 * d, rounding * 1e3); // joins the law where it ends
+	EXPECT_EQ(grazingForce(timberLaw, 1e-9, d), 0); // never pulls
 }
 
 TEST(ShearSpring, OpposesTheSlide)

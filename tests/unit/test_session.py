@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What people do to a scene in a session: take things out, put things in, release, load, ask at odd times."""
+import pytest
+import yade_timber as yt
+from compare import assert_close
+from yade import O
+from yade_timber import scene
+
+
+def column_on_plate(dt=1e-4, joined=True):
+    """The README's example at rest: ids of plate and column."""
+    O.reset()
+    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    column = O.bodies.append(yt.box((0.105, 0.105, 1.0), (0, 0, 0.5)))
+    O.dt, O.engines = dt, yt.engines()
+    if joined:
+        yt.connect(plate, column, [(x, y, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
+    O.run(2000, True)
+    return plate, column
+
+
+def carried(plate, column):
+    """Normal force between two bodies. [N]"""
+    return sum(c["normal_force"] for c in yt.contacts(plate, column))
+
+
+def test_interaction_erased_while_the_collider_sleeps():
+    plate, column = column_on_plate(joined=False)
+    O.interactions.erase(plate, column)
+    O.run(2000, True)
+    assert_close(carried(plate, column), 9.81 * O.bodies[column].state.mass, rtol=1e-3)  # it settles anew
+
+
+def test_body_taken_out():
+    _, column = column_on_plate()
+    O.bodies.erase(column)
+    assert yt.energy()["kinetic"] == 0
+    O.run(100, True)
+    joint = scene.find_engine(yt.JointEngine).joints[0]
+    assert joint.isFinished
+
+
+def test_snow_put_on_later():
+    plate, column = column_on_plate(joined=False)
+    O.bodies.append(yt.box((0.5, 0.5, 0.5), (0, 0, 1.25), material=yt.snow()))
+    O.run(5000, True)
+    weight = 9.81 * sum(O.bodies[k].state.mass for k in (column, column + 1))
+    assert_close(carried(plate, column), weight, rtol=1e-2)  # the snow still swings on its springs
+
+
+def test_fixed_body_released():
+    O.reset()
+    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    held = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.11), fixed=True))
+    O.dt, O.engines = 1e-4, yt.engines()
+    O.run(100, True)
+    O.bodies[held].dynamic = True
+    O.run(10000, True)
+    assert_close(O.bodies[held].state.pos[2], 0.1, atol=1e-4)  # it fell 1 cm and lies on the plate
+
+
+def test_engines_called_again_keep_the_joints():
+    _, column = column_on_plate()
+    O.engines = yt.engines(gravity=(0, 0, -5))
+    assert len(scene.find_engine(yt.JointEngine).joints) == 1
+
+
+def test_body_put_elsewhere_is_noticed():
+    plate, column = column_on_plate(joined=False)
+    other = O.bodies.append(yt.box((0.2, 0.2, 0.2), (10, 0, 5)))
+    O.run(10, True)
+    O.bodies[other].state.pos = O.bodies[other].state.pos.__class__(0.8, 0, 0.101)
+    yt.set_velocity(O.bodies[other], (0, 0, 0))
+    O.run(5000, True)
+    assert O.bodies[other].state.vel.norm() < 1e-3  # [m/s] it lies there: neither through the plate nor flung off
+    assert_close(carried(plate, other), 9.81 * O.bodies[other].state.mass, rtol=1e-2)
+
+
+def test_loaded_scene_answers_before_a_step(tmp_path):
+    plate, column = column_on_plate()
+    before = carried(plate, column), yt.stable_dt()
+    O.save(str(tmp_path / "scene.yade"))
+    O.load(str(tmp_path / "scene.yade"))
+    assert_close((carried(plate, column), yt.stable_dt()), before, rtol=1e-12)  # rounding of another order of sums
+    yt.energy()
+
+
+def test_stable_dt_of_one_block_is_the_closed_form():
+    plate, column = column_on_plate(joined=False)
+    springs = O.interactions[plate, column].phys
+    # the stiffest motion of a slender column on four springs is along its axis: omega^2 = 4 K_n / m
+    stiffness = 1.5 * carried(plate, column) / 4 / yt.contacts(plate, column)[0]["overlap"]  # Hertz: K = 3/2 F / n
+    axial = 2 / (4 * stiffness / O.bodies[column].state.mass) ** 0.5
+    assert yt.stable_dt(1.0) <= axial * (1 + 1e-6)
+    assert springs.mass == O.bodies[column].state.mass
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: yt.box((1, 1, 1), (0, 0, 0), material=yt.TimberJoint()), "timber() or snow()"),
+        (lambda: yt.connect(0, 0, [(0, 0, 0)]), "itself"),
+        (lambda: yt.connect(0, 7, [(0, 0, 0)]), "no body 7"),
+        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1), "strength"),
+        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]), "broken"),
+    ],
+)
+def test_wrong_calls_say_what_is_wrong(call, words):
+    column_on_plate()
+    with pytest.raises((TypeError, ValueError, RuntimeError)) as refusal:
+        call()
+    assert words in str(refusal.value)
+
+
+def test_partly_blocked_body_stops_the_run():
+    _, column = column_on_plate()
+    O.bodies[column].state.blockedDOFs = "x"
+    with pytest.raises(RuntimeError, match=r"(?s).*"):
+        O.run(200, True)
