@@ -80,7 +80,11 @@ def box(extents, centre, orientation=None, material=None, fixed=False, radius=No
 
 def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
     """Give a body a velocity (3,) [m/s] and angular velocity (3,) [rad/s], world frame: the integrator goes by its momenta."""
-    state = body.state
-    state.vel, state.angVel = Vector3(*velocity), Vector3(*angular_velocity)
-    local = state.ori.conjugate() * state.angVel
-    state.angMom = state.ori * Vector3(*(local[k] * state.inertia[k] for k in range(3)))
+    body.state.vel, body.state.angVel = Vector3(*velocity), Vector3(*angular_velocity)
+    body.state.angMom = angular_momentum(body)
+
+
+def angular_momentum(body):
+    """I omega of a body, world frame. [kg m2/s]"""
+    local = body.state.ori.conjugate() * body.state.angVel
+    return body.state.ori * Vector3(*(local[k] * body.state.inertia[k] for k in range(3)))

@@ -2,7 +2,9 @@
 """Engines, joints and questions to the scene that is loaded in YADE."""
 import numpy as np
 import yade.wrapper as yw
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Vector3
+
+from .elements import angular_momentum  # noqa: F401  (part of this module's interface)
 
 GRAVITY = (0.0, 0.0, -9.81)
 """[m/s2]"""
@@ -186,18 +188,6 @@ def energy():
 def energy_residual(terms):
     """What the balance of `energy()` leaves over [J]; zero at the start of a scene at rest."""
     return sum(value for name, value in terms.items() if name != "ground_motion") - terms.get("ground_motion", 0.0)
-
-
-def set_orientation(body, orientation):
-    """Turn a body (Quaternion), keeping its angular velocity."""
-    body.state.ori = Quaternion(orientation)
-    body.state.angMom = angular_momentum(body)
-
-
-def angular_momentum(body):
-    """I omega of a body, world frame [kg m2/s]. Set `state.angMom` to it after setting `state.angVel`."""
-    local = body.state.ori.conjugate() * body.state.angVel
-    return body.state.ori * Vector3(*(local[k] * body.state.inertia[k] for k in range(3)))
 
 
 def stable_dt(safety=0.5):
