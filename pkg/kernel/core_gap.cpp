@@ -57,7 +57,7 @@ namespace {
 
 } // namespace
 
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis)
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double enough)
 {
 	std::vector<Vec3> placed;
 	for (const Vec3& v : b.vertices)
@@ -69,11 +69,10 @@ double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, c
 		widest.along(-(rotation * face.plane.normal));
 	for (const Edge& ea : a.edges)
 		for (const Edge& eb : b.edges) {
-			const Vec3 spanA = a.vertices[ea.head] - a.vertices[ea.tail], spanB = placed[eb.head] - placed[eb.tail];
-			const Vec3 n = spanA.cross(spanB);
-			const double length = n.norm();
-			if (length <= 1e-9 * spanA.norm() * spanB.norm()) continue; // any direction may be tried, but not none
-			widest.alongBothWays(n / length);
+			if (widest.gap > enough) break;
+			const Vec3 n = ea.along.cross(rotation * eb.along);
+			const double sine = n.norm();
+			if (sine > 1e-9) widest.alongBothWays(n / sine); // any direction may be tried, but not none
 		}
 	axis = widest.axis;
 	return widest.gap;

@@ -33,13 +33,12 @@ namespace {
 		gain = 1 / (1 + theta * x);
 	}
 
-	void apply(std::vector<DashpotBody>& bodies, const DashpotPoint& p, const Vec3& impulse)
+	void apply(DashpotBody& a, DashpotBody& b, const Vec3& armA, const Vec3& armB, const Vec3& impulse)
 	{
-		DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
 		a.newVelocity -= a.inverseMass * impulse;
-		a.newSpin -= a.inverseInertia * p.armA.cross(impulse);
+		a.newSpin -= a.inverseInertia * armA.cross(impulse);
 		b.newVelocity += b.inverseMass * impulse;
-		b.newSpin += b.inverseInertia * p.armB.cross(impulse);
+		b.newSpin += b.inverseInertia * armB.cross(impulse);
 	}
 
 	Vec3 clipped(const Vec3& v, double length)
@@ -76,68 +75,122 @@ DashpotSolver::Row DashpotSolver::prepare(const std::vector<DashpotBody>& bodies
 	const double vn = p.before.dot(p.normal);
 	const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
 	Row row;
+	row.armA = p.armA;
+	row.armB = p.armB;
+	row.normal = p.normal;
+	row.impulse = p.impulse;
 	row.normalResponse = response * p.normal;
-	row.normalRate = h * p.normalDamping;
-	row.shearRate = h * p.shearDamping;
-	setDashpot(row.normalRate, p.normal.dot(row.normalResponse), row.normalTheta, row.normalGain);
-	setDashpot(row.shearRate, largestShearResponse(response, p.normal), row.shearTheta, row.shearGain);
+	double normalTheta, shearTheta;
+	setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
+	setDashpot(h * p.shearDamping, largestShearResponse(response, p.normal), shearTheta, row.shearGain);
+	row.normalRate = h * p.normalDamping * normalTheta;
+	row.shearRate = h * p.shearDamping * shearTheta;
 	row.elasticShear = h * p.elasticShear;
 	row.elasticShearNorm = row.elasticShear.norm();
-	row.normalTarget = h * p.elasticNormal - row.normalRate * (1 - row.normalTheta) * vn;
-	row.shearTarget = row.elasticShear - row.shearRate * (1 - row.shearTheta) * (p.before - vn * p.normal);
+	row.normalTarget = h * p.elasticNormal - h * p.normalDamping * (1 - normalTheta) * vn;
+	row.shearTarget = row.elasticShear - h * p.shearDamping * (1 - shearTheta) * (p.before - vn * p.normal);
+	row.friction = p.friction;
 	return row;
 }
 
-/// Returns the squared change of the impulse. [N2 s2]
-double DashpotSolver::relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row)
+void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Block& block, bool forwards)
 {
-	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-	Vec3 v = relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-	const double normal = p.impulse.dot(p.normal);
-	const double normalError = normal - row.normalTarget + row.normalRate * row.normalTheta * v.dot(p.normal);
-	const double newNormal = std::max(0., normal - row.normalGain * normalError);
+	DashpotBody &a = bodies[block.bodyA], &b = bodies[block.bodyB];
+	block.change = 0;
+	for (size_t k = 0; k < block.count; ++k) {
+		Row& row = rows[block.first + (forwards ? k : block.count - 1 - k)];
+		Vec3 v = b.newVelocity + b.newSpin.cross(row.armB) - a.newVelocity - a.newSpin.cross(row.armA);
+		const double normal = row.impulse.dot(row.normal);
+		const double normalError = normal - row.normalTarget + row.normalRate * v.dot(row.normal);
+		const double newNormal = std::max(0., normal - row.normalGain * normalError);
 
-	v += (newNormal - normal) * row.normalResponse;
-	const Vec3 tangential = p.impulse - normal * p.normal;
-	const Vec3 shearError = tangential - row.shearTarget + row.shearRate * row.shearTheta * (v - v.dot(p.normal) * p.normal);
-	const Vec3 impulse = newNormal * p.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, p.friction * newNormal);
-	const Vec3 change = impulse - p.impulse;
-	apply(bodies, p, change);
-	p.impulse = impulse;
-	return change.squaredNorm();
+		v += (newNormal - normal) * row.normalResponse;
+		const Vec3 tangential = row.impulse - normal * row.normal;
+		const Vec3 shearError = tangential - row.shearTarget + row.shearRate * (v - v.dot(row.normal) * row.normal);
+		const Vec3 impulse = newNormal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, row.friction * newNormal);
+		const Vec3 change = impulse - row.impulse;
+		apply(a, b, row.armA, row.armB, change);
+		row.impulse = impulse;
+		block.change += change.squaredNorm();
+	}
 }
 
-/// Returns the squared change of all impulses. [N2 s2]
-double DashpotSolver::sweep(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, bool forwards)
+void DashpotSolver::collectBlocks(const std::vector<DashpotPoint>& points)
 {
-	const size_t count = points.size();
-	double change = 0;
-	for (size_t k = 0; k < count; ++k) {
-		const size_t place = forwards ? k : count - 1 - k;
-		change += relax(bodies, points[place], rows[place]);
+	blocks.clear();
+	for (size_t k = 0; k < points.size(); ++k) {
+		const DashpotPoint& p = points[k];
+		if (blocks.empty() || blocks.back().bodyA != p.bodyA || blocks.back().bodyB != p.bodyB) blocks.push_back({ p.bodyA, p.bodyB, k, 0, 0 });
+		++blocks.back().count;
 	}
-	return change;
+}
+
+/// Squared change of a point's impulse that counts as none. [N2 s2]
+double DashpotSolver::threshold(double tolerance) const
+{
+	double size = 0;
+	for (const Row& row : rows)
+		size += row.impulse.squaredNorm();
+	return tolerance * tolerance * size / double(rows.size());
+}
+
+/// Has the neighbours of a pair looked at in this sweep (if their turn is still to come) and in the next one, if the pair
+/// has changed by more than `allowed` per point.
+bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Block& block, double allowed, int sweep)
+{
+	if (block.change <= allowed * double(block.count)) return false;
+	for (const int body : { block.bodyA, block.bodyB })
+		if (bodies[body].inverseMass > 0) awake[body] = sweep + 1;
+	return true;
+}
+
+/// Returns whether another sweep is needed.
+bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, double allowed, int sweep)
+{
+	const bool forwards = sweep % 2 == 0;
+	bool changed = false;
+	for (size_t k = 0; k < blocks.size(); ++k) {
+		Block& block = blocks[forwards ? k : blocks.size() - 1 - k];
+		if (awake[block.bodyA] < sweep && awake[block.bodyB] < sweep) continue;
+		relax(bodies, block, forwards);
+		changed = wake(bodies, block, allowed, sweep) || changed;
+	}
+	return changed;
+}
+
+/// Returns the number of sweeps.
+int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, int sweeps, double tolerance)
+{
+	awake.assign(bodies.size(), 0);
+	for (Block& block : blocks)
+		relax(bodies, block, true);
+	const double allowed = threshold(tolerance);
+	bool changed = false;
+	for (const Block& block : blocks)
+		changed = wake(bodies, block, allowed, 0) || changed;
+	int done = 1;
+	while (changed && done < sweeps)
+		changed = sweepOn(bodies, allowed, done++);
+	return done;
 }
 
 int DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance)
 {
-	const size_t count = points.size();
-	rows.resize(count);
-	for (size_t k = 0; k < count; ++k) {
-		if (sweeps == 0) explicitImpulse(bodies, points[k], h);
-		else
-			rows[k] = prepare(bodies, points[k], h);
-	}
+	if (points.empty()) return 0;
+	if (sweeps == 0)
+		for (DashpotPoint& p : points)
+			explicitImpulse(bodies, p, h);
 	for (const DashpotPoint& p : points)
-		apply(bodies, p, p.impulse);
-	for (int done = 0; done < sweeps; ++done) {
-		const double change = sweep(bodies, points, done % 2 == 0);
-		double size = 0;
-		for (const DashpotPoint& p : points)
-			size += p.impulse.squaredNorm();
-		if (change <= tolerance * tolerance * size) return done + 1;
-	}
-	return sweeps;
+		apply(bodies[p.bodyA], bodies[p.bodyB], p.armA, p.armB, p.impulse);
+	if (sweeps == 0) return 0;
+	rows.resize(points.size());
+	for (size_t k = 0; k < points.size(); ++k)
+		rows[k] = prepare(bodies, points[k], h);
+	collectBlocks(points);
+	const int done = sweepAll(bodies, sweeps, tolerance);
+	for (size_t k = 0; k < points.size(); ++k)
+		points[k].impulse = rows[k].impulse;
+	return done;
 }
 
 } // namespace timber

@@ -10,6 +10,7 @@
 /// started from the last step's dashpots, until they change little. No sweeps: explicit dashpots, as the paper has them.
 #pragma once
 #include "types.hpp"
+#include <cstddef>
 #include <vector>
 
 namespace timber {
@@ -45,28 +46,42 @@ Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce)
 /// Finds the impulses of all points of a step. Keeps its working memory between calls, and nothing else.
 class DashpotSolver {
 public:
-	/// h: length of the step [s]; sweeps: most passes over the points, alternating in direction; they end once a pass
-	/// changes the impulses by less than `tolerance` of their size (root of the sum of squares) [-].
-	/// Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from
-	/// the solution, and what is left of the start would create energy. Returns the number of passes.
+	/// h: length of the step [s]; sweeps: most passes over the points, alternating in direction. After the first, a pass looks
+	/// only at pairs of which a body has just been changed; a pair whose impulses change by less than `tolerance` of the points'
+	/// root mean square [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light
+	/// members in an impact they are far from the solution, and what is left of the start would create energy.
+	/// Points of a pair stand next to each other. Returns the number of passes.
 	int solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0);
 
 private:
-	/// What a sweep needs of a point: impulses instead of forces, divisions done.
+	/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
 	struct Row {
+		Vec3 armA, armB, normal, impulse;
 		Vec3 normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
-		double normalRate, normalTheta, normalGain; ///< h C_n; theta; 1 / (1 + theta h C_n a_n)
-		double shearRate, shearTheta, shearGain;
+		double normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
+		double shearRate, shearGain;
 		double normalTarget; ///< h e_n - h C_n (1 - theta) v_n before: the dashpot's known part included [N s]
 		Vec3 shearTarget; ///< likewise, tangential
 		Vec3 elasticShear; ///< h e_s
-		double elasticShearNorm;
+		double elasticShearNorm, friction;
+	};
+	/// Neighbouring points of the same two bodies.
+	struct Block {
+		int bodyA, bodyB;
+		size_t first, count;
+		double change; ///< squared change of its impulses in the last sweep [N2 s2]
 	};
 	std::vector<Row> rows;
+	std::vector<Block> blocks;
+	std::vector<int> awake; ///< last sweep for which a body's velocity may have changed enough to look again
 
-	double sweep(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, bool forwards);
+	void collectBlocks(const std::vector<DashpotPoint>& points);
+	double threshold(double tolerance) const;
+	bool wake(const std::vector<DashpotBody>& bodies, const Block& block, double allowed, int sweep);
+	bool sweepOn(std::vector<DashpotBody>& bodies, double allowed, int sweep);
+	int sweepAll(std::vector<DashpotBody>& bodies, int sweeps, double tolerance);
+	void relax(std::vector<DashpotBody>& bodies, Block& block, bool forwards);
 	static Row prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h);
-	static double relax(std::vector<DashpotBody>& bodies, DashpotPoint& p, const Row& row);
 };
 
 /// One step without memory kept.

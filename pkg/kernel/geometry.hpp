@@ -9,32 +9,27 @@
 
 namespace timber {
 
-inline double height(const Face& face, const Vec3& x) { return face.plane.normal.dot(x) - face.plane.offset; }
+inline double height(const HalfSpace& plane, const Vec3& x) { return plane.normal.dot(x) - plane.offset; }
 
 /// The foot of x lies in the face or beyond its border by at most `limit` (negative: inside it by as much) [m]. At a
 /// corner the distance along the bisector counts, too, over sqrt(2): nothing new at a right corner, but a foot beyond a
 /// sharp tip stays near it.
-inline bool isOverFace(const Polyhedron& body, const Face& face, const Vec3& x, double limit)
+inline bool isOverFace(const Face& face, const Vec3& x, double limit)
 {
-	const size_t count = face.corners.size();
 	bool beyond = false;
-	for (size_t k = 0; k < count; ++k) {
-		const double distance = face.outward[k].dot(x - body.vertices[face.corners[k]]);
+	for (const HalfSpace& border : face.borders) {
+		const double distance = height(border, x);
 		if (distance > limit) return false;
 		beyond = beyond || distance > 0;
 	}
-	for (size_t k = 0; beyond && k < count; ++k) {
-		const Vec3 bisector = (face.outward[k] + face.outward[(k + count - 1) % count]).normalized();
-		if (bisector.dot(x - body.vertices[face.corners[k]]) > M_SQRT2 * limit) return false;
-	}
-	return true;
+	return !beyond || std::all_of(face.tips.begin(), face.tips.end(), [&](const HalfSpace& tip) { return height(tip, x) <= M_SQRT2 * limit; });
 }
 
 /// x lies in all half-spaces but that of the given face, which is not asked; `limit` may reach beyond them or stay inside. [m]
 inline bool isInside(const Polyhedron& body, int face, const Vec3& x, double limit)
 {
 	for (int f = 0; f < int(body.faces.size()); ++f)
-		if (f != face && height(body.faces[f], x) > limit) return false;
+		if (f != face && height(body.faces[f].plane, x) > limit) return false;
 	return true;
 }
 

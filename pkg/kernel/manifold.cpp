@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "manifold.hpp"
-#include "constants.hpp"
+#include "candidates.hpp"
 #include "geometry.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace timber {
 namespace {
-
-	/// One pair at one instant, all in the frame of A: x_A = rotation x_B + translation.
-	struct Pair {
-		const RoundedPolyhedron& a;
-		const RoundedPolyhedron& b;
-		Mat3 rotation;
-		Vec3 translation;
-		Patterns patterns;
-		double gap = 0; ///< of the cores; < 0: they overlap (deep contact). Not looked up while they are surely apart. [m]
-		Vec3 axis = Vec3::Zero(); ///< where the gap is found, unit, from A to B; only in deep contact
-		int facingA = -1, facingB = -1; ///< the faces that look along the axis; only in deep contact
-
-		bool deep() const { return gap < 0; }
-		double touch() const { return a.radius + b.radius; }
-		double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
-		Vec3 toB(const Vec3& x) const { return rotation.transpose() * (x - translation); }
-		Vec3 toA(const Vec3& x) const { return rotation * x + translation; }
-		/// Foot beyond a border by less than this still belongs to the face. [m]
-		double borderLimit() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
-	};
 
 	/// What two features make of each other: distance of the cores along the normal, in one frame.
 	struct Meet {
@@ -42,9 +21,9 @@ namespace {
 	bool vertexOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3& x, double& distance)
 	{
 		const Face& f = body.core.faces[face];
-		distance = height(f, x);
+		distance = height(f.plane, x);
 		if (distance >= pair.touch() || distance <= -(pair.deep() ? body.coreHalfThickness : flushTolerance)) return false;
-		if (!isOverFace(body.core, f, x, pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
+		if (!isOverFace(f, x, pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
 		return !pair.deep() || (face == facing && (distance >= 0 || isInside(body.core, face, x, pair.borderLimit())));
 	}
 
@@ -70,42 +49,20 @@ namespace {
 		return true;
 	}
 
-	/// Two lines: sine of their angle, parameters of the closest points along the unit directions.
-	struct Crossing {
-		double sine, alongA, alongB;
-		Vec3 across; ///< unit, perpendicular to both
-	};
-	Crossing cross(const Vec3& originA, const Vec3& alongA, const Vec3& originB, const Vec3& alongB)
-	{
-		Crossing c;
-		const Vec3 n = alongA.cross(alongB);
-		c.sine = n.norm();
-		if (c.sine < parallelSine) return c;
-		c.across = n / c.sine;
-		const Vec3 w = originB - originA;
-		const double square = c.sine * c.sine;
-		c.alongA = w.cross(alongB).dot(n) / square;
-		c.alongB = w.cross(alongA).dot(n) / square;
-		return c;
-	}
-
 	/// The crossing must lie inside both edges, farther from their ends than the border rule reaches.
 	bool meetEdgeEdge(const Pair& pair, int edgeA, int edgeB, Meet& meet)
 	{
 		const Edge &ea = pair.a.core.edges[edgeA], &eb = pair.b.core.edges[edgeB];
 		const Vec3& tailA = pair.a.core.vertices[ea.tail];
-		const Vec3 tailB = pair.toA(pair.b.core.vertices[eb.tail]);
-		const Vec3 spanA = pair.a.core.vertices[ea.head] - tailA;
-		const Vec3 spanB = pair.rotation * (pair.b.core.vertices[eb.head] - pair.b.core.vertices[eb.tail]);
-		const double lengthA = spanA.norm(), lengthB = spanB.norm();
-		Crossing c = cross(tailA, spanA / lengthA, tailB, spanB / lengthB);
+		const Vec3 tailB = pair.toA(pair.b.core.vertices[eb.tail]), alongB = pair.rotation * eb.along;
+		Crossing c = crossing(tailA, ea.along, tailB, alongB);
 		if (c.sine < parallelSine) return false;
 		const double end = flushTolerance / c.sine;
-		if (c.alongA <= end || c.alongA >= lengthA - end || c.alongB <= end || c.alongB >= lengthB - end) return false;
+		if (c.alongA <= end || c.alongA >= ea.length - end || c.alongB <= end || c.alongB >= eb.length - end) return false;
 		if (c.across.dot(ea.outward) < 0) c.across = -c.across;
 		if (c.across.dot(pair.rotation * eb.outward) >= 0) return false; // B's edge is on the far side of B
-		meet.pointA = tailA + c.alongA / lengthA * spanA;
-		meet.pointB = tailB + c.alongB / lengthB * spanB;
+		meet.pointA = tailA + c.alongA * ea.along;
+		meet.pointB = tailB + c.alongB * alongB;
 		meet.normal = c.across;
 		meet.distance = c.across.dot(meet.pointB - meet.pointA);
 		return meet.distance < pair.touch() && meet.distance > -(pair.deep() ? pair.depthLimit() : flushTolerance);
@@ -116,8 +73,8 @@ namespace {
 	{
 		for (const Edge& e : body.edges) {
 			if (e.tail != vertex && e.head != vertex) continue;
-			const Vec3 along = body.vertices[e.tail == vertex ? e.head : e.tail] - body.vertices[vertex];
-			if (along.dot(towards) > slope * along.norm()) return false;
+			const double rise = e.along.dot(towards);
+			if ((e.tail == vertex ? rise : -rise) > slope) return false;
 		}
 		return true;
 	}
@@ -126,12 +83,11 @@ namespace {
 	bool vertexOnEdge(const Pair& pair, const Polyhedron& from, const Mat3& turn, int vertex, const Polyhedron& body, const Edge& edge, const Vec3& x, Vec3& foot)
 	{
 		const Vec3& tail = body.vertices[edge.tail];
-		const Vec3 span = body.vertices[edge.head] - tail;
-		const double length = span.norm(), along = (x - tail).dot(span) / length;
-		if (along < -flushTolerance || along > length + flushTolerance) return false;
+		const double along = (x - tail).dot(edge.along);
+		if (along < -flushTolerance || along > edge.length + flushTolerance) return false;
 		for (const int f : { edge.left, edge.right })
-			if (isOverFace(body, body.faces[f], x, pair.borderLimit())) return false; // the face answers
-		foot = tail + along / length * span;
+			if (isOverFace(body.faces[f], x, pair.borderLimit())) return false; // the face answers
+		foot = tail + along * edge.along;
 		const Vec3 towards = foot - x;
 		const double distance = towards.norm();
 		if (distance >= pair.touch() || distance <= 0 || towards.dot(edge.outward) >= 0) return false;
@@ -207,11 +163,11 @@ namespace {
 		return { middle - half, middle + half, pair.axis, pair.gap };
 	}
 
-	ContactPoint worldPoint(const Pair& pair, const Pose& poseA, FeatureId id, const Meet& meet)
+	ContactPoint worldPoint(const Pair& pair, const Mat3& turnA, const Vec3& originA, FeatureId id, const Meet& meet)
 	{
 		const double overlap = pair.touch() - meet.distance;
 		const Vec3 middle = meet.pointA + (pair.a.radius - overlap / 2) * meet.normal;
-		return { id, poseA.position + poseA.orientation * middle, poseA.orientation * meet.normal, overlap };
+		return { id, originA + turnA * middle, turnA * meet.normal, overlap };
 	}
 
 	/// Vertices on each other, or over each other's borders, are one contact although several features name it.
@@ -227,119 +183,9 @@ namespace {
 		});
 	}
 
-	/// Feature pairs that can touch before the pair has moved by the skin.
-	class CandidateSearch {
-	public:
-		CandidateSearch(const Pair& p, std::vector<FeatureId>& o)
-		        : pair(p)
-		        , out(o)
-		        , range(p.touch() + candidateSkin)
-		{
-			for (const Vec3& v : p.a.core.vertices)
-				verticesA.push_back(p.toB(v));
-			for (const Vec3& v : p.b.core.vertices)
-				verticesB.push_back(p.toA(v));
-		}
-		void run()
-		{
-			facesAgainst(Meeting::VertexFace, verticesA, pair.b);
-			facesAgainst(Meeting::FaceVertex, verticesB, pair.a);
-			edges();
-			if (!pair.patterns.vertexEdge) return;
-			edgesAgainst(Meeting::VertexEdge, verticesA, pair.b.core);
-			edgesAgainst(Meeting::EdgeVertex, verticesB, pair.a.core);
-			vertices();
-		}
-
-	private:
-		const Pair& pair;
-		std::vector<FeatureId>& out;
-		double range;
-		std::vector<Vec3> verticesA, verticesB; ///< each in the other's frame
-
-		void facesAgainst(Meeting meeting, const std::vector<Vec3>& points, const RoundedPolyhedron& body)
-		{
-			const bool vertexFirst = meeting == Meeting::VertexFace;
-			const int outer = int(vertexFirst ? points.size() : body.core.faces.size()), inner = int(vertexFirst ? body.core.faces.size() : points.size());
-			for (int a = 0; a < outer; ++a)
-				for (int b = 0; b < inner; ++b) {
-					const Face& face = body.core.faces[vertexFirst ? b : a];
-					const Vec3& x = points[vertexFirst ? a : b];
-					const double h = height(face, x);
-					if (h > range || h < -(body.coreHalfThickness + candidateSkin)) continue;
-					if (isOverFace(body.core, face, x, flushTolerance + candidateSkin)) out.push_back({ meeting, a, b });
-				}
-		}
-		void edges()
-		{
-			const double near = std::max(range, pair.depthLimit() + candidateSkin);
-			for (size_t a = 0; a < pair.a.core.edges.size(); ++a)
-				for (size_t b = 0; b < pair.b.core.edges.size(); ++b) {
-					const Edge &ea = pair.a.core.edges[a], &eb = pair.b.core.edges[b];
-					const Vec3& tailA = pair.a.core.vertices[ea.tail];
-					const Vec3& tailB = verticesB[eb.tail];
-					const Vec3 spanA = pair.a.core.vertices[ea.head] - tailA, spanB = verticesB[eb.head] - tailB;
-					if (segmentDistance(tailA, spanA, tailB, spanB) <= near && mayCross(ea, tailA, spanA, eb, tailB, spanB)) out.push_back({ Meeting::EdgeEdge, int(a), int(b) });
-				}
-		}
-		/// Two near edges can only come to cross within the skin if they are not too parallel, cross near both spans and look
-		/// towards each other. Half of the near pairs of flush members are none of it. Ill-conditioned crossings are kept.
-		bool mayCross(const Edge& ea, const Vec3& tailA, const Vec3& spanA, const Edge& eb, const Vec3& tailB, const Vec3& spanB) const
-		{
-			const double lengthA = spanA.norm(), lengthB = spanB.norm(), turn = candidateSkin / std::min(pair.a.reach, pair.b.reach);
-			const Crossing c = cross(tailA, spanA / lengthA, tailB, spanB / lengthB);
-			if (c.sine < parallelSine) return c.sine + turn >= parallelSine;
-			if (c.sine < 0.1) return true;
-			const double slack = 3 * (candidateSkin + pair.touch() * turn) / c.sine;
-			if (c.alongA < -slack || c.alongA > lengthA + slack || c.alongB < -slack || c.alongB > lengthB + slack) return false;
-			return c.across.dot(ea.outward) * c.across.dot(pair.rotation * eb.outward) <= 3 * turn / c.sine;
-		}
-		void edgesAgainst(Meeting meeting, const std::vector<Vec3>& points, const Polyhedron& body)
-		{
-			const bool vertexFirst = meeting == Meeting::VertexEdge;
-			const int outer = int(vertexFirst ? points.size() : body.edges.size()), inner = int(vertexFirst ? body.edges.size() : points.size());
-			for (int a = 0; a < outer; ++a)
-				for (int b = 0; b < inner; ++b) {
-					const Edge& e = body.edges[vertexFirst ? b : a];
-					const Vec3& tail = body.vertices[e.tail];
-					if (segmentDistance(tail, body.vertices[e.head] - tail, points[vertexFirst ? a : b], Vec3(1e-12, 0, 0)) <= range) out.push_back({ meeting, a, b });
-				}
-		}
-		void vertices()
-		{
-			for (size_t a = 0; a < pair.a.core.vertices.size(); ++a)
-				for (size_t b = 0; b < verticesB.size(); ++b)
-					if ((verticesB[b] - pair.a.core.vertices[a]).norm() <= range) out.push_back({ Meeting::VertexVertex, int(a), int(b) });
-		}
-	};
-
-	/// Upper bound of how far any point within the search range of the smaller body has moved with it, in the frame of
-	/// the larger body: vertices of the larger one are seen from the smaller one, too. [m]
-	double relativeMotion(const Pair& pair, const Quat& rotation, const CandidateCache& cache)
-	{
-		const double turned = 2 * (cache.rotation.conjugate() * rotation).vec().norm(), range = pair.touch() + 2 * candidateSkin;
-		if (pair.b.reach <= pair.a.reach) return (pair.translation - cache.translation).norm() + turned * (pair.b.reach + range);
-		const Vec3 now = pair.rotation.transpose() * pair.translation, then = cache.rotation.conjugate() * cache.translation;
-		return (now - then).norm() + turned * (pair.a.reach + range);
-	}
-
-	/// A pair far apart needs no candidates until its gap has shrunk to the touching distance plus the skin, which also
-	/// covers what a flush support reaches beyond a border.
-	void search(const Pair& pair, const Quat& rotation, CandidateCache& cache)
-	{
-		cache.candidates.clear();
-		cache.translation = pair.translation;
-		cache.rotation = rotation;
-		Vec3 axis;
-		const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, axis);
-		cache.coresMayMeet = gap <= candidateSkin;
-		cache.margin = std::max(candidateSkin, gap - pair.touch() - candidateSkin);
-		if (gap < pair.touch() + 2 * candidateSkin) CandidateSearch(pair, cache.candidates).run();
-	}
-
 	void lookForOverlap(Pair& pair)
 	{
-		pair.gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, pair.axis);
+		pair.gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, pair.axis, 0);
 		if (!pair.deep()) return;
 		pair.facingA = faceLooking(pair.a.core, pair.axis);
 		pair.facingB = faceLooking(pair.b.core, pair.rotation.transpose() * -pair.axis);
@@ -351,19 +197,19 @@ void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, cons
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
 	points.clear();
-	const Quat rotation = poseA.orientation.conjugate() * poseB.orientation;
-	Pair pair { a, b, rotation.toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), patterns };
-	if (cache.margin < 0 || relativeMotion(pair, rotation, cache) > cache.margin) search(pair, rotation, cache);
+	const Mat3 turnA = poseA.orientation.toRotationMatrix();
+	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
+	if (!cache.holds(pair.rotation, pair.translation)) searchCandidates(pair, cache);
 	if (cache.coresMayMeet) lookForOverlap(pair);
 
 	Meet meet;
 	for (const FeatureId id : cache.candidates) {
 		if (!meetFeatures(pair, id, meet)) continue;
 		if (pair.deep() && meet.normal.dot(pair.axis) < outwardCosine) continue;
-		const ContactPoint point = worldPoint(pair, poseA, id, meet);
+		const ContactPoint point = worldPoint(pair, turnA, poseA.position, id, meet);
 		if (!isRepeated(points, point)) points.push_back(point);
 	}
-	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, poseA, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
+	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, turnA, poseA.position, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
 }
 
 } // namespace timber

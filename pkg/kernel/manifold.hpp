@@ -9,7 +9,9 @@
 /// Vertices over a border (the normal case in a house, where members are flush) are decided by `Patterns::flushSupports`.
 #pragma once
 #include "polyhedron.hpp"
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace timber {
@@ -45,19 +47,31 @@ struct Patterns {
 	bool flushSupports = true; ///< a vertex exactly over the border of a face is supported by it
 };
 
-/// Candidate feature pairs of two bodies and how far the pair may move before they must be searched again.
+/// Candidate feature pairs of two bodies and the relative motion that keeps them complete: the body B may move by `margin`
+/// at `centre`, where the bodies are near each other, and turn by `margin` over `region`, together no more than one of them.
+/// A slender member that rocks on its end thus keeps its candidates although its far end moves a lot.
 /// Holds no result: an empty cache gives the same manifold.
 struct CandidateCache {
 	std::vector<FeatureId> candidates;
-	Vec3 translation = Vec3::Zero(); ///< relative placement at the search
-	Quat rotation = Quat::Identity();
-	double margin = -1; ///< relative motion that keeps the candidates complete [m]; < 0: never searched
+	Mat3 rotation; ///< of B in the frame of A, at the search
+	Vec3 centre = Vec3::Zero(), centreB; ///< in the frames of A and B [m]
+	double region = 0; ///< [m]
+	double margin = -1; ///< [m]; < 0: never searched
 	bool coresMayMeet = false; ///< cores may overlap within the margin
+
+	bool holds(const Mat3& nowRotation, const Vec3& nowTranslation) const
+	{
+		if (margin < 0) return false;
+		const double turned = std::sqrt(0.5 * (nowRotation - rotation).squaredNorm()); // way per radius
+		return (nowRotation * centreB + nowTranslation - centre).norm() + turned * region <= margin;
+	}
 };
 
 /// Largest gap between the cores over all separating axes: <= distance when apart, minus the penetration depth when
-/// they overlap. `axis` (unit, from A to B, frame of A) is where it is found. [m]
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis);
+/// they overlap. `axis` (unit, from A to B, frame of A) is where it is found. The crossings of edges are not tried once the
+/// gap exceeds `enough`. [m]
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis,
+        double enough = std::numeric_limits<double>::infinity());
 
 /// Contact points with overlap > 0, sorted by id. Both bodies' vertices are in their body frames.
 void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,

@@ -79,6 +79,18 @@ namespace {
 		return maximal;
 	}
 
+	void setBorders(Face& face, const std::vector<Vec3>& points)
+	{
+		const size_t count = face.corners.size();
+		const auto through = [](const Vec3& normal, const Vec3& x) { return HalfSpace { normal, normal.dot(x) }; };
+		for (size_t k = 0; k < count; ++k) {
+			const Vec3 &corner = points[face.corners[k]], &next = points[face.corners[(k + 1) % count]];
+			face.borders.push_back(through((next - corner).cross(face.plane.normal).normalized(), corner));
+		}
+		for (size_t k = 0; k < count; ++k)
+			face.tips.push_back(through((face.borders[k].normal + face.borders[(k + count - 1) % count].normal).normalized(), points[face.corners[k]]));
+	}
+
 	/// Face from its unordered corners: Newell normal, corners counter-clockwise seen from outside.
 	Face orderedFace(const std::vector<Vec3>& points, std::vector<int> corners, const Vec3& inside)
 	{
@@ -105,14 +117,17 @@ namespace {
 		face.plane.normal = newell.normalized();
 		face.plane.offset = face.plane.normal.dot(centre);
 		face.corners = std::move(corners);
-		for (size_t k = 0; k < face.corners.size(); ++k) {
-			const Vec3 along = points[face.corners[(k + 1) % face.corners.size()]] - points[face.corners[k]];
-			face.outward.push_back(along.cross(face.plane.normal).normalized());
-		}
+		setBorders(face, points);
 		return face;
 	}
 
-	std::vector<Edge> edgesOf(const std::vector<Face>& faces)
+	Edge edgeBetween(const std::vector<Vec3>& points, const std::vector<Face>& faces, int tail, int head, int left, int right)
+	{
+		const Vec3 span = points[head] - points[tail];
+		return { tail, head, left, right, (faces[left].plane.normal + faces[right].plane.normal).normalized(), span.normalized(), span.norm() };
+	}
+
+	std::vector<Edge> edgesOf(const std::vector<Vec3>& points, const std::vector<Face>& faces)
 	{
 		std::map<std::pair<int, int>, int> faceLeftOf;
 		for (size_t f = 0; f < faces.size(); ++f)
@@ -123,7 +138,7 @@ namespace {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
 			if (back == faceLeftOf.end()) throw OpenSurface("faces do not close around the edge between vertices " + std::to_string(ends.first) + " and " + std::to_string(ends.second));
 			if (ends.first < ends.second)
-				edges.push_back({ ends.first, ends.second, left, back->second, (faces[left].plane.normal + faces[back->second].plane.normal).normalized() });
+				edges.push_back(edgeBetween(points, faces, ends.first, ends.second, left, back->second));
 		}
 		return edges;
 	}
@@ -172,7 +187,7 @@ namespace {
 		}
 		for (size_t k = 0; k < points.size(); ++k)
 			if (degree[k] < 3) throw PolyhedronError("vertex " + std::to_string(k) + " " + text(points[k]) + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
-		body.edges = edgesOf(body.faces);
+		body.edges = edgesOf(body.vertices, body.faces);
 		if (body.vertices.size() + body.faces.size() != body.edges.size() + 2) throw OpenSurface("faces, edges and vertices do not close to one surface (Euler's formula)");
 		return body;
 	}

@@ -22,13 +22,16 @@ struct HalfSpace {
 struct Face {
 	HalfSpace plane;
 	std::vector<int> corners; ///< vertex indices, counter-clockwise seen from outside
-	std::vector<Vec3> outward; ///< in-plane outward unit normal of the border from corner k to k+1
+	std::vector<HalfSpace> borders; ///< from corner k to k+1; normals in the plane of the face
+	std::vector<HalfSpace> tips; ///< through corner k, across the bisector of its two borders
 };
 
 struct Edge {
 	int tail, head; ///< vertex indices
 	int left, right; ///< faces: tail->head runs counter-clockwise in `left`
 	Vec3 outward; ///< unit bisector of the two face normals
+	Vec3 along; ///< unit, from tail to head
+	double length; ///< [m]
 };
 
 /// A convex polyhedron in whatever frame its vertices are given in.
