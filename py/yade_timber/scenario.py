@@ -65,10 +65,15 @@ def build(scenario):
     motion = None
     if scenario.motion is not None:
         motion = scene.ground_motion_engine(scenario.motion, scale=scenario.scale)
-    options = {"vertex_edge": model.law["vertex_edge_contacts"], "increment": model.law["hertz"] == "increment", **scenario.options}
+    options = {**law_options(model.law), **scenario.options}
     O.engines = scene.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
     O.dt = scenario.dt
     return model
+
+
+def law_options(law):
+    """Arguments of `scene.engines` that the `law` of a house file decides."""
+    return {"vertex_edge": law["vertex_edge_contacts"], "flush_supports": law["flush_supports"], "increment": law["hertz"] == "increment"}
 
 
 def add_elements(model):

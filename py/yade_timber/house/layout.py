@@ -102,6 +102,7 @@ HOUSE = Record({
     "law": Record({
         "joint_reading": Choice(("spring", "joint"), "spring"),
         "vertex_edge_contacts": Flag(False),
+        "flush_supports": Flag(True),
         "hertz": Choice(("closed", "increment"), "closed"),
     }, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": Text("timber")}),
