@@ -7,7 +7,8 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
 from . import elements, scene
-from .house import HouseError, build_house, load_house
+from .house import build_house, load_house
+from .house.friction import own_coefficient
 
 O = yw.Omega()
 
@@ -79,7 +80,6 @@ def law_options(law):
 def add_elements(model):
     """Append the model's elements to O.bodies; returns {element name: body id}."""
     materials = {name: make_material(name, spec, model) for name, spec in model.materials.items()}
-    check_friction(materials, model)
     ids = {}
     for element in model.elements:
         body = elements.polyhedron(
@@ -95,20 +95,11 @@ def add_elements(model):
 
 
 def make_material(name, spec, model):
-    """Material of a house description. Its friction is the coefficient with itself: a pair has the smaller one."""
-    own = {a: c for a, b, c in model.friction if a == b}
-    friction = min([own.get(name, 0.5)] + [c for a, b, c in model.friction if name in (a, b) and spec["law"] == "snow"])
+    """Material of a house description."""
+    friction = own_coefficient(name, spec["law"], model.friction)
     if spec["law"] == "snow":
         return elements.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
     return elements.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
-
-
-def check_friction(materials, model):
-    """Raise HouseError when a pair's coefficient is not the smaller one of its two materials."""
-    for a, b, wanted in model.friction:
-        got = min(materials[a].friction, materials[b].friction)
-        if got != wanted:
-            raise HouseError(f"{model.name}: friction of {a} and {b} is {wanted}, but the smaller one of the two materials' own is {got}: a pair takes that")
 
 
 def add_joints(model, ids):

@@ -3,7 +3,7 @@
 import pytest
 from yade import O
 from yade_timber import checkpoint, scenario
-from yade_timber.house.description import SHIPPED
+from yade_timber.house.reading import SHIPPED
 
 
 def built(tmp_path, law):
