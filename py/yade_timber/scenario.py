@@ -115,14 +115,14 @@ def add_joints(model, ids):
 def level_marks(model):
     """Bodies that mark the levels of the main structure: [(element, level)]; level k is the top of storey k.
 
-    The floor where there is one, else the beams under the roof.
+    The floor where there is one, else the beams under the roof; in a house without floors the roof itself, which moves as one.
     """
     main = next(iter(model.storey_levels))
+    kinds = ("floor", "beam") if model.of_kind("floor", group=main) else ("roof", "beam")
     marks = []
     for storey in sorted(model.storey_levels[main]):
-        level = [e for e in model.of_kind("floor", group=main) if e.storey == storey]
-        level = level or [e for e in model.of_kind("beam", group=main) if e.storey == storey]
-        marks += [(e, storey) for e in level]
+        levels = [[e for e in model.of_kind(kind, group=main) if e.storey == storey] for kind in kinds]
+        marks += [(e, storey) for e in next(filter(None, levels), [])]
     return marks
 
 
