@@ -80,8 +80,8 @@ structure = Record({
     "place": place,
     "grid": Record({"x": axis, "y": axis}),
     "margin": length(high=2.0, open_low=False),
-    "stack": ListOf(layer),
     "lines": ListOf(line),
+    "stack": ListOf(layer),
     "columns": ListOf(column_group),
     "braces": braces,
 })
