@@ -58,7 +58,7 @@ def house_parser():
     """ArgumentParser of scripts/house.py, which runs any house."""
     made = parser("house")
     made.description = "Results go to results/<name of the house file>/ unless --out says otherwise."
-    made.add_argument("house", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
+    made.add_argument("file", metavar="HOUSE", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
     made.add_argument("--quake", action="store_true", help="shake the house with the default motion; --record does so with a recorded one")
     made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs [m] (default: the house file's)")
     return made
@@ -74,8 +74,8 @@ def read(house, earthquake, snow, argv):
 def read_house(argv):
     """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
     given = house_parser().parse_args(_joined(argv[1:]))
-    depth = load_house(given.house).data["snow"]["depth"] if given.snow is None else given.snow
-    return _run(given, Path(given.house).stem, given.house, given.quake or given.record is not None, depth, "add --quake or --record FILE")
+    depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
+    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None, depth, "add --quake or --record FILE")
 
 
 def _run(given, name, house, earthquake, depth, remedy):
