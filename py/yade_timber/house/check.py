@@ -68,10 +68,12 @@ def _lying_at(member, end, touching):
 def _check_floating(model, touching):
     """Each element must be held by the ground or the foundation: through joints, or lying on something that is."""
     holds = {element.name: set() for element in model.elements}
-    for a, b in [(joint.a, joint.b) for joint in model.joints] + [pair for a, b in touching for pair in _supports(a, b)]:
-        holds[a].add(b)
     for joint in model.joints:
+        holds[joint.a].add(joint.b)
         holds[joint.b].add(joint.a)
+    for a, b in touching:
+        if b.name not in holds[a.name]:
+            _note_support(holds, a, b)
     todo = [element.name for element in model.elements if element.fixed]
     held = set(todo)
     while todo:
@@ -83,12 +85,12 @@ def _check_floating(model, touching):
         _report_floating(min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
 
 
-def _supports(a, b):
-    """[(name of the lower one, name of the upper one)] when one of two touching elements lies on the other with a face, else []."""
+def _note_support(holds, a, b):
+    """Add to {name: names of what it holds} when one of two touching elements lies on the other with a face."""
     contact = None if a.fixed and b.fixed else contact_polygon(a.solid, b.solid, TOUCH)
-    if contact is None or abs(contact[1][2]) < LYING:
-        return []
-    return [(a.name, b.name) if contact[1][2] > 0 else (b.name, a.name)]
+    if contact and abs(contact[1][2]) > LYING:
+        lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
+        holds[lower.name].add(upper.name)
 
 
 def _report_floating(element, others):

@@ -32,11 +32,14 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order."""
+    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order. Memory grows with the number of elements only."""
     bounds = np.array([e.solid.bounds for e in elements])
-    low, high = bounds[:, 0], bounds[:, 1]
-    near = ((low[:, None] <= high[None] + margin) & (low[None] <= high[:, None] + margin)).all(2)
-    return [(elements[i], elements[j]) for i, j in np.argwhere(np.triu(near, 1))]
+    low, high = bounds[:, 0] - margin, bounds[:, 1]
+    pairs = []
+    for i, element in enumerate(elements):
+        near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
+        pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+    return pairs
 
 
 def _rules(rules):
