@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import RunError
+from .house import load_house, shipped_houses
 from .motion import default_motion, read_motion
 from .scenario import DEFAULT_DT, MAX_DT, Scenario
 
@@ -53,17 +54,38 @@ def parser(script):
     return made
 
 
+def house_parser():
+    """ArgumentParser of scripts/house.py, which runs any house."""
+    made = parser("house")
+    made.description = "Results go to results/<name of the house file>/ unless --out says otherwise."
+    made.add_argument("file", metavar="HOUSE", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
+    made.add_argument("--quake", action="store_true", help="shake the house with the default motion; --record does so with a recorded one")
+    made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs [m] (default: the house file's)")
+    return made
+
+
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     given = parser(script).parse_args(_joined(argv[1:]))
+    return _run(given, script, house, earthquake, SNOW_DEPTH if snow else 0.0, "take a script of a run that has one")
+
+
+def read_house(argv):
+    """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
+    given = house_parser().parse_args(_joined(argv[1:]))
+    depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
+    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None, depth, "add --quake or --record FILE")
+
+
+def _run(given, name, house, earthquake, depth, remedy):
+    """(Scenario, Output) of a run called `name`. remedy: what to do when there is no earthquake to scale."""
     _check_numbers(given)
-    motion = _motion(given, earthquake)
+    motion = _motion(given, earthquake, remedy)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
-    depth = SNOW_DEPTH if snow else 0.0
     scale = 1.0 if given.scale is None else given.scale
-    scenario = Scenario(script, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
-    folder = Path(given.out) if given.out else Path("results") / script
+    scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
+    folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
     return scenario, Output(folder, given.resume, not given.no_views, export, given.quiet, given.checkpoint)
 
@@ -97,12 +119,12 @@ def _check_numbers(given):
             raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")
 
 
-def _motion(given, earthquake):
+def _motion(given, earthquake, remedy):
     """GroundMotion or None. What a reader has to warn of becomes a line on standard error."""
     if not earthquake:
         for option, value in (("--record", given.record), ("--scale", given.scale)):
             if value is not None:
-                raise RunError(f"{option} {value}: this run has no earthquake; take a script of a run that has one")
+                raise RunError(f"{option} {value}: this run has no earthquake; {remedy}")
         return None
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")

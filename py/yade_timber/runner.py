@@ -201,11 +201,23 @@ def title(scenario, model):
 def main(house, earthquake=False, snow=False, argv=None):
     """Run a house (name of a shipped one, or path of a YAML file) as the command line says; returns the Run.
 
-    earthquake, snow: what the script's run is about. Bad input, a failed run and a signal end the process with a line on
-    standard error: status 1, 1 and 128 + the signal's number.
+    earthquake, snow: what the script's run is about. See `launch`.
+    """
+    return launch(lambda words: cli.read(house, earthquake, snow, words), argv)
+
+
+def main_house(argv=None):
+    """Run the house that the command line names; returns the Run. See `launch`."""
+    return launch(cli.read_house, argv)
+
+
+def launch(read, argv=None):
+    """Run what `read` makes of the command line (default: sys.argv); returns the Run.
+
+    Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
     try:
-        run = Run(*cli.read(house, earthquake, snow, sys.argv if argv is None else argv))
+        run = Run(*read(sys.argv if argv is None else argv))
         live = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
         run.start() if live else run.complete()
     except (RunError, RecordError, HouseError) as problem:

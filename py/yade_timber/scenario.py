@@ -7,7 +7,8 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
 from . import elements, scene
-from .house import HouseError, build_house, load_house
+from .house import build_house, load_house
+from .house.friction import own_coefficient
 
 O = yw.Omega()
 
@@ -65,16 +66,20 @@ def build(scenario):
     motion = None
     if scenario.motion is not None:
         motion = scene.ground_motion_engine(scenario.motion, scale=scenario.scale)
-    options = {"vertex_edge": model.law["vertex_edge_contacts"], "increment": model.law["hertz"] == "increment", **scenario.options}
+    options = {**law_options(model.law), **scenario.options}
     O.engines = scene.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
     O.dt = scenario.dt
     return model
 
 
+def law_options(law):
+    """Arguments of `scene.engines` that the `law` of a house file decides."""
+    return {"vertex_edge": law["vertex_edge_contacts"], "flush_supports": law["flush_supports"], "increment": law["hertz"] == "increment"}
+
+
 def add_elements(model):
     """Append the model's elements to O.bodies; returns {element name: body id}."""
     materials = {name: make_material(name, spec, model) for name, spec in model.materials.items()}
-    check_friction(materials, model)
     ids = {}
     for element in model.elements:
         body = elements.polyhedron(
@@ -90,20 +95,11 @@ def add_elements(model):
 
 
 def make_material(name, spec, model):
-    """Material of a house description. Its friction is the coefficient with itself: a pair has the smaller one."""
-    own = {a: c for a, b, c in model.friction if a == b}
-    friction = min([own.get(name, 0.5)] + [c for a, b, c in model.friction if name in (a, b) and spec["law"] == "snow"])
+    """Material of a house description."""
+    friction = own_coefficient(name, spec["law"], model.friction)
     if spec["law"] == "snow":
         return elements.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
     return elements.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
-
-
-def check_friction(materials, model):
-    """Raise HouseError when a pair's coefficient is not the smaller one of its two materials."""
-    for a, b, wanted in model.friction:
-        got = min(materials[a].friction, materials[b].friction)
-        if got != wanted:
-            raise HouseError(f"{model.name}: friction of {a} and {b} is {wanted}, but the smaller one of the two materials' own is {got}: a pair takes that")
 
 
 def add_joints(model, ids):
@@ -119,14 +115,14 @@ def add_joints(model, ids):
 def level_marks(model):
     """Bodies that mark the levels of the main structure: [(element, level)]; level k is the top of storey k.
 
-    The floor where there is one, else the beams under the roof.
+    The floor where there is one, else the beams under the roof; in a house without floors the roof itself, which moves as one.
     """
     main = next(iter(model.storey_levels))
+    kinds = ("floor", "beam") if model.of_kind("floor", group=main) else ("roof", "beam")
     marks = []
     for storey in sorted(model.storey_levels[main]):
-        level = [e for e in model.of_kind("floor", group=main) if e.storey == storey]
-        level = level or [e for e in model.of_kind("beam", group=main) if e.storey == storey]
-        marks += [(e, storey) for e in level]
+        levels = [[e for e in model.of_kind(kind, group=main) if e.storey == storey] for kind in kinds]
+        marks += [(e, storey) for e in next(filter(None, levels), [])]
     return marks
 
 

@@ -18,6 +18,7 @@ sys.path.insert(0, str(ROOT / "py"))
 from yade_timber.house import build_house, check_house, load_house, overlaps, shipped_houses  # noqa: E402
 
 HOUSES = ["A", "B", "C", "B1", "B2", "C1", "C2"]
+EXAMPLES = ["storehouse", "l_house"]
 WIDTH, DEPTH, RUN, RISE, CUT, SLAB = 8.34, 7.43, 3.715, 1.18, 0.20, 0.12  # hip roof [m]
 
 
@@ -30,8 +31,8 @@ def points(elements):
     return np.vstack([e.vertices for e in elements])
 
 
-def test_the_seven_houses_are_shipped():
-    assert shipped_houses() == sorted(HOUSES)
+def test_the_seven_houses_and_two_more_are_shipped():
+    assert shipped_houses() == sorted(HOUSES + EXAMPLES)
 
 
 @pytest.mark.parametrize("name, braces, brace_joints", [("A", 0, 0), ("B", 16, 32), ("C", 44, 88)])
@@ -55,7 +56,7 @@ def test_brace_layout_of_c():
     assert north_south == 13 > len(first) - north_south
 
 
-@pytest.mark.parametrize("name", HOUSES)
+@pytest.mark.parametrize("name", HOUSES + EXAMPLES)
 def test_no_overlap_and_every_joint_on_both_surfaces(name):
     model = house(name)
     report = check_house(model)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What people do to a scene in a session: take things out, put things in, release, load, ask at odd times."""
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,8 +7,6 @@ import yade_timber as yt
 from compare import assert_close
 from yade import O
 from yade_timber import scene
-from yade_timber.house import HouseError
-from yade_timber.scenario import check_friction
 
 
 def column_on_plate(dt=1e-4, joined=True):
@@ -125,10 +122,3 @@ def test_partly_blocked_body_stops_the_run():
     with pytest.raises(RuntimeError, match="degrees of freedom blocked"):
         for _ in range(101):  # one look of the health check
             O.step()
-
-
-def test_friction_that_a_pair_cannot_have_is_refused():
-    materials = {"timber": yt.timber(friction=0.5), "snow": yt.snow(friction=0.5)}
-    model = SimpleNamespace(name="own house", friction=[("snow", "timber", 0.8)])
-    with pytest.raises(HouseError, match="friction of snow and timber is 0.8"):
-        check_friction(materials, model)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Description -> HouseModel: structures, members, construction tolerance, joints, damage, checks."""
 
+from collections import Counter
+
 import numpy as np
 
 from .braces import lay_braces
@@ -9,6 +11,7 @@ from .damage import apply_damage
 from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
+from .layout import MAX_SNOW
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
@@ -27,6 +30,8 @@ def build_house(description, snow_depth=None, check=True):
     elements = [_ground(data, structures)]
     for structure in structures.values():
         elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
+    _number_repeats(elements)
+    _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)
@@ -37,9 +42,23 @@ def build_house(description, snow_depth=None, check=True):
 
 def _snow_depth(data, snow_depth):
     depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
-    if not 0 <= depth <= 20:
-        raise HouseError(f"snow_depth: must be in [0, 20] m, got {depth:g}")
+    if not 0 <= depth <= MAX_SNOW:
+        raise HouseError(f"snow depth: must be in [0, {MAX_SNOW:g}] m, got {depth:g}")
     return depth
+
+
+def _check_snow(data, elements, depth):
+    if depth > 0 and not any(element.kind == "snow" for element in elements):
+        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow have no roof to lie on; give a structure a roof layer without 'snow: false'")
+
+
+def _number_repeats(elements):
+    """A name that comes again (two beams on one line) gets '.2', '.3', ...: joints and pictures go by names."""
+    seen = Counter()
+    for element in elements:
+        seen[element.name] += 1
+        if seen[element.name] > 1:
+            element.name += f".{seen[element.name]}"
 
 
 def _structure_elements(structure, depth, snow_material, plumb):

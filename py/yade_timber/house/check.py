@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Checks of a built house: no two elements overlap, every column stands on something and carries something."""
+"""Checks of a built house: no two elements overlap, columns and braces are joined at both ends, nothing floats."""
 
 import numpy as np
 
 from .errors import HouseError
-from .geometry import separation
+from .geometry import contact_polygon, separation
 from .joints import near_pairs
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
+LYING = 0.1  # vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees
 
 
 def check_house(model):
-    """Raises HouseError for the deepest overlap or the first loose column end; returns what was checked:
+    """Raises HouseError for the deepest overlap, a loose end of a column or brace, or a part that hangs in the air; returns what was checked:
     {'pairs': near pairs tested exactly, 'touching': pairs in contact, 'deepest': largest overlap [m] (rounding)}."""
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
     if deepest and deepest[2] < -TOUCH:
         _report_overlap(*deepest, count=sum(gap < -TOUCH for _, _, gap in gaps))
-    _check_columns(model)
-    return {"pairs": len(gaps), "touching": sum(gap < TOUCH for _, _, gap in gaps), "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0))}
+    touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
+    _check_ends(model, touching)
+    _check_floating(model, touching)
+    return {"pairs": len(gaps), "touching": len(touching), "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0))}
 
 
 def overlaps(model):
@@ -35,13 +38,63 @@ def _report_overlap(a, b, gap, count):
                      f"near x {x:.3f}, y {y:.3f}, z {z:.3f} m; move or shorten one of them{more}")
 
 
-def _check_columns(model):
-    """Each column needs a joint at its foot and one at its head."""
+def _check_ends(model, touching):
+    """Each column and brace needs a joint at its foot and one at its head."""
     jointed = {(joint.a, joint.end) for joint in model.joints}
-    for column in model.of_kind("column"):
-        for end, verb in (("bottom", "stands on nothing"), ("top", "carries nothing")):
-            if (column.name, end) not in jointed:
-                x, y, _ = column.solid.centroid
-                z = column.solid.bounds[0 if end == "bottom" else 1][2]
-                raise HouseError(f"{column.source}: column {column.name} {verb} at x {x:.3f}, y {y:.3f}, z {z:.3f} m; "
-                                 f"lay a beam, sill or floor there or remove the column")
+    for member in model.of_kind("column", "brace"):
+        for end in ("bottom", "top"):
+            if (member.name, end) not in jointed:
+                _report_loose_end(member, end, touching)
+
+
+def _report_loose_end(member, end, touching):
+    x, y, _ = member.solid.centroid
+    z = member.solid.bounds[0 if end == "bottom" else 1][2]
+    place, where = f"{member.source}: {member.kind} {member.name}", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
+    for mate, area in _lying_at(member, end, touching):
+        raise HouseError(f"{place} has no joint at its {end}, where {1e4 * area:.3g} cm2 of it touch {mate.kind} {mate.name} at {where}; give 'joints' "
+                         f"a rule between {member.kind} and {mate.kind}, or a larger common area (joint_search.min_area)")
+    verb = "stands on nothing" if end == "bottom" else "carries nothing" if member.kind == "column" else "leans against nothing at its head"
+    raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
+
+
+def _lying_at(member, end, touching):
+    """[(element, common area [m2])] that the level face at one end of a member lies on."""
+    mates = [b if a is member else a for a, b in touching if member in (a, b)]
+    contacts = [(mate, contact_polygon(member.solid, mate.solid, TOUCH)) for mate in mates]
+    return [(mate, contact[2]) for mate, contact in contacts if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)]
+
+
+def _check_floating(model, touching):
+    """Each element must be held by the ground or the foundation: through joints, or lying on something that is."""
+    holds = {element.name: set() for element in model.elements}
+    for joint in model.joints:
+        holds[joint.a].add(joint.b)
+        holds[joint.b].add(joint.a)
+    for a, b in touching:
+        if b.name not in holds[a.name]:
+            _note_support(holds, a, b)
+    todo = [element.name for element in model.elements if element.fixed]
+    held = set(todo)
+    while todo:
+        new = holds[todo.pop()] - held
+        held |= new
+        todo += new
+    loose = [element for element in model.elements if element.name not in held]
+    if loose:
+        _report_floating(min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
+
+
+def _note_support(holds, a, b):
+    """Add to {name: names of what it holds} when one of two touching elements lies on the other with a face."""
+    contact = None if a.fixed and b.fixed else contact_polygon(a.solid, b.solid, TOUCH)
+    if contact and abs(contact[1][2]) > LYING:
+        lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
+        holds[lower.name].add(upper.name)
+
+
+def _report_floating(element, others):
+    x, y, _ = element.solid.centroid
+    more = f" (and {others} more elements)" if others else ""
+    raise HouseError(f"{element.source}: {element.kind} {element.name} hangs in the air near x {x:.3f}, y {y:.3f}, z {element.solid.bounds[0][2]:.3f} m: "
+                     f"it lies on nothing and no joint holds it; support it, join it (a rule in 'joints') or remove it{more}")

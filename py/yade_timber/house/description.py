@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import HouseError
+from .friction import check_friction
 from .layout import HOUSE
-from .reading import Table, read_table
+from .reading import Table, read_table, shipped_houses, shipped_paths
 from .schema import fail, nearest
-
-SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
-
 
 @dataclass(frozen=True)
 class Description:
@@ -21,25 +19,20 @@ class Description:
     data: Table
 
 
-def shipped_houses():
-    """Names of the shipped houses that `load_house` takes, e.g. ['A', 'B', 'B1', ...]."""
-    return sorted(path.stem[len("model"):] for path in SHIPPED.glob("model*.yaml"))
-
-
 def load_house(name_or_path):
-    """House 'A' ... 'C2' (shipped) or a path to a YAML file -> Description; raises HouseError (one line, file:line)."""
+    """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
     path = _find(str(name_or_path))
     data = HOUSE.check(read_table(path), f"{path.name}:1", "")
     _check_references(data)
+    check_friction(data)
     return Description(data["name"], path, data)
 
 
 def _find(name):
-    shipped = SHIPPED / f"model{name}.yaml"
-    if shipped.is_file():
-        return shipped
-    if Path(name).is_file():
-        return Path(name)
+    own, shipped = [Path(name)], shipped_paths(name)
+    for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
+        if path.is_file():
+            return path
     raise HouseError(f"unknown house '{name}': no such file, and the shipped houses are {', '.join(shipped_houses())}")
 
 

@@ -10,19 +10,21 @@ from .model import JointSpec
 
 
 def find_joints(elements, description):
-    """JointSpec for every pair of elements of one structure whose kinds match a rule and whose faces lie flush on each other.
+    """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    Contacts below `joint_search.min_area` carry no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and just
+    A rule joins elements of one structure, or with `across` those of two structures. Contacts below `joint_search.min_area` carry no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and just
     touches the next beam with that strip.
     """
     data, rules = description.data, _rules(description.data["joints"])
     tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
     joints = []
     for a, b in near_pairs(elements, tolerance):
-        rule = rules.get((a.kind, b.kind)) or rules.get((b.kind, a.kind))
-        if rule is None or a.group != b.group:
+        across = a.group != b.group
+        if (a.kind, b.kind, across) not in rules:
+            a, b = b, a
+        rule = rules.get((a.kind, b.kind, across))
+        if rule is None:
             continue
-        a, b = (a, b) if (a.kind, b.kind) in rules else (b, a)
         contact = contact_polygon(a.solid, b.solid, tolerance)
         if contact and contact[2] >= min_area:
             joints.append(_joint(a, b, rule, contact, data))
@@ -30,16 +32,19 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order."""
+    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order. Memory grows with the number of elements only."""
     bounds = np.array([e.solid.bounds for e in elements])
-    low, high = bounds[:, 0], bounds[:, 1]
-    near = ((low[:, None] <= high[None] + margin) & (low[None] <= high[:, None] + margin)).all(2)
-    return [(elements[i], elements[j]) for i, j in np.argwhere(np.triu(near, 1))]
+    low, high = bounds[:, 0] - margin, bounds[:, 1]
+    pairs = []
+    for i, element in enumerate(elements):
+        near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
+        pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+    return pairs
 
 
 def _rules(rules):
-    """{(kind a, kind b): rule}; a is the first kind of the rule."""
-    return {(a, b): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
+    """{(kind a, kind b, across): rule}; a is the first kind of the rule."""
+    return {(a, b, rule["across"]): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
 
 
 def _joint(a, b, rule, contact, data):

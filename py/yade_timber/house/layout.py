@@ -5,6 +5,7 @@ from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text,
 
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
+MAX_SNOW = 20.0  # [m]
 
 
 def length(low=0.0, high=100.0, default=REQUIRED, open_low=True):
@@ -15,13 +16,13 @@ node = Number("grid nodes", -1000, 1000)
 nodes = ListOf(node, scalar=True)
 storeys = ListOf(Number("", 1, 20, whole=True), scalar=True, default=())
 
-axis = Record({"module": length(default=None), "count": Number("modules", 1, 200, whole=True, default=1),
+axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
                "positions": ListOf(Number("m", -200, 200), default=None)}, one_of=("module", "positions"))
 
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
 
 column_group = Record({
-    "section": length(0.01, 2.0),
+    "section": length(0.01, 1.0),
     "storeys": storeys,
     "at": ListOf(ListOf(node, 2), default=None),
     "grid": Record({"x": nodes, "y": nodes}, default=None),
@@ -29,31 +30,40 @@ column_group = Record({
 }, one_of=("at", "grid", "lines"))
 
 brace_line = Record({"along": Choice(("x", "y")), "at": nodes, "runs": ListOf(ListOf(node, 2)), "storeys": storeys})
-braces = Record({"width": length(0.005, 1.0, 0.09), "thickness": length(0.005, 1.0, 0.045),
+braces = Record({"width": length(0.005, 0.5, 0.09), "thickness": length(0.005, 0.5, 0.045),
                  "material": Text("timber"), "lines": ListOf(brace_line, default=())}, default={})
 
 
-def _layer(kind, **fields):
-    return Record({"layer": Choice((kind,)), "material": Text("timber"), **fields})
+def _layer(kind, one_of=(), **fields):
+    return Record({"layer": Choice((kind,)), "material": Text("timber"), **fields}, one_of=one_of)
 
 
 def _strip(kind, fixed):
-    return _layer(kind, height=length(high=5.0), width=length(high=5.0), fixed=Flag(fixed), lines=ListOf(line, default=None))
+    return _layer(kind, height=length(0.01, 2.0), width=length(0.01, 2.0), fixed=Flag(fixed), lines=ListOf(line, default=None))
 
 
 area = Record({"x": ListOf(node, 2), "y": ListOf(node, 2)}, default=None)
-_roof_common = dict(thickness=length(high=5.0), area=area, snow=Flag(True))
+
+
+def _roof(kind, one_of=(), **fields):
+    common = dict(type=Choice((kind,)), thickness=length(0.01, 2.0), eaves=length(high=3.0, default=0.0, open_low=False), area=area, snow=Flag(True))
+    return _layer("roof", one_of=one_of, **common, **fields)
+
+
+_RISE = ("pitch", "ridge_height")
+_rise = dict(pitch=Number("rise over run", 0.02, 3.0, default=None), ridge_height=length(default=None))
 roof = Variants("type", {
-    "hip": _layer("roof", type=Choice(("hip",)), ridge_height=length(), corner_cut=length(high=5.0), **_roof_common),
-    "flat": _layer("roof", type=Choice(("flat",)), **_roof_common),
+    "hip": _roof("hip", _RISE, corner_cut=length(high=5.0, default=0.2), **_rise),
+    "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
+    "flat": _roof("flat"),
 })
 
 layer = Variants("layer", {
     "foundation": _strip("foundation", True),
     "sill": _strip("sill", True),
-    "columns": _layer("columns", height=length()),
+    "columns": _layer("columns", height=length(0.1, 20.0)),
     "beams": _strip("beams", False),
-    "floor": _layer("floor", thickness=length(high=5.0), areas=ListOf(area, default=None)),
+    "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, default=None)),
     "roof": roof,
 })
 
@@ -61,6 +71,7 @@ place = Record({
     "origin": ListOf(Number("m", -1000, 1000), 2, default=None),
     "beside": Text(None),
     "side": Choice(SIDES, "east"),
+    "align": Choice(("middle", *SIDES), "middle"),
     "gap": length(high=100.0, default=0.0, open_low=False),
     "shift": Number("m", -100, 100, default=0.0),
 }, one_of=("origin", "beside"))
@@ -68,27 +79,26 @@ place = Record({
 structure = Record({
     "place": place,
     "grid": Record({"x": axis, "y": axis}),
-    "margin": length(high=5.0, open_low=False),
-    "stack": ListOf(layer),
+    "margin": length(high=2.0, open_low=False),
     "lines": ListOf(line),
+    "stack": ListOf(layer),
     "columns": ListOf(column_group),
     "braces": braces,
 })
 
-positive = dict(low=0.0, open_low=True)
 material = Variants("law", {
-    "timber": Record({"law": Choice(("timber",)), "density": Number("kg/m3", high=30000, **positive),
-                      "young": Number("Pa", high=1e12, **positive), "poisson": Number("", 0.0, 0.49)}),
-    "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", high=1000, **positive),
-                    "stiffness_per_kg": Number("N/m per kg", high=1e9, **positive)}),
+    "timber": Record({"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000),
+                      "young": Number("Pa", 1e6, 1e12), "poisson": Number("", 0.0, 0.49)}),
+    "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
+                    "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
 })
 
 joint_type = Record({
-    "kn": Number("N/m", high=1e12, **positive), "ks": Number("N/m", high=1e12, **positive),
-    "strength": Number("N", infinite=True, **positive), "per": Choice(("spring", "joint"), None),
+    "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
+    "strength": Number("N", 10.0, infinite=True), "per": Choice(("spring", "joint"), None),
 })
 
-joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True), 2), "type": Text(), "kind": Text()})
+joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True), 2), "type": Text(), "kind": Text(), "across": Flag(False)})
 
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None)
 damage_region = Record({"structure": Text(None), "side": Choice(SIDES), "storey": Number("", 1, 20, whole=True),
@@ -102,6 +112,7 @@ HOUSE = Record({
     "law": Record({
         "joint_reading": Choice(("spring", "joint"), "spring"),
         "vertex_edge_contacts": Flag(False),
+        "flush_supports": Flag(True),
         "hertz": Choice(("closed", "increment"), "closed"),
     }, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": Text("timber")}),
@@ -111,6 +122,6 @@ HOUSE = Record({
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),
     "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "regions": ListOf(damage_region, default=())}, default={}),
-    "snow": Record({"material": Text("snow"), "depth": Number("m", 0.0, 20.0, default=0.0)}, default={}),
+    "snow": Record({"material": Text("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),
     "plumb": Record({"drift": Number("", 0.0, 0.05, default=0.0), "towards": Choice(SIDES, "north")}, default={}),
 })

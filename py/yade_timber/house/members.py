@@ -65,11 +65,11 @@ def _strip(structure, layer, kind, name, line, start, end):
 
 
 def lay_floors(structure, layer):
-    """Floor slabs: one per area (default: the whole grid), reaching the margin beyond the grid."""
+    """Floor slabs: one per area (default: the whole grid), reaching the margin beyond the grid; areas meet on the grid line."""
     areas = layer.table["areas"] or [None]
     elements = []
     for number, area in enumerate(areas, 1):
-        low, high = structure.area(area)
+        low, high = structure.area(area, [other for other in areas if other is not area])
         name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
         elements.append(structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where,
                                         storey=layer.storey))

@@ -88,7 +88,7 @@ class HouseModel:
     joints: list
     materials: dict          # name -> {'law': 'timber', 'density', 'young', 'poisson'} or {'law': 'snow', 'density', 'stiffness_per_kg'}
     friction: list           # [(material, material, coefficient)]
-    law: dict                # 'joint_reading', 'vertex_edge_contacts', 'hertz'
+    law: dict                # 'joint_reading', 'vertex_edge_contacts', 'flush_supports', 'hertz'
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
     options: dict = field(default_factory=dict)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""YAML text -> tables and lists that remember file and line; `extends` merges a file into the one it extends."""
+"""YAML text -> tables and lists that remember file and line; `extends` merges a file into the one it extends: a file beside it or a shipped one."""
 
 import re
 from pathlib import Path
@@ -7,6 +7,9 @@ from pathlib import Path
 import yaml
 
 from .errors import HouseError
+
+
+SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
 class Table(dict):
@@ -55,16 +58,30 @@ def _read_chain(path, seen):
         return table
     if not isinstance(parent, str):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {parent!r}")
-    parent_path = path.parent / parent
-    if not parent_path.is_file():
-        raise HouseError(f"{table.at('extends')}: extends: no file '{parent}' beside {path.name}")
+    parent_path = next((p for p in (path.parent / parent, *shipped_paths(parent)) if p.is_file()), None)
+    if parent_path is None:
+        raise HouseError(f"{table.at('extends')}: extends: no file '{parent}' beside {path.name}, and no shipped house of that name "
+                         f"(base, {', '.join(shipped_houses())})")
     return merge(_read_chain(parent_path, seen + (path.resolve(),)), table)
 
 
+def shipped_houses():
+    """Names of the shipped houses that `load_house` takes, e.g. ['A', 'B', 'B1', ..., 'storehouse']."""
+    return sorted(path.stem.removeprefix("model") for path in SHIPPED.glob("*.yaml") if path.stem != "base")
+
+
+def shipped_paths(name):
+    """Files that the name of a shipped house ('C2', 'base') or of its file may stand for."""
+    return [SHIPPED / name] if name.endswith(".yaml") else [SHIPPED / f"model{name}.yaml", SHIPPED / f"{name}.yaml"]
+
+
 def merge(base, change):
-    """`change` laid over `base`: tables entry by entry, everything else replaced as a whole."""
+    """`change` laid over `base`: tables entry by entry, null takes an entry out, everything else is replaced as a whole."""
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
+        if value is None and key in base:
+            del result[key]
+            continue
         both = isinstance(value, Table) and isinstance(base.get(key), Table)
         result[key] = merge(base[key], value) if both else value
         result.entries[key] = change.at(key)

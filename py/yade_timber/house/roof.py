@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Roof slabs and the snow on them. Lengths in m; outline = the grid's rectangle plus the structure's margin.
+"""Roof slabs and the snow on them. Lengths in m; outline = the roof's rectangle of the grid plus the structure's margin and the eaves.
 
-Hip roof (paper, 3.4): all slopes are equal, so hips run at 45 degrees in plan and the ridge lies along the longer side.
-Each slab is the part of the outline that is nearest to its own eave, between two parallel planes and above the level of
-the wall plates: the long slopes come out as hexahedra, the hip ends, whose three corners are cut off, as octahedra.
+All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, so that it
+rests on them with a level face; eaves are boxed, this face is their soffit. Gable: two slabs that meet in the ridge. Hip
+(paper, 3.4): hips run at 45 degrees in plan, each slab is the part of the outline that is nearest to its own eave; the long
+slopes come out as hexahedra, the hip ends, whose three corners are cut off, as octahedra. On a square plan: a pyramid.
 """
 
 from dataclasses import dataclass
@@ -17,40 +18,64 @@ OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 
 @dataclass(frozen=True, eq=False)
-class HipPlan:
-    """Plan and slope of a hip roof: corners (2,) of the outline, eave level z [m], rise over run."""
+class Plan:
+    """Plan and slope of a pitched roof: corners (2,) of the outline, eave level z [m], horizontal run from eave to ridge [m], rise over run."""
 
     low: np.ndarray
     high: np.ndarray
     eave: float
+    half: float
     slope: float
-    cut: float
 
     def distance(self, side):
         """(d, e): a point p of the plan lies e - d . p [m] inside the eave of `side`."""
         d = np.array(OUTWARD[side], float)
         return d, max(d @ self.low, d @ self.high)
 
-    @property
-    def half(self):
-        """Horizontal run from eave to ridge [m]."""
-        return (self.high - self.low).min() / 2
+    def edge(self, side):
+        """Vertical plane above the eave of `side`."""
+        d, e = self.distance(side)
+        return (*d, 0.0), e
 
     def top(self, side):
         """Plane of the slab's upper face: slope * d . p + z <= eave + slope * e."""
         d, e = self.distance(side)
         return (*(self.slope * d), 1.0), self.eave + self.slope * e
 
+    def nearer(self, side, other):
+        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: hip or ridge."""
+        (d, e), (d2, e2) = self.distance(side), self.distance(other)
+        return (*(d2 - d), 0.0), e2 - e
+
+
+@dataclass(frozen=True, eq=False)
+class GablePlan(Plan):
+    """Two slopes; the ridge runs along `ridge`, 'x' or 'y'."""
+
+    ridge: str
+
+    @property
+    def sides(self):
+        return ("west", "east") if self.ridge == "y" else ("south", "north")
+
+    def outline(self, side):
+        """Vertical planes of a slab, its own eave not among them: the ridge and the two gables."""
+        gables = [self.edge(other) for other in OUTWARD if other not in self.sides]
+        return [self.nearer(side, next(other for other in self.sides if other != side)), *gables]
+
+
+@dataclass(frozen=True, eq=False)
+class HipPlan(Plan):
+    """Four slopes. cut: how much of their corners the hip ends lose [m]."""
+
+    cut: float
+    sides = tuple(OUTWARD)
+
     def outline(self, side):
         """Vertical planes of a slab, its own eave not among them: hips, ridge, and the three corner cuts of a hip end."""
-        d, e = self.distance(side)
+        opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
         hip_end = self._is_hip_end(side)
-        planes = []
-        for other in OUTWARD:
-            if other == side or (hip_end and OUTWARD[other] == tuple(-d)):
-                continue
-            d2, e2 = self.distance(other)
-            planes.append(((*(d2 - d), 0.0), e2 - e))
+        planes = [self.nearer(side, other) for other in OUTWARD if other != side and not (hip_end and other == opposite)]
         return planes + (self._corner_cuts(side) if hip_end else [])
 
     def _is_hip_end(self, side):
@@ -65,54 +90,82 @@ class HipPlan:
         return [apex, ((*t, 0.0), t @ self.high - self.cut), ((*(-t), 0.0), -(t @ self.low) - self.cut)]
 
 
+def outline(structure, layer):
+    """Corners (2,), (2,) [m] of a roof's outline; roofs of one stack meet on the grid line."""
+    areas = [other.table["area"] for other in structure.layers if other.kind == "roof" and other is not layer]
+    return structure.area(layer.table["area"], areas, layer.table["eaves"])
+
+
+def gable_plan(structure, layer):
+    low, high = outline(structure, layer)
+    ridge = layer.table["ridge"] or ("x" if high[0] - low[0] > high[1] - low[1] else "y")
+    half = (high - low)[0 if ridge == "y" else 1] / 2
+    return GablePlan(low, high, layer.z0, half, slope(structure, layer, half), ridge)
+
+
 def hip_plan(structure, layer):
-    table = layer.table
-    low, high = structure.area(table["area"])
-    half = (high - low).min() / 2
-    rise = table["ridge_height"] - layer.z0
-    if rise <= 0:
-        raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
-                         f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
-    if table["corner_cut"] >= half / 2:
-        raise HouseError(f"{table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the roof's width ({half / 2:g} m)")
-    return HipPlan(low, high, layer.z0, rise / half, table["corner_cut"])
+    low, high = outline(structure, layer)
+    half, cut = (high - low).min() / 2, layer.table["corner_cut"]
+    plan = HipPlan(low, high, layer.z0, half, slope(structure, layer, half), cut)
+    if cut >= half / 2:
+        raise HouseError(f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the roof's width "
+                         f"({half / 2:g} m), got {cut:g}")
+    return plan
 
 
-def hip_roof(structure, layer):
-    """Four slabs of the thickness given (measured across the slope), resting with horizontal eave faces on the wall plates."""
-    plan = hip_plan(structure, layer)
+PLANS = {"hip": hip_plan, "gable": gable_plan}
+
+
+def slope(structure, layer, half):
+    """Rise over run, given as such or by the ridge's height. Raises HouseError for a ridge below the eaves and eaves too wide to rest on the plates."""
+    table, found = layer.table, layer.table["pitch"]
+    if found is None:
+        rise = table["ridge_height"] - layer.z0
+        if rise <= 0:
+            raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
+                             f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
+        found = rise / half
+    soffit, out = table["thickness"] * np.hypot(1.0, found) / found, table["eaves"] + structure.table["margin"]
+    if soffit <= out:
+        raise HouseError(f"{table.at('eaves')}: {structure.name}: the roof would not reach its wall plates: it is {soffit:.3g} m wide at their level "
+                         f"(thickness and pitch) and reaches {out:.3g} m beyond them (eaves and margin); "
+                         f"give eaves below {soffit - structure.table['margin']:.3g} or a thickness above {out * found / np.hypot(1.0, found):.3g}")
+    return found
+
+
+def pitched_roof(structure, layer):
+    """{side: vertices} of slabs of the thickness given (measured across the slope), level faces on the wall plates."""
+    plan = PLANS[layer.table["type"]](structure, layer)
     drop = layer.table["thickness"] * np.hypot(1.0, plan.slope)
     slabs = {}
-    for side in OUTWARD:
+    for side in plan.sides:
         normal, offset = plan.top(side)
         bottom = (tuple(-v for v in normal), -(offset - drop))
         slabs[side] = halfspace_vertices([(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)])
     return slabs
 
 
-def hip_snow(structure, layer, depth):
-    """Snow of vertical depth [m] on each slab: the slab's outline, extruded upwards from its upper face."""
-    plan = hip_plan(structure, layer)
+def pitched_snow(structure, layer, depth):
+    """{side: vertices} of snow of vertical depth [m]: the slab's outline, extruded upwards from its upper face."""
+    plan = PLANS[layer.table["type"]](structure, layer)
     clods = {}
-    for side in OUTWARD:
+    for side in plan.sides:
         normal, offset = plan.top(side)
-        d, e = plan.distance(side)
-        planes = [(normal, offset + depth), (tuple(-v for v in normal), -offset), ((*d, 0.0), e), *plan.outline(side)]
-        clods[side] = halfspace_vertices(planes)
+        clods[side] = halfspace_vertices([(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)])
     return clods
 
 
 def flat_roof(structure, layer):
-    low, high = structure.area(layer.table["area"])
+    low, high = outline(structure, layer)
     return {"": box([*low, layer.z0], [*high, layer.z1])}
 
 
 def flat_snow(structure, layer, depth):
-    low, high = structure.area(layer.table["area"])
+    low, high = outline(structure, layer)
     return {"": box([*low, layer.z1], [*high, layer.z1 + depth])}
 
 
-ROOFS = {"hip": (hip_roof, hip_snow), "flat": (flat_roof, flat_snow)}
+ROOFS = {"hip": (pitched_roof, pitched_snow), "gable": (pitched_roof, pitched_snow), "flat": (flat_roof, flat_snow)}
 
 
 def lay_roof(structure, layer):
@@ -130,5 +183,7 @@ def lay_snow(structure, layer, depth, material):
 
 
 def _element(structure, layer, kind, side, vertices, table):
-    name = f"{kind}.{side}" if side else kind
+    roofs = [other for other in structure.layers if other.kind == "roof"]
+    number = str(roofs.index(layer) + 1) if len(roofs) > 1 else ""
+    name = f"{kind}{number}" + (f".{side}" if side else "")
     return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side])))

@@ -14,6 +14,9 @@ from .errors import HouseError
 from .reading import Items, Table
 
 REQUIRED = object()
+OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "Pa": (("MPa", 1e6), ("GPa", 1e9)),
+               "N/m": (("kN/m", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6)), "N": (("kN", 1e3),), "rise over run": (("sun (tenths)", 0.1),)}
+"""Units that people write by mistake: unit of the schema -> (unit, factor)."""
 
 
 def fail(where, name, text):
@@ -42,9 +45,17 @@ class Number:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             fail(where, name, f"expected a number{self._range()}, got {value!r}")
         wrong_kind = math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
-        if wrong_kind or not self.low <= value <= self.high or (self.open_low and value == self.low):
-            fail(where, name, f"must be a{' whole' if self.whole else ''} number{self._range()}, got {value!r}")
+        if wrong_kind or not self._admits(value):
+            fail(where, name, f"must be a{' whole' if self.whole else ''} number{self._range()}, got {value!r}{self._other_units(value)}")
         return int(value) if self.whole else float(value)
+
+    def _admits(self, value):
+        return self.low <= value <= self.high and not (self.open_low and value == self.low)
+
+    def _other_units(self, value):
+        """Words for a value that would be admissible in another unit of the trade, e.g. a section of 105."""
+        meant = [f"{value!r} {unit} = {value * factor:g}" for unit, factor in OTHER_UNITS.get(self.unit, ()) if self._admits(value * factor)]
+        return f"; in {self.unit}: {' or '.join(meant)}" if meant else ""
 
     def _range(self):
         unit = f" {self.unit}" if self.unit else ""

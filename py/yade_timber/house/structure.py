@@ -49,16 +49,29 @@ class Structure:
         self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
         self.layers = _layers(table["stack"], name)
 
-    def area(self, area=None):
-        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid) plus the margin all round."""
-        nodes = {axis: area[axis] if area else (0, self.axes[axis].last) for axis in "xy"}
-        if area:
-            for axis in "xy":
-                self.check_nodes(axis, nodes[axis], area.at(axis))
-        margin = self.table["margin"]
-        low = np.array([self.axes[axis](min(nodes[axis])) - margin for axis in "xy"])
-        high = np.array([self.axes[axis](max(nodes[axis])) + margin for axis in "xy"])
-        return low, high
+    def area(self, area=None, others=(), beyond=0.0):
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), reaching the margin and `beyond` [m] further.
+
+        An edge that lies on an edge of one of the `others` (areas of the same layer) reaches no further: they meet on the grid line.
+        """
+        nodes = self._span(area)
+        others = [self._span(other) for other in others]
+        out = self.table["margin"] + beyond
+        corners = []
+        for edge, sign in ((0, -1), (1, 1)):
+            reach = [0.0 if any(_abut(nodes, other, axis, edge) for other in others) else sign * out for axis in "xy"]
+            corners.append(np.array([self.axes[axis](nodes[axis][edge]) + r for axis, r in zip("xy", reach)]))
+        return corners
+
+    def _span(self, area):
+        """{'x': (low, high), 'y': (low, high)} nodes of an area (None: the whole grid)."""
+        if area is None:
+            return {axis: (0, self.axes[axis].last) for axis in "xy"}
+        for axis in "xy":
+            self.check_nodes(axis, area[axis], area.at(axis))
+            if min(area[axis]) == max(area[axis]):
+                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty")
+        return {axis: (min(area[axis]), max(area[axis])) for axis in "xy"}
 
     def sides(self, **nodes):
         """Walls that a node (x=, y=) or a line (only one of them) lies on."""
@@ -94,6 +107,13 @@ class Structure:
         return self.element(kind, name, box(low, high), table, where, **more)
 
 
+def _abut(nodes, other, axis, edge):
+    """True when edge 0 (low) or 1 (high) of rectangle `nodes` lies on the facing edge of `other` over some length."""
+    across = ACROSS[axis]
+    shared = min(nodes[across][1], other[across][1]) - max(nodes[across][0], other[across][0])
+    return nodes[axis][edge] == other[axis][1 - edge] and shared > 0
+
+
 def _positions(axis, path):
     """Grid positions [m] relative to the structure's origin."""
     if axis["positions"] is None:
@@ -116,8 +136,15 @@ def _origin(table, local, others, name):
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])
     start = np.array([local[axis][0] for axis in "xy"])
     out = 0 if place["side"] in ("east", "west") else 1
-    corner = (low + high - size) / 2 + place["shift"]
-    clear = place["gap"] + table["margin"]
+    margin = table["margin"]
+    corner = (low + high - size) / 2
+    if place["align"] != "middle":
+        if (place["align"] in ("east", "west")) == (out == 0):
+            raise HouseError(f"{place.at('align')}: structures.{name}.place.align: on the {place['side']} side, "
+                             f"align {' or '.join(('north', 'south') if out == 0 else ('east', 'west'))}")
+        corner = high - margin - size if place["align"] in ("east", "north") else low + margin
+    corner = corner + place["shift"]
+    clear = place["gap"] + margin
     corner[out] = high[out] + clear if place["side"] in ("east", "north") else low[out] - clear - size[out]
     return corner - start
 
@@ -128,9 +155,9 @@ def _layers(stack, name):
     for i, table in enumerate(stack):
         kind = table["layer"]
         storey += kind == "columns"
-        if layers and layers[-1].kind == "roof":
-            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make the roof the last layer")
+        if layers and layers[-1].kind == "roof" and kind != "roof":
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
         layers.append(Layer(table, kind, storey, z, top))
-        z = top
+        z = z if kind == "roof" else top
     return layers

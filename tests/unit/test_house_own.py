@@ -1,0 +1,139 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Houses that are none of the paper's: gable roofs, eaves, pyramids, areas, wings, what a file takes from another; small and very large."""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+from yade_timber.house import HouseError, build_house, check_house, load_house  # noqa: E402
+
+SHED = """\
+extends: base
+name: shed
+structures:
+  main: null
+  entrance: null
+  shed:
+    place: {{origin: [0, 0]}}
+    grid: {{x: {{module: 1, count: {nx}}}, y: {{module: 1, count: {ny}}}}}
+    margin: 0.06
+    lines: {lines}
+    stack:
+      - {{layer: sill, height: 0.12, width: 0.12}}
+      - {{layer: columns, height: 2}}
+      - {{layer: beams, height: 0.12, width: 0.12}}
+      - {{layer: roof, {roof}}}
+    columns: [{{section: 0.12, lines: {walls}}}]
+"""
+WALLS = "[{{along: y, at: [0, {nx}], from: 0, to: {ny}}}, {{along: x, at: [0, {ny}], from: 0, to: {nx}{cut}}}]"
+
+
+def house(tmp_path, text, snow=None):
+    path = tmp_path / "own.yaml"
+    path.write_text(text)
+    return build_house(load_house(path), snow)
+
+
+def shed(tmp_path, roof, nx=2, ny=3, snow=None, lines=None, walls=None):
+    """A shed of nx x ny modules of 1 m with a column at every node of its walls."""
+    lines = lines or WALLS.format(nx=nx, ny=ny, cut=", cut: true")
+    return house(tmp_path, SHED.format(nx=nx, ny=ny, roof=roof, lines=lines, walls=walls or WALLS.format(nx=nx, ny=ny, cut="")), snow)
+
+
+def top(elements):
+    return max(e.solid.bounds[1][2] for e in elements)
+
+
+def test_gable_roof_against_closed_forms(tmp_path):
+    """Pitch, eaves, thickness across the slope, volumes of slab and snow; the ridge along the longer side."""
+    pitch, eaves, thickness, width, length = 0.5, 0.1, 0.12, 2.12, 3.12
+    model = shed(tmp_path, f"type: gable, pitch: {pitch}, eaves: {eaves}, thickness: {thickness}", snow=0.4)
+    slabs, snow = model.of_kind("roof"), model.of_kind("snow")
+    assert [e.name for e in slabs] == ["shed.roof.west", "shed.roof.east"] and {len(e.solid.faces) for e in slabs} == {6}
+    run, along = width / 2 + eaves, length + 2 * eaves
+    assert top(slabs) == pytest.approx(2.24 + pitch * run) and top(snow) == pytest.approx(2.24 + pitch * run + 0.4)
+    drop = thickness * np.hypot(1, pitch)
+    section = run * drop - drop**2 / pitch / 2  # a parallelogram without the triangle below the eave's level
+    assert sum(e.volume for e in slabs) == pytest.approx(2 * section * along, rel=1e-9)
+    assert sum(e.volume for e in snow) == pytest.approx(2 * run * along * 0.4, rel=1e-9)
+    assert model.counts()["joints_by_kind"]["roof_roof"] == 1
+
+
+def test_ridge_height_and_pitch_say_the_same(tmp_path):
+    one = shed(tmp_path, "type: gable, ridge: x, pitch: 0.5, thickness: 0.12")
+    other = shed(tmp_path, f"type: gable, ridge: x, ridge_height: {2.24 + 0.5 * 1.56}, thickness: 0.12")
+    for a, b in zip(one.of_kind("roof"), other.of_kind("roof")):
+        assert a.name == b.name in ("shed.roof.south", "shed.roof.north")
+        assert a.vertices == pytest.approx(b.vertices, abs=1e-9)
+
+
+def test_eaves_rest_on_the_plates_up_to_their_limit(tmp_path):
+    """Soffits are 0.12 sqrt(1 + 0.16) / 0.4 = 0.323 m wide; 0.06 m of it are the margin."""
+    model = shed(tmp_path, "type: hip, pitch: 0.4, eaves: 0.20, thickness: 0.12, corner_cut: 0.1")
+    assert model.counts()["joints_by_kind"]["roof_beam"] >= 4
+    with pytest.raises(HouseError, match="eaves below 0.263"):
+        shed(tmp_path, "type: hip, pitch: 0.4, eaves: 0.27, thickness: 0.12")
+
+
+def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):
+    model = shed(tmp_path, "type: hip, pitch: 0.5, thickness: 0.12, corner_cut: 0.1", nx=3, ny=3, snow=1.0)
+    slabs = model.of_kind("roof")
+    assert {len(e.solid.faces) for e in slabs} == {8} and len({round(e.volume, 9) for e in slabs}) == 1
+    assert model.counts()["joints_by_kind"]["roof_roof"] == 4  # the hips; there is no ridge
+
+
+@pytest.mark.parametrize("roof", ["type: flat, thickness: 0.1", "type: gable, pitch: 1.2, thickness: 0.1", "type: hip, pitch: 0.3, thickness: 0.05, corner_cut: 0.1"])
+def test_one_module_is_a_house(tmp_path, roof):
+    model = shed(tmp_path, roof, nx=1, ny=1, snow=2.0)
+    assert len(model.of_kind("column")) == 4 and check_house(model)["deepest"] < 1e-9
+
+
+def test_areas_meet_on_the_grid_line(tmp_path):
+    """Two roofs over one grid: no margin and no eaves where they meet, and the sum of both covers the whole."""
+    halves = [f"type: flat, thickness: 0.1, eaves: 0.2, area: {{x: [0, 2], y: {y}}}" for y in ("[0, 1]", "[1, 3]")]
+    roofs = shed(tmp_path, halves[0] + "}\n      - {layer: roof, " + halves[1]).of_kind("roof")
+    assert [e.name for e in roofs] == ["shed.roof1", "shed.roof2"]
+    assert sum(e.volume for e in roofs) == pytest.approx((2.12 + 0.4) * (3.12 + 0.4) * 0.1)
+    assert roofs[0].solid.bounds[1][1] == roofs[1].solid.bounds[0][1] == 1.0
+
+
+def test_wings_of_the_l_house_are_joined():
+    """13 joints between the wings: 2 floors, 2 beams in 2 storeys, and the columns of the double wall; ends flush in the south."""
+    model = build_house(load_house("l_house"), 1.0)
+    between = [j for j in model.joints if model.element(j.a).group != model.element(j.b).group]
+    assert {j.kind for j in between} == {"wing_wing"}
+    assert sorted(model.element(j.a).kind for j in between) == ["beam"] * 2 + ["column"] * 10 + ["floor"]
+    lows = {group: min(e.solid.bounds[0][1] for e in model.elements if e.group == group and e.kind == "beam") for group in ("main", "side")}
+    assert lows["main"] == pytest.approx(lows["side"])
+    normals = np.array([j.normal for j in between])
+    assert np.abs(normals[:, 0]) == pytest.approx(1)
+
+
+def test_a_file_takes_what_it_does_not_say_from_a_shipped_house(tmp_path):
+    """`extends` by name; null takes an entry out; a file beside goes first."""
+    model = house(tmp_path, "extends: C2\nname: mine\nstructures: {entrance: null}\ndamage: {regions: []}\n")
+    assert {e.group for e in model.elements} == {"", "main"} and not any(j.broken for j in model.joints)
+    (tmp_path / "base.yaml").write_text("extends: A\nname: beside\ndescription: the file beside\n")
+    assert house(tmp_path, "extends: base.yaml\nname: mine\n").description == "the file beside"
+
+
+def test_two_beams_on_one_line_have_names_of_their_own(tmp_path):
+    lines = "[{along: y, at: [0, 2], from: 0, to: 1}, {along: y, at: [0, 2], from: 2, to: 3}]"
+    names = [e.name for e in shed(tmp_path, "type: flat, thickness: 0.1", lines=lines, walls=lines).elements]
+    assert len(set(names)) == len(names) and "shed.beam1.NS.x0.2" in names
+
+
+def test_a_very_large_house_is_built_in_seconds(tmp_path):
+    """20 x 20 modules with a column at every node, each checked for overlaps with its neighbours."""
+    everywhere = f"[{{along: y, at: {list(range(21))}, from: 0, to: 20}}]"
+    start = time.perf_counter()
+    model = shed(tmp_path, "type: hip, pitch: 0.4, thickness: 0.12", nx=20, ny=20, snow=1.0, lines=everywhere, walls=everywhere)
+    assert len(model.of_kind("column")) == 441 and model.counts()["joints_by_kind"]["column_beam"] == 882
+    assert time.perf_counter() - start < 30  # observed: 1 s on a quiet machine

@@ -1,0 +1,88 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""docs/house_files.md names every key of a house file, with the range and the default that the schema has, and no other."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+from yade_timber.house.layout import HOUSE  # noqa: E402
+from yade_timber.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text, Variants  # noqa: E402
+
+PAGE = ROOT / "docs" / "house_files.md"
+HEADING = re.compile(r"^#+ .*`([^`]*)`$")
+ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
+
+
+def tables(field, path=""):
+    """(path, Record) of every table that the schema knows; `[]` list, `*` a name of the user's, `{key: x}` one of several forms."""
+    if isinstance(field, ListOf):
+        yield from tables(field.item, path + "[]")
+    elif isinstance(field, MapOf):
+        yield from tables(field.item, path + ".*")
+    elif isinstance(field, Variants):
+        for option, form in field.options.items():
+            yield from tables(form, f"{path.removesuffix('}')}{', ' if path.endswith('}') else ' {'}{field.key}: {option}}}")
+    elif isinstance(field, Record):
+        yield path, field
+        for key, entry in field.fields.items():
+            yield from tables(entry, f"{path}.{key}".lstrip("."))
+
+
+def value_words(field):
+    """What may stand behind a key, in the page's words."""
+    if isinstance(field, Number):
+        return f"{'whole ' if field.whole else ''}number{field._range()}"
+    if isinstance(field, ListOf):
+        one = ", or one alone" if field.scalar else ""
+        return f"list of {f'{field.length} ' if field.length else ''}({value_words(field.item)}){one}"
+    words = {Text: "text", Flag: "true or false", Record: "table", MapOf: "table of names", Variants: "table"}
+    return ", ".join(f"`{option}`" for option in field.options) if isinstance(field, Choice) else words[type(field)]
+
+
+def default_words(field):
+    """The default, in the page's words."""
+    if field.default is REQUIRED:
+        return "required"
+    if field.default is None or field.default == ():
+        return "none"
+    if field.default == {}:
+        return "its defaults"
+    return str(field.default).lower() if isinstance(field, Flag) else f"{field.default}" or "empty"
+
+
+def schema_rows():
+    """{path of a table: {key: (value, default)}}; a table that occurs in several places has the path of the first."""
+    seen, rows = set(), {}
+    for path, record in tables(HOUSE):
+        if id(record) not in seen:
+            seen.add(id(record))
+            rows[path] = {key: (value_words(field), default_words(field)) for key, field in record.fields.items()}
+    return rows
+
+
+def page_rows():
+    """{path in a heading: {key: (value, default)}} of the page."""
+    rows, here = {}, None
+    for line in PAGE.read_text().splitlines():
+        heading, row = HEADING.match(line), ROW.match(line)
+        if heading:
+            here = rows.setdefault(heading[1].replace("the file", ""), {})
+        elif row and here is not None:
+            assert row[1] not in here, f"{row[1]} stands twice"
+            here[row[1]] = (row[2], row[3])
+    return rows
+
+
+@pytest.mark.parametrize("path", schema_rows())
+def test_table_is_documented_as_it_is(path):
+    assert page_rows().get(path) == schema_rows()[path]
+
+
+def test_page_invents_nothing():
+    assert set(page_rows()) == set(schema_rows())
