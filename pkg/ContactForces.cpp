@@ -5,6 +5,9 @@ namespace yade {
 
 YADE_PLUGIN((ContactForces));
 
+/// Steps for which a point's response is kept. A member that turns at 10 rad/s has turned by 0.03 rad by then; longer gains nothing.
+constexpr int responseSteps = 32;
+
 void ContactForces::sortPairs()
 {
 	pairs.clear();
@@ -70,6 +73,7 @@ void ContactForces::collectPoints()
 		const int      id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
 		const Vector3r x1 = Body::byId(id1, scene)->state->pos, x2 = Body::byId(id2, scene)->state->pos;
 		const Real     rootShear = math::sqrt(pair.phys->shearRatio);
+		const bool     refresh   = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
 		if (points.size() < count + pair.phys->states.size()) points.resize(count + pair.phys->states.size());
 		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
@@ -86,6 +90,7 @@ void ContactForces::collectPoints()
 			p.shearDamping  = p.normalDamping * rootShear;
 			p.friction      = pair.phys->friction;
 			p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
+			p.response      = refresh ? timber::PointResponse() : s.response;
 		}
 	}
 	points.resize(count);
@@ -113,6 +118,7 @@ void ContactForces::storePoints()
 			const Vector3r              f = p.impulse / scene->dt;
 			s.shear   = timber::limitedShear(s.shear, p.friction, f.dot(p.normal));
 			s.dashpot = f - s.normal * p.normal - s.shear;
+			s.response     = p.response;
 			p.elasticShear = s.shear;
 			force[p.bodyA] -= f;
 			torque[p.bodyA] -= p.armA.cross(f);

@@ -22,15 +22,13 @@ void TimberJoint::postLoad(TimberJoint&)
 	if (broken.size() != anchors1.size()) throw std::invalid_argument("TimberJoint.broken must have one entry for each spring");
 	if (!(kn > 0 && ks > 0 && strength > 0)) throw std::invalid_argument("TimberJoint: kn, ks and strength must be > 0 (the strength may be infinite)");
 	forces.resize(anchors1.size(), Vector3r::Zero());
-	stretches.resize(anchors1.size(), 0);
+	stretches.resize(anchors1.size(), Vector3r::Zero());
 }
 
-timber::SpringForce TimberJoint::spring(size_t k, const State& s1, const State& s2, Vector3r& end1, Vector3r& end2) const
+timber::JointStiffness TimberJoint::stiffness() const
 {
 	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
-	end1             = s1.pos + s1.ori * anchors1[k];
-	end2             = s2.pos + s2.ori * anchors2[k];
-	return timber::springForce({ share * kn, share * ks }, end2 - end1, s1.ori * normal);
+	return { share * kn, share * ks };
 }
 
 boost::python::list TimberJoint::pySprings() const
@@ -39,7 +37,7 @@ boost::python::list TimberJoint::pySprings() const
 	for (size_t k = 0; k < broken.size(); ++k) {
 		boost::python::dict one;
 		one["force"]   = Vector3r(forces[k]);
-		one["stretch"] = stretches[k];
+		one["stretch"] = stretches[k].norm();
 		one["broken"]  = bool(broken[k]);
 		all.append(one);
 	}
@@ -68,22 +66,58 @@ boost::python::list JointEngine::pyBreaks() const
 	return all;
 }
 
-void JointEngine::breakSpring(size_t joint, const Acting& broken, const State& s1, const State& s2)
+void JointEngine::collectAxes()
+{
+	axes.resize(scene->bodies->size());
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b) axes[b->getId()] = b->state->ori.toRotationMatrix();
+}
+
+void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, const State& s2)
 {
 	static const char* const     names[] = { "tension", "compression", "shear" };
-	const timber::SpringForce&   f       = broken.force;
-	const size_t                 spring  = broken.spring;
+	TimberJoint&                 joint   = *joints[index];
+	Vector3r &                   force = joint.forces[spring], &stretch = joint.stretches[spring];
+	const timber::SpringForce    f = timber::springForce(joint.stiffness(), stretch, axes[joint.id1] * joint.normal);
 	const shared_ptr<JointBreak> entry(new JointBreak);
 	entry->time   = scene->time;
-	entry->joint  = int(joint);
+	entry->joint  = int(index);
 	entry->spring = int(spring);
 	entry->cause  = names[int(timber::breakCause(f))];
-	entry->force  = f.force.norm();
+	entry->force  = force.norm();
 	breaks.push_back(entry);
-	released += f.energy - scene->dt / 2 * f.force.dot(partingVelocity(s1, s2, broken.end2));
-	joints[joint]->broken[spring]    = 1;
-	joints[joint]->forces[spring]    = Vector3r::Zero();
-	joints[joint]->stretches[spring] = 0;
+	const Vector3r end2 = s2.pos + axes[joint.id2] * joint.anchors2[spring];
+	released += f.energy - scene->dt / 2 * force.dot(partingVelocity(s1, s2, end2));
+	elastic -= f.energy;
+	joint.broken[spring] = 1;
+	force                = Vector3r::Zero();
+	stretch              = Vector3r::Zero();
+}
+
+/// All springs of the joint, or those that are overloaded.
+void JointEngine::breakSprings(size_t index, const State& s1, const State& s2)
+{
+	const TimberJoint& joint = *joints[index];
+	for (size_t k = 0; k < joint.broken.size(); ++k)
+		if (!joint.broken[k] && (joint.perJoint || joint.forces[k].squaredNorm() > joint.strength * joint.strength)) breakSpring(index, k, s1, s2);
+}
+
+/// Applies the forces of the springs that are left.
+void JointEngine::pull(TimberJoint& joint, const State& s1, const State& s2)
+{
+	Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
+	for (size_t k = 0; k < joint.broken.size(); ++k) {
+		if (joint.broken[k]) continue;
+		const Vector3r& f    = joint.forces[k];
+		const Vector3r  arm2 = axes[joint.id2] * joint.anchors2[k];
+		force += f;
+		torque1 += (s2.pos - s1.pos + arm2).cross(f); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
+		torque2 -= arm2.cross(f);
+	}
+	scene->forces.addForce(joint.id1, force);
+	scene->forces.addTorque(joint.id1, torque1);
+	scene->forces.addForce(joint.id2, -force);
+	scene->forces.addTorque(joint.id2, torque2);
 }
 
 void JointEngine::act(size_t index)
@@ -94,33 +128,21 @@ void JointEngine::act(size_t index)
 		joint.broken.assign(joint.broken.size(), 1);
 		return;
 	}
-	const State &s1 = *b1->state, &s2 = *b2->state;
-	Real         sum = 0;
-	acting.clear();
+	const State &                s1 = *b1->state, &s2 = *b2->state;
+	const timber::JointStiffness stiffness = joint.stiffness();
+	const Vector3r               normal = axes[joint.id1] * joint.normal, apart = s2.pos - s1.pos;
+	Real                         sum = 0, largest = 0;
 	for (size_t k = 0; k < joint.broken.size(); ++k) {
 		if (joint.broken[k]) continue;
-		acting.push_back({ k, {}, {}, {} });
-		acting.back().force = joint.spring(k, s1, s2, acting.back().end1, acting.back().end2);
-		sum += acting.back().force.force.norm();
+		joint.stretches[k]         = apart + axes[joint.id2] * joint.anchors2[k] - axes[joint.id1] * joint.anchors1[k];
+		const timber::SpringForce f = timber::springForce(stiffness, joint.stretches[k], normal);
+		joint.forces[k]            = f.force;
+		elastic += f.energy;
+		largest = math::max(largest, f.force.squaredNorm());
+		if (joint.perJoint) sum += f.force.norm();
 	}
-	Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
-	for (const Acting& s : acting) {
-		const Vector3r f = s.force.force;
-		if ((joint.perJoint ? sum : f.norm()) > joint.strength) {
-			breakSpring(index, s, s1, s2);
-			continue;
-		}
-		joint.forces[s.spring]    = f;
-		joint.stretches[s.spring] = (s.end2 - s.end1).norm();
-		elastic += s.force.energy;
-		force += f;
-		torque1 += (s.end2 - s1.pos).cross(f); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
-		torque2 -= (s.end2 - s2.pos).cross(f);
-	}
-	scene->forces.addForce(joint.id1, force);
-	scene->forces.addTorque(joint.id1, torque1);
-	scene->forces.addForce(joint.id2, -force);
-	scene->forces.addTorque(joint.id2, torque2);
+	if (joint.perJoint ? sum > joint.strength : largest > joint.strength * joint.strength) breakSprings(index, s1, s2);
+	pull(joint, s1, s2);
 }
 
 Real JointEngine::elasticPower() const
@@ -137,6 +159,7 @@ Real JointEngine::elasticPower() const
 void JointEngine::action()
 {
 	elastic = 0;
+	collectAxes();
 	for (size_t k = 0; k < joints.size(); ++k)
 		if (!joints[k]->isFinished()) act(k);
 }

@@ -9,8 +9,8 @@ namespace yade {
 class TimberJoint : public Serializable {
 public:
 	void postLoad(TimberJoint&);
-	/// One of the springs, from the placements of the two bodies. `count` share the joint's stiffness if it is per joint.
-	timber::SpringForce spring(size_t k, const State& s1, const State& s2, Vector3r& end1, Vector3r& end2) const;
+	/// Of one of the springs, which share the joint's if it is per joint.
+	timber::JointStiffness stiffness() const;
 	bool                isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
 	boost::python::list pySprings() const;
 
@@ -29,7 +29,7 @@ public:
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
-		((vector<Real>, stretches, , Attr::readonly, "Distance of the two ends of each spring in the last step. [m]")),
+		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isFinished", &TimberJoint::isFinished, "Whether all springs are broken. [-]")
@@ -52,15 +52,13 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
-	struct Acting {
-		size_t              spring;
-		timber::SpringForce force;
-		Vector3r            end1, end2;
-	};
-	std::vector<Acting> acting; ///< springs of the joint at hand that are not broken
+	std::vector<Matrix3r> axes; ///< of the bodies, by id
 
+	void collectAxes();
 	void act(size_t joint);
-	void breakSpring(size_t joint, const Acting&, const State&, const State&);
+	void pull(TimberJoint&, const State&, const State&);
+	void breakSprings(size_t joint, const State&, const State&);
+	void breakSpring(size_t joint, size_t spring, const State&, const State&);
 
 public:
 	void                action() override;

@@ -4,6 +4,7 @@
 /// and pushes the bodies apart.
 #pragma once
 #include "constants.hpp"
+#include "dashpots.hpp"
 #include "manifold.hpp"
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ struct PointState {
 	double energy = 0; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
 	Vec3 shear = Vec3::Zero(); ///< elastic tangential force e_s [N]
 	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step [N]
+	PointResponse response; ///< kept for some steps
 	double closing = 0; ///< closing displacement of the last step [m]
 	Vec3 slide = Vec3::Zero(); ///< tangential displacement of B against A in the last step [m]
 	Vec3 shearBefore = Vec3::Zero(); ///< e_s before that displacement [N]
@@ -89,12 +91,12 @@ inline double shearEnergy(const PointState& s, const PairProperties& p)
 /// Its length stays.
 inline Vec3 turned(const Vec3& shear, const Vec3& turn, const Vec3& normal)
 {
-	const double length = shear.norm();
+	const double length = shear.squaredNorm();
 	if (length == 0) return shear;
 	Vec3 t = shear + turn.cross(shear);
 	t -= t.dot(normal) * normal;
-	const double left = t.norm();
-	return left > 0 ? Vec3(t * (length / left)) : Vec3(Vec3::Zero());
+	const double left = t.squaredNorm();
+	return left > 0 ? Vec3(t * std::sqrt(length / left)) : Vec3(Vec3::Zero());
 }
 
 /// Force of a point that comes or goes within a step: its overlap n [m] is below its displacement d in a step [m]. Before

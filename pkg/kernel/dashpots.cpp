@@ -25,6 +25,12 @@ namespace {
 		return (tt + uu) / 2 + std::sqrt((tt - uu) * (tt - uu) / 4 + tu * tu);
 	}
 
+	PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const DashpotPoint& p)
+	{
+		const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
+		return { response * p.normal, largestShearResponse(response, p.normal) };
+	}
+
 	/// theta of the step and the gain of a correction, for a dashpot of rate h C against the response a.
 	void setDashpot(double rate, double a, double& theta, double& gain)
 	{
@@ -73,16 +79,16 @@ DashpotSolver::Row DashpotSolver::prepare(const std::vector<DashpotBody>& bodies
 	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
 	p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
 	const double vn = p.before.dot(p.normal);
-	const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
+	if (p.response.shear < 0) p.response = responseAt(a, b, p);
 	Row row;
 	row.armA = p.armA;
 	row.armB = p.armB;
 	row.normal = p.normal;
 	row.impulse = p.impulse;
-	row.normalResponse = response * p.normal;
+	row.normalResponse = p.response.normal;
 	double normalTheta, shearTheta;
 	setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
-	setDashpot(h * p.shearDamping, largestShearResponse(response, p.normal), shearTheta, row.shearGain);
+	setDashpot(h * p.shearDamping, p.response.shear, shearTheta, row.shearGain);
 	row.normalRate = h * p.normalDamping * normalTheta;
 	row.shearRate = h * p.shearDamping * shearTheta;
 	row.elasticShear = h * p.elasticShear;

@@ -22,6 +22,13 @@ struct DashpotBody {
 	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
 };
 
+/// How the relative velocity at a point answers to impulses there. It decides theta and the speed of the sweeps, and changes
+/// little in some steps: it may be kept for them.
+struct PointResponse {
+	Vec3 normal; ///< change of the relative velocity per unit normal impulse [1/kg]
+	double shear = -1; ///< largest change per unit tangential impulse [1/kg]; < 0: not known
+};
+
 struct DashpotPoint {
 	int bodyA, bodyB; ///< indices of the bodies
 	Vec3 armA, armB; ///< from the centres of mass to the point [m]
@@ -31,6 +38,7 @@ struct DashpotPoint {
 	double normalDamping, shearDamping; ///< C_n, C_s [N s/m]
 	double friction; ///< [-]
 	Vec3 impulse; ///< in: guess; out: total contact impulse on B [N s]
+	PointResponse response; ///< in-out: found when not known
 	Vec3 before; ///< out: relative velocity before the step [m/s]
 };
 

@@ -13,7 +13,6 @@ struct JointStiffness {
 struct SpringForce {
 	Vec3 force; ///< on A, world [N]
 	double normal; ///< along the joint's normal, > 0 in tension [N]
-	double shear; ///< across it, >= 0 [N]
 	double energy; ///< stored [J]
 };
 
@@ -21,17 +20,15 @@ struct SpringForce {
 /// stretch: anchor of B minus anchor of A, world [m]. With equal stiffnesses the normal does not matter.
 inline SpringForce springForce(const JointStiffness& k, const Vec3& stretch, const Vec3& normal)
 {
-	const double along = stretch.dot(normal);
-	const Vec3 across = stretch - along * normal;
-	const double length = across.norm();
-	return { k.normal * along * normal + k.shear * across, k.normal * along, k.shear * length, 0.5 * (k.normal * along * along + k.shear * length * length) };
+	const double along = stretch.dot(normal), extra = k.normal - k.shear;
+	return { k.shear * stretch + extra * along * normal, k.normal * along, 0.5 * (k.shear * stretch.squaredNorm() + extra * along * along) };
 }
 
 /// What broke a spring: the larger of its two components, and the sign of the normal one.
 enum class BreakCause { Tension, Compression, Shear };
 inline BreakCause breakCause(const SpringForce& f)
 {
-	if (f.shear > std::abs(f.normal)) return BreakCause::Shear;
+	if (f.force.squaredNorm() > 2 * f.normal * f.normal) return BreakCause::Shear;
 	return f.normal > 0 ? BreakCause::Tension : BreakCause::Compression;
 }
 

@@ -9,13 +9,13 @@ namespace timber {
 /// Turns the orientation about its own principal axis by `angle` [rad].
 inline void turnAbout(Quat& orientation, Vec3& bodyMomentum, int axis, double angle)
 {
-	const double c = std::cos(angle), s = std::sin(angle);
+	const double halfC = std::cos(angle / 2), halfS = std::sin(angle / 2), c = halfC * halfC - halfS * halfS, s = 2 * halfS * halfC;
 	const int j = (axis + 1) % 3, k = (axis + 2) % 3;
 	const double mj = bodyMomentum[j], mk = bodyMomentum[k];
 	bodyMomentum[j] = c * mj + s * mk;
 	bodyMomentum[k] = c * mk - s * mj;
-	Quat turn(std::cos(angle / 2), 0, 0, 0);
-	turn.vec()[axis] = std::sin(angle / 2);
+	Quat turn(halfC, 0, 0, 0);
+	turn.vec()[axis] = halfS;
 	orientation = orientation * turn;
 }
 
