@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sheets of pictures of a run, made from its recorded frames: six moments in one view, and the end in two views. Needs no YADE."""
+from dataclasses import dataclass
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from . import moments, snapshot
+from .files import written_whole
+from .views import VIEWS, draw_ends, draw_view, legend, scale_bar, window
+from .words import sentence
+
+PAPER = (11.69, 8.27)
+"""A4, landscape. [inch]"""
+DPI = 300
+"""Of the shaded parts in print; lines and words are vectors in the PDF. [1/inch]"""
+EDGE, GAP, HEAD, FOOT, CAPTION = 0.35, 0.12, 0.75, 0.62, 0.36
+"""Margin of the paper, gap between panels, title, legend, line of words above each panel. [inch]"""
+
+
+@dataclass
+class Panel:
+    """A moment as drawn: its solids, marks and words."""
+
+    solids: list
+    marks: list
+    words: str
+
+
+def write_sheet(stem, frames, view):
+    """Write `stem`.png and `stem`.pdf: six moments in one view. Returns the paths. Raises OSError."""
+    chosen = moments.choose(frames)
+    panels = [Panel(snapshot.solids(frames, m.frame), snapshot.marks(frames, m.frame), words(frames, m)) for m in chosen]
+    start = snapshot.solids(frames)
+    figure = Figure(figsize=PAPER, facecolor="white")
+    FigureCanvasAgg(figure)
+    box = window(view, start, [p.solids for p in panels])
+    columns, scale = layout(len(panels), box)
+    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, scale, box))):
+        ax = figure.add_axes(place)
+        draw_view(ax, view, box, round(scale * DPI), panel.solids, start if k else None, panel.marks, mark_size=5)
+        ax.set_title(panel.words, fontsize=9, loc="left", pad=3)
+        draw_ends(ax, view, 7)
+        scale_bar(ax, box, 7)
+    heading(figure, frames, view.title)
+    legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=10)
+    return save(figure, stem, ("png", "pdf"))
+
+
+def words(frames, moment):
+    """Line above a panel."""
+    time = f"{frames.time[moment.frame]:.2f} s"
+    return f"{time}  {moment.reason}" if moment.reason else time
+
+
+def layout(count, box):
+    """(columns, scale [inch/m]) that draws panels of `box` largest on the paper."""
+    width, height = box[1] - box[0], box[3] - box[2]
+    found = []
+    for columns in (1, 2, 3):
+        rows = -(-count // columns)
+        across = (PAPER[0] - 2 * EDGE - (columns - 1) * GAP) / columns / width
+        up = ((PAPER[1] - HEAD - FOOT) / rows - CAPTION - GAP) / height
+        found.append((min(across, up), columns))
+    scale, columns = max(found)
+    return columns, scale
+
+
+def places(count, columns, scale, box):
+    """[left, bottom, width, height] of each panel in parts of the figure; rows from the top, centred on the paper."""
+    width, height = (box[1] - box[0]) * scale, (box[3] - box[2]) * scale
+    rows = -(-count // columns)
+    left = (PAPER[0] - columns * width - (columns - 1) * GAP) / 2
+    spare = (PAPER[1] - HEAD - FOOT - rows * (height + CAPTION + GAP)) / (rows + 1)
+    for k in range(count):
+        row, column = divmod(k, columns)
+        x = left + column * (width + GAP)
+        y = PAPER[1] - HEAD - (row + 1) * (height + CAPTION + spare) - row * GAP
+        yield x / PAPER[0], y / PAPER[1], width / PAPER[0], height / PAPER[1]
+
+
+def heading(figure, frames, what):
+    """Title and result at the top of a sheet."""
+    height = figure.get_figheight()
+    figure.text(EDGE / figure.get_figwidth(), 1 - 0.30 / height, f"{frames.title}: {what[0].lower()}{what[1:]}", fontsize=14, fontweight="bold", va="center")
+    if frames.summary:
+        figure.text(EDGE / figure.get_figwidth(), 1 - 0.56 / height, sentence(frames.summary), fontsize=10, va="center")
+
+
+def write_end(stem, frames, frame=-1, dpi=130):
+    """Write `stem`.png: the two views of a frame, the last one unless said otherwise. Returns the path in a list. Raises OSError."""
+    solids, start, marks = snapshot.solids(frames, frame), snapshot.solids(frames), snapshot.marks(frames, frame)
+    boxes = [window(view, start, [solids]) for view in VIEWS]
+    widths = [box[1] - box[0] for box in boxes]
+    top = max(box[3] for box in boxes)
+    scale = 12.5 / sum(widths)  # [inch/m]
+    height = (top - boxes[0][2]) * scale
+    figure = Figure(figsize=(13.2, height + 2.1), facecolor="white")
+    FigureCanvasAgg(figure)
+    left = 0.3
+    for view, box, width in zip(VIEWS, boxes, widths):
+        ax = figure.add_axes([left / 13.2, 0.8 / (height + 2.1), width * scale / 13.2, height / (height + 2.1)])
+        draw_view(ax, view, (*box[:3], top), round(scale * dpi), solids, start, marks)
+        ax.set_title(view.title, fontsize=12)
+        draw_ends(ax, view, 10)
+        scale_bar(ax, (*box[:3], top), 10)
+        left += width * scale + 0.1
+    heading(figure, frames, f"after {frames.time[frame]:.1f} s")
+    legend(figure, solids, {m.state for m in marks}, 10)
+    return save(figure, stem, ("png",), dpi)
+
+
+def save(figure, stem, endings, dpi=DPI):
+    """Write a figure as files that differ in their endings; returns their paths."""
+    paths = [stem.with_suffix(f".{ending}") for ending in endings]
+    for path in paths:
+        with written_whole(path) as part:
+            figure.savefig(part, dpi=dpi, metadata={"Software": None} if path.suffix == ".png" else {"CreationDate": None})
+    return paths
