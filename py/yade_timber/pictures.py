@@ -8,12 +8,12 @@ NAMES = [f"{END}.png"] + [f"{stem}.{ending}" for stem in (*(view.name for view i
 """Files that `write` makes."""
 
 
-def write(folder, path=None):
-    """Write the pictures of the run whose frames are in `path` (default: in the folder) into the folder; returns their paths.
+def write(folder, results=None):
+    """Write the pictures of a run into a folder; returns their paths. results: folder with the run's frames, by default the same.
 
     Raises RunError when the frames cannot be read, OSError when a picture cannot be written.
     """
-    recorded = frames.load(path or folder / frames.NAME)
+    recorded = frames.load((results or folder) / frames.NAME)
     written = sheets.write_end(folder / END, recorded)
     for view in VIEWS:
         written += sheets.write_sheet(folder / view.name, recorded, view)

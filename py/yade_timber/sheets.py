@@ -35,10 +35,10 @@ def write_sheet(stem, frames, view):
     figure = Figure(figsize=PAPER, facecolor="white")
     FigureCanvasAgg(figure)
     box = window(view, start, [p.solids for p in panels])
-    columns, scale = layout(len(panels), box)
-    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, scale, box))):
+    columns, density = layout(len(panels), box)
+    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, density / DPI, box))):
         ax = figure.add_axes(place)
-        draw_view(ax, view, box, round(scale * DPI), panel.solids, start if k else None, panel.marks, mark_size=5)
+        draw_view(ax, view, box, density, panel.solids, start if k else None, panel.marks, mark_size=5)
         ax.set_title(panel.words, fontsize=9, loc="left", pad=3)
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
@@ -54,7 +54,7 @@ def words(frames, moment):
 
 
 def layout(count, box):
-    """(columns, scale [inch/m]) that draws panels of `box` largest on the paper."""
+    """(columns, pixels per metre, a multiple of 10) that draws panels of `box` largest on the paper."""
     width, height = box[1] - box[0], box[3] - box[2]
     found = []
     for columns in (1, 2, 3):
@@ -63,7 +63,7 @@ def layout(count, box):
         up = ((PAPER[1] - HEAD - FOOT) / rows - CAPTION - GAP) / height
         found.append((min(across, up), columns))
     scale, columns = max(found)
-    return columns, scale
+    return columns, max(10, int(scale * DPI) // 10 * 10)
 
 
 def places(count, columns, scale, box):
@@ -76,7 +76,12 @@ def places(count, columns, scale, box):
         row, column = divmod(k, columns)
         x = left + column * (width + GAP)
         y = PAPER[1] - HEAD - (row + 1) * (height + CAPTION + spare) - row * GAP
-        yield x / PAPER[0], y / PAPER[1], width / PAPER[0], height / PAPER[1]
+        yield whole_pixels(x) / PAPER[0], whole_pixels(y) / PAPER[1], width / PAPER[0], height / PAPER[1]
+
+
+def whole_pixels(length):
+    """The nearest length that is a whole number of pixels. [inch]"""
+    return round(length * DPI) / DPI
 
 
 def heading(figure, frames, what):
@@ -93,14 +98,15 @@ def write_end(stem, frames, frame=-1, dpi=130):
     boxes = [window(view, start, [solids]) for view in VIEWS]
     widths = [box[1] - box[0] for box in boxes]
     top = max(box[3] for box in boxes)
-    scale = 12.5 / sum(widths)  # [inch/m]
+    density = int(12.5 * dpi / sum(widths)) // 10 * 10
+    scale = density / dpi  # [inch/m]
     height = (top - boxes[0][2]) * scale
     figure = Figure(figsize=(13.2, height + 2.1), facecolor="white")
     FigureCanvasAgg(figure)
     left = 0.3
     for view, box, width in zip(VIEWS, boxes, widths):
         ax = figure.add_axes([left / 13.2, 0.8 / (height + 2.1), width * scale / 13.2, height / (height + 2.1)])
-        draw_view(ax, view, (*box[:3], top), round(scale * dpi), solids, start, marks)
+        draw_view(ax, view, (*box[:3], top), density, solids, start, marks)
         ax.set_title(view.title, fontsize=12)
         draw_ends(ax, view, 10)
         scale_bar(ax, (*box[:3], top), 10)

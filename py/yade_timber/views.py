@@ -47,6 +47,8 @@ MARGIN = 0.8
 """Around the house, before and now. [m]"""
 DEPTH_BELOW = 0.4
 """How much of the soil is shown. [m]"""
+GRID = 0.1
+"""Windows begin and end at multiples of it, so that a picture of a multiple of 10 pixels per metre has whole pixels. [m]"""
 FAR = 8.0
 """How far from the place of the house wreckage is still shown. [m]"""
 OUTLINE_PIXELS = 60
@@ -71,7 +73,8 @@ def window(view, starts, others):
     across, home = now @ view.right, place @ view.right
     left = max(across.min(), home.min() - FAR) - MARGIN
     right = min(across.max(), home.max() + FAR) + MARGIN
-    return left, right, -DEPTH_BELOW, now[:, 2].max() + MARGIN
+    top = now[:, 2].max() + MARGIN
+    return np.floor(left / GRID) * GRID, np.ceil(right / GRID) * GRID, -DEPTH_BELOW, np.ceil(top / GRID) * GRID
 
 
 def draw_view(ax, view, box, density, solids, start, marks, mark_size=MARK_SIZE):
