@@ -18,8 +18,10 @@ class Recorder:
         self.frames = frames.Frames(title, scenario.name, model.name, version, describe_elements(model), describe_joints(model, self.joints), motion=describe_motion())
 
     def take(self, time, last=False):
-        """Record the scene as it is now. time [s]; last: whether it is the final state."""
+        """Record the scene as it is now, unless that is done. time [s]; last: whether it is the final state."""
         kept = self.frames
+        if kept.time and kept.time[-1] == time:
+            return
         kept.time.append(time)
         position, orientation = _plugin.packed_placements()
         load, broken = _plugin.packed_joints(self.joints)

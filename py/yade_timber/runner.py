@@ -25,6 +25,8 @@ from .words import sentence
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 O = yw.Omega()
+live = None
+"""The Run of a live session that records frames."""
 
 
 class Interrupted(Exception):
@@ -118,10 +120,10 @@ class Run:
         """
         left = self.steps - O.iter
         self._advance(min(max(1, left - 1), self.chunk - O.iter % self.chunk))
-        if self.recorder and (O.iter % self.chunk == 0 or O.iter == self.steps):
-            self.recorder.take(O.time, last=O.iter == self.steps)
         if O.iter == self.steps:
             return
+        if self.recorder and O.iter % self.chunk == 0:
+            self.recorder.take(O.time)
         if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
             self.save()
         if self.signal:
@@ -157,6 +159,7 @@ class Run:
         found = results.summary(self.scenario, self.model, self.wall_s)
         written = []
         if self.recorder:
+            self.recorder.take(O.time, last=True)
             self.recorder.finish(self.frames_path, found)
             written.append(self.frames_path)
         if self.output.views:
@@ -174,8 +177,18 @@ class Run:
             self.write()
             return
         self._since = time.perf_counter()
+        if self.recorder:
+            self._record_live()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()
+
+    def _record_live(self):
+        """An engine at the end of the chain that records each frame, in the step that leads to it."""
+        global live
+        live = self
+        before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
+        command = f"import {__name__}; {__name__}.record_frame()"
+        O.engines = O.engines + [yw.PyRunner(command=command, iterPeriod=self.chunk, iterLast=before, nDone=1)]
 
     def _watch(self):
         while O.iter < self.steps:
@@ -187,6 +200,12 @@ class Run:
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
         return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
+
+
+def record_frame():
+    """Record the state that the present step of the live run, whose bodies have moved already, leads to."""
+    if live and O.iter + 1 < live.steps:
+        live.recorder.take(O.time + O.dt)
 
 
 def title(scenario, model):

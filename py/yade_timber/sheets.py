@@ -44,7 +44,7 @@ def write_sheet(stem, frames, view):
         scale_bar(ax, box, 7)
     heading(figure, frames, view.title)
     legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=10)
-    return save(figure, stem, ("png", "pdf"))
+    return save(figure, stem, ("png", "pdf"), DPI)
 
 
 def words(frames, moment):
@@ -116,7 +116,7 @@ def write_end(stem, frames, frame=-1, dpi=130):
     return save(figure, stem, ("png",), dpi)
 
 
-def save(figure, stem, endings, dpi=DPI):
+def save(figure, stem, endings, dpi):
     """Write a figure as files that differ in their endings; returns their paths."""
     paths = [stem.with_suffix(f".{ending}") for ending in endings]
     for path in paths:
