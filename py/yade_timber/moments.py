@@ -44,7 +44,7 @@ def named(frames):
     yield frames.time[-1], "end"
     found = frames.summary or {}
     if found.get("collapse_time_s") is not None:
-        yield found["collapse_time_s"], "collapse"
+        yield found["collapse_time_s"], "collapse: half a storey down"
     if found.get("tilt_time_s") is not None:
         yield found["tilt_time_s"], "leans by 1/10"
     if frames.motion:

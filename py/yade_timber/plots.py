@@ -39,14 +39,24 @@ def write(stem, frames):
         draw_drifts(axis, values, key, name)
     draw_breaks(axes[2], frames)
     draw_energy(axes[3], values)
+    draw_events(figure.axes, frames.summary)
     for axis in figure.axes:
         axis.grid(alpha=0.25)
         axis.tick_params(labelsize=8)
         axis.set_xlim(0, frames.time[-1])
     figure.axes[-1].set_xlabel("time [s]", fontsize=9)
     figure.align_ylabels()
-    heading(figure, frames, "history")
+    heading(figure, frames, "History")
     return save(figure, stem, ("png", "pdf"), DPI)
+
+
+def draw_events(axes, found):
+    """Lines through all axes when the house leans by 1/10 and when a floor has come down by half a storey, with words on top."""
+    for key, text, side in (("tilt_time_s", "leans", "right"), ("collapse_time_s", "collapses", "left")):
+        if found[key] is not None:
+            for axis in axes:
+                axis.axvline(found[key], color="black", lw=0.7, ls="--")
+            axes[0].annotate(text, (found[key], 1), (0, 2), ("data", "axes fraction"), "offset points", fontsize=8, ha=side)
 
 
 def legend(axis):
@@ -106,6 +116,6 @@ def draw_energy(axis, values):
     axis.plot(values["time [s]"], came / 1e3, "k--", lw=1, label="came in: ground\nmotion and gravity")
     left = abs(sum(parts) - came).max()
     share = 100 * left / max(abs(came).max(), 1e-300)
-    axis.annotate(f"not accounted for: at most {left:.2g} J, {share:.2g} %", (0.01, 0.95), xycoords="axes fraction", va="top", fontsize=7)
+    axis.annotate(f"not accounted for: at most {left / 1e3:.2g} kJ, {share:.2g} %", (0.01, 0.95), xycoords="axes fraction", va="top", fontsize=7)
     label(axis, "energy [kJ]")
     legend(axis)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheets of pictures of a run, made from its recorded frames: six moments in one view, and the end in two views. Needs no YADE."""
 from dataclasses import dataclass
+from textwrap import fill
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -16,6 +17,8 @@ DPI = 300
 """Of the shaded parts in print; lines and words are vectors in the PDF. [1/inch]"""
 EDGE, GAP, HEAD, FOOT, CAPTION = 0.35, 0.12, 0.75, 0.62, 0.36
 """Margin of the paper, gap between panels, title, legend, line of words above each panel. [inch]"""
+LETTERS = 13.5
+"""Of 10 pt that fit into an inch."""
 
 
 @dataclass
@@ -36,7 +39,7 @@ def write_sheet(stem, frames, view):
     FigureCanvasAgg(figure)
     box = window(view, start, [p.solids for p in panels])
     columns, density = layout(len(panels), box)
-    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, density / DPI, box))):
+    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, density, box))):
         ax = figure.add_axes(place)
         draw_view(ax, view, box, density, panel.solids, start if k else None, panel.marks, mark_size=5)
         ax.set_title(panel.words, fontsize=9, loc="left", pad=3)
@@ -66,16 +69,15 @@ def layout(count, box):
     return columns, max(10, int(scale * DPI) // 10 * 10)
 
 
-def places(count, columns, scale, box):
-    """[left, bottom, width, height] of each panel in parts of the figure; rows from the top, centred on the paper."""
-    width, height = (box[1] - box[0]) * scale, (box[3] - box[2]) * scale
-    rows = -(-count // columns)
+def places(count, columns, density, box):
+    """[left, bottom, width, height] of each panel in parts of the figure; rows from the top, centred between title and legend."""
+    width, height = (box[1] - box[0]) * density / DPI, (box[3] - box[2]) * density / DPI
+    rows, pitch = -(-count // columns), height + CAPTION + GAP
     left = (PAPER[0] - columns * width - (columns - 1) * GAP) / 2
-    spare = (PAPER[1] - HEAD - FOOT - rows * (height + CAPTION + GAP)) / (rows + 1)
+    top = PAPER[1] - HEAD - (PAPER[1] - HEAD - FOOT - rows * pitch) / 2
     for k in range(count):
         row, column = divmod(k, columns)
-        x = left + column * (width + GAP)
-        y = PAPER[1] - HEAD - (row + 1) * (height + CAPTION + spare) - row * GAP
+        x, y = left + column * (width + GAP), top - row * pitch - CAPTION - height
         yield whole_pixels(x) / PAPER[0], whole_pixels(y) / PAPER[1], width / PAPER[0], height / PAPER[1]
 
 
@@ -86,32 +88,33 @@ def whole_pixels(length):
 
 def heading(figure, frames, what):
     """Title and result at the top of a sheet."""
-    height = figure.get_figheight()
-    figure.text(EDGE / figure.get_figwidth(), 1 - 0.30 / height, f"{frames.title}: {what[0].lower()}{what[1:]}", fontsize=14, fontweight="bold", va="center")
+    width, height = figure.get_size_inches()
+    figure.text(EDGE / width, 1 - 0.30 / height, f"{frames.title}. {what}", fontsize=14, fontweight="bold", va="center")
     if frames.summary:
-        figure.text(EDGE / figure.get_figwidth(), 1 - 0.56 / height, sentence(frames.summary), fontsize=10, va="center")
+        result = fill(sentence(frames.summary), int(LETTERS * (width - 2 * EDGE)))
+        figure.text(EDGE / width, 1 - 0.46 / height, result, fontsize=10, va="top")
 
 
 def write_end(stem, frames, frame=-1, dpi=130):
     """Write `stem`.png: the two views of a frame, the last one unless said otherwise. Returns the path in a list. Raises OSError."""
     solids, start, marks = snapshot.solids(frames, frame), snapshot.solids(frames), snapshot.marks(frames, frame)
     boxes = [window(view, start, [solids]) for view in VIEWS]
-    widths = [box[1] - box[0] for box in boxes]
     top = max(box[3] for box in boxes)
-    density = int(12.5 * dpi / sum(widths)) // 10 * 10
-    scale = density / dpi  # [inch/m]
-    height = (top - boxes[0][2]) * scale
-    figure = Figure(figsize=(13.2, height + 2.1), facecolor="white")
+    boxes = [(*box[:3], top) for box in boxes]
+    density = int(12.5 * dpi / sum(box[1] - box[0] for box in boxes)) // 10 * 10
+    sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
+    paper = sum(width for width, _ in sizes) + 2 * EDGE + GAP, sizes[0][1] + HEAD + CAPTION + FOOT + 0.25
+    figure = Figure(figsize=paper, facecolor="white")
     FigureCanvasAgg(figure)
-    left = 0.3
-    for view, box, width in zip(VIEWS, boxes, widths):
-        ax = figure.add_axes([left / 13.2, 0.8 / (height + 2.1), width * scale / 13.2, height / (height + 2.1)])
-        draw_view(ax, view, (*box[:3], top), density, solids, start, marks)
+    left = EDGE
+    for view, box, (width, height) in zip(VIEWS, boxes, sizes):
+        ax = figure.add_axes([left / paper[0], (FOOT + 0.25) / paper[1], width / paper[0], height / paper[1]])
+        draw_view(ax, view, box, density, solids, start, marks)
         ax.set_title(view.title, fontsize=12)
         draw_ends(ax, view, 10)
-        scale_bar(ax, (*box[:3], top), 10)
-        left += width * scale + 0.1
-    heading(figure, frames, f"after {frames.time[frame]:.1f} s")
+        scale_bar(ax, box, 10)
+        left += width + GAP
+    heading(figure, frames, f"After {frames.time[frame]:.1f} s")
     legend(figure, solids, {m.state for m in marks}, 10)
     return save(figure, stem, ("png",), dpi)
 

@@ -53,7 +53,7 @@ FAR = 8.0
 """How far from the place of the house wreckage is still shown. [m]"""
 OUTLINE_PIXELS = 60
 """Per metre, for the dashed outline. [1/m]"""
-MARK_SIZE = 8.5
+MARK_SIZE = 7.5
 """Of a broken joint's mark in a large picture. [pt]"""
 
 INK = "#444444"

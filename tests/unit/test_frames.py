@@ -90,7 +90,7 @@ def test_joint_states():
 def test_moments_that_have_a_name():
     made = frames()
     found = {m.reason: made.time[m.frame] for m in moments.choose(made)}
-    assert found == pytest.approx({"start": 0, "end": 3, "collapse": 2, "leans by 1/10": 1.5, "strongest shaking": 1.2, "": found[""]})
+    assert found == pytest.approx({"start": 0, "end": 3, "collapse: half a storey down": 2, "leans by 1/10": 1.5, "strongest shaking": 1.2, "": found[""]})
 
 
 def test_other_moments_halve_the_motion():
