@@ -16,22 +16,23 @@ EDGE_ON = 1e-6
 SKY = np.array([0.76, 0.85, 0.93], np.float32)
 
 
-def shade(solids, view, box, density):
+def shade(solids, view, box, density, sky=SKY):
     """Picture and depth of bodies.
 
-    solids   list with .vertices, .faces, .color, .kind; view: .right and .toward, unit vectors; box (left, right, bottom, top) [m]
-    density  pixels per metre
+    solids   list with .vertices, .faces, .color, .kind; view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m]
+    density  pixels per metre; sky: RGB of what is behind everything, or one number for a grey
     Returns RGB picture (rows, columns, 3) in 0..1, first row at the top, and the coordinate towards the viewer of what is seen in
     each pixel [m], minus infinity where nothing is.
     """
     face, depth, faces = _scan(solids, view, box, density * SUPERSAMPLING)
     shown = [(s.vertices @ view.toward).max() for s in solids if s.kind != "ground"]
     haze = _haze(face, depth, max(shown, default=0.0))
-    colors = np.array([SKY] + [_tint(solids[body], normal) for body, normal in faces], np.float32)
+    sky = np.broadcast_to(np.float32(sky), 3)
+    colors = np.array([sky] + [_tint(solids[body], normal) for body, normal in faces], np.float32)
     picture = colors[face + 1]
     lines = _edges(face)
     picture[lines] = EDGE_COLOR
-    picture += haze[..., None] * (SKY - picture)
+    picture += haze[..., None] * (sky - picture)
     return _smaller(picture), depth[::SUPERSAMPLING, ::SUPERSAMPLING]
 
 
@@ -58,7 +59,7 @@ def _scan(solids, view, box, density):
     left, right, bottom, top = box
     shape = round((top - bottom) * density), round((right - left) * density)
     owner, depth = np.full(shape, -1, np.int32), np.full(shape, -np.inf, np.float32)
-    axes = np.array([view.right, view.toward, (0, 0, 1)], float)
+    axes = np.array([view.right, view.toward, view.up], float)
     faces = []
     for body, solid in enumerate(solids):
         corners = (solid.vertices @ axes.T - (left, 0, top)) * (density, 1, -density)  # column, depth, row

@@ -29,7 +29,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class View:
-    """A direction to look in. right (3,), toward (3,): unit vectors to the right of the picture and towards the viewer."""
+    """A direction to look in. right, toward, up (3,): unit vectors to the right of the picture, towards the viewer, and up in it."""
 
     name: str
     title: str
@@ -37,6 +37,7 @@ class View:
     toward: tuple
     left_end: str
     right_end: str
+    up: tuple = (0, 0, 1)
 
 
 FRONT = View("front", "Front, seen from the east", (0, 1, 0), (1, 0, 0), "south", "north")
