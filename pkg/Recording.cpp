@@ -12,16 +12,6 @@ namespace {
 
 	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
 
-	float load(const TimberJoint& joint)
-	{
-		Real sum = 0, largest = 0;
-		for (const Vector3r& f : joint.forces) {
-			sum += f.norm();
-			largest = math::max(largest, Real(f.norm()));
-		}
-		return float((joint.perJoint ? sum : largest) / joint.strength);
-	}
-
 	/// Interactions that have points, in the order of their body ids: the container's own order is no property of the scene.
 	std::vector<Interaction*> touching(const Scene& scene)
 	{
@@ -52,7 +42,7 @@ boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 	std::vector<float>        loads;
 	std::vector<std::uint8_t> broken;
 	for (const shared_ptr<TimberJoint>& j : engine->joints) {
-		loads.push_back(load(*j));
+		loads.push_back(float(j->load()));
 		broken.push_back(std::uint8_t(j->broken.size() - std::count(j->broken.begin(), j->broken.end(), 0)));
 	}
 	return boost::python::make_tuple(bytes(loads), bytes(broken));

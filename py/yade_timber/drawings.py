@@ -8,7 +8,7 @@ from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 
 from . import palette
 from .raster import shade
-from .sheets import DPI, PAPER, save
+from .sheets import PRINT, save
 from .views import FRONT, INK, LEGEND_KINDS, SIDE, Solid, View, draw_ends, draw_view, window
 
 OBLIQUE = View("space", "In space, from the north-east (roof half see-through)", (-0.64, 0.768, 0.0), (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
@@ -25,7 +25,12 @@ THICK = 0.11
 
 def write(stem, model):
     """Write `stem`.png and `stem`.pdf: the drawings of a HouseModel. Returns the paths. Raises OSError."""
-    figure = Figure(figsize=PAPER, facecolor="white")
+    return save(page(model), stem, ("png", "pdf"), PRINT.dpi)
+
+
+def page(model):
+    """Figure with the drawings of a HouseModel."""
+    figure = Figure(figsize=(PRINT.width, PRINT.height), facecolor="white")
     FigureCanvasAgg(figure)
     solids = [solid(e) for e in model.elements]
     space, front, side, plan = (figure.add_axes(place) for place in CELLS)
@@ -36,7 +41,7 @@ def write(stem, model):
     figure.text(0.03, 0.963, f"House {model.name}", fontsize=14, fontweight="bold", va="center")
     figure.text(0.03, 0.944, describe(model), fontsize=9, va="top", linespacing=1.4)
     legend(figure, solids, model)
-    return save(figure, stem, ("png", "pdf"), DPI)
+    return figure
 
 
 def solid(element):
@@ -57,13 +62,13 @@ def describe(model):
 def cell(ax):
     """(width, height) of axes. [inch]"""
     place = ax.get_position()
-    return place.width * PAPER[0], place.height * PAPER[1]
+    return place.width * PRINT.width, place.height * PRINT.height
 
 
 def density(ax, box):
     """Pixels per metre, a multiple of 10, with which a box fills axes."""
     width, height = cell(ax)
-    return int(DPI * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 10 * 10
+    return int(PRINT.dpi * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 10 * 10
 
 
 def draw_space(ax, solids):
@@ -73,7 +78,7 @@ def draw_space(ax, solids):
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
     pixels = density(ax, box)
     whole, frame = (shade([s for s in solids if s.kind not in hidden], OBLIQUE, box, pixels, sky=1.0)[0] for hidden in (("ground",), ("ground", *SEE_THROUGH)))
-    ax.imshow(ROOF_SHARE * whole + (1 - ROOF_SHARE) * frame, extent=box, interpolation="none", aspect="equal")
+    ax.imshow(ROOF_SHARE * whole + (1 - ROOF_SHARE) * frame, extent=box, interpolation="antialiased", aspect="equal")
     ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
     ax.axis("off")
 

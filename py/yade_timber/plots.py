@@ -27,6 +27,11 @@ DISSIPATED = {
 
 def write(stem, frames):
     """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
+    return save(page(frames), stem, ("png", "pdf"), DPI)
+
+
+def page(frames):
+    """Figure with the curves of an ended run."""
     values = dict(zip(frames.history[0], np.asarray(frames.history[1], float).T))
     shaken = frames.motion is not None
     figure = Figure(figsize=PAPER, facecolor="white")
@@ -47,7 +52,7 @@ def write(stem, frames):
     figure.axes[-1].set_xlabel("time [s]", fontsize=9)
     figure.align_ylabels()
     heading(figure, frames, "History")
-    return save(figure, stem, ("png", "pdf"), DPI)
+    return figure
 
 
 def draw_events(axes, found):

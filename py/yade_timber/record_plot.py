@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter
 
 from . import motion as gm
 from .palette import DIRECTIONS
-from .sheets import PAPER, save
+from .sheets import PRINT, save
 
 DPI = 150
 QUIET = 0.01
@@ -18,8 +18,13 @@ ROWS = (("ns", 1, "N-S", "-"), ("ew", 0, "E-W", "--"), ("ud", 2, "up-down", ":")
 
 
 def write(stem, motion, corner):
-    """Write `stem`.png and `stem`.pdf. corner: high-pass of velocities and displacements [Hz], or None. Returns the paths. Raises OSError."""
-    figure = Figure(figsize=PAPER, facecolor="white")
+    """Write `stem`.png and `stem`.pdf; corner as in `page`. Returns the paths. Raises OSError."""
+    return save(page(motion, corner), stem, ("png", "pdf"), DPI)
+
+
+def page(motion, corner):
+    """Figure with the motion. corner: high-pass of velocities and displacements [Hz], or None."""
+    figure = Figure(figsize=(PRINT.width, PRINT.height), facecolor="white")
     FigureCanvasAgg(figure)
     axes = figure.subplots(3, 2, width_ratios=(1.25, 1))
     figure.subplots_adjust(left=0.07, right=0.985, top=0.87, bottom=0.07, hspace=0.28, wspace=0.17)
@@ -35,7 +40,7 @@ def write(stem, motion, corner):
     for axis in axes.flat:
         axis.grid(alpha=0.25)
         axis.tick_params(labelsize=8)
-    return save(figure, stem, ("png", "pdf"), DPI)
+    return figure
 
 
 def describe(motion):

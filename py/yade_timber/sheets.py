@@ -11,10 +11,23 @@ from .files import written_whole
 from .views import VIEWS, draw_ends, draw_view, legend, scale_bar, window
 from .words import sentence
 
-PAPER = (11.69, 8.27)
-"""A4, landscape. [inch]"""
-DPI = 300
-"""Of the shaded parts in print; lines and words are vectors in the PDF. [1/inch]"""
+
+@dataclass(frozen=True)
+class Format:
+    """Of a sheet: paper [inch], resolution of the shaded parts [1/inch] (in a PDF lines and words are vectors), number of panels."""
+
+    width: float
+    height: float
+    dpi: int
+    panels: int
+
+
+PRINT = Format(11.69, 8.27, 300, 6)
+"""A4, landscape."""
+SCREEN = Format(9.5, 6.2, 150, 4)
+"""A small picture for a web page."""
+END_DPI = 130
+"""Of the picture of the end, which is for screens."""
 EDGE, GAP, HEAD, FOOT, CAPTION = 0.35, 0.12, 0.75, 0.62, 0.36
 """Margin of the paper, gap between panels, title, legend, line of words above each panel. [inch]"""
 LETTERS = 13.5
@@ -32,22 +45,27 @@ class Panel:
 
 def write_sheet(stem, frames, view):
     """Write `stem`.png and `stem`.pdf: six moments in one view. Returns the paths. Raises OSError."""
-    chosen = moments.choose(frames)
+    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"), PRINT.dpi)
+
+
+def sheet(frames, view, form):
+    """Figure with moments of a run in one view."""
+    chosen = moments.choose(frames, form.panels)
     panels = [Panel(snapshot.solids(frames, m.frame), snapshot.marks(frames, m.frame), words(frames, m)) for m in chosen]
     start = snapshot.solids(frames)
-    figure = Figure(figsize=PAPER, facecolor="white")
+    figure = Figure(figsize=(form.width, form.height), facecolor="white")
     FigureCanvasAgg(figure)
     box = window(view, start, [p.solids for p in panels])
-    columns, density = layout(len(panels), box)
-    for k, (panel, place) in enumerate(zip(panels, places(len(panels), columns, density, box))):
+    columns, density = layout(form, len(panels), box)
+    for k, (panel, place) in enumerate(zip(panels, places(form, len(panels), columns, density, box))):
         ax = figure.add_axes(place)
         draw_view(ax, view, box, density, panel.solids, start if k else None, panel.marks, mark_size=5)
         ax.set_title(panel.words, fontsize=9, loc="left", pad=3)
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, frames, view.title)
-    legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=10)
-    return save(figure, stem, ("png", "pdf"), DPI)
+    legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=int(0.86 * form.width))
+    return figure
 
 
 def words(frames, moment):
@@ -56,34 +74,29 @@ def words(frames, moment):
     return f"{time}  {moment.reason}" if moment.reason else time
 
 
-def layout(count, box):
+def layout(form, count, box):
     """(columns, pixels per metre, a multiple of 10) that draws panels of `box` largest on the paper."""
     width, height = box[1] - box[0], box[3] - box[2]
     found = []
     for columns in (1, 2, 3):
         rows = -(-count // columns)
-        across = (PAPER[0] - 2 * EDGE - (columns - 1) * GAP) / columns / width
-        up = ((PAPER[1] - HEAD - FOOT) / rows - CAPTION - GAP) / height
+        across = (form.width - 2 * EDGE - (columns - 1) * GAP) / columns / width
+        up = ((form.height - HEAD - FOOT) / rows - CAPTION - GAP) / height
         found.append((min(across, up), columns))
     scale, columns = max(found)
-    return columns, max(10, int(scale * DPI) // 10 * 10)
+    return columns, max(10, int(scale * form.dpi) // 10 * 10)
 
 
-def places(count, columns, density, box):
+def places(form, count, columns, density, box):
     """[left, bottom, width, height] of each panel in parts of the figure; rows from the top, centred between title and legend."""
-    width, height = (box[1] - box[0]) * density / DPI, (box[3] - box[2]) * density / DPI
+    width, height = (box[1] - box[0]) * density / form.dpi, (box[3] - box[2]) * density / form.dpi
     rows, pitch = -(-count // columns), height + CAPTION + GAP
-    left = (PAPER[0] - columns * width - (columns - 1) * GAP) / 2
-    top = PAPER[1] - HEAD - (PAPER[1] - HEAD - FOOT - rows * pitch) / 2
+    left = (form.width - columns * width - (columns - 1) * GAP) / 2
+    top = form.height - HEAD - (form.height - HEAD - FOOT - rows * pitch) / 2
     for k in range(count):
         row, column = divmod(k, columns)
-        x, y = left + column * (width + GAP), top - row * pitch - CAPTION - height
-        yield whole_pixels(x) / PAPER[0], whole_pixels(y) / PAPER[1], width / PAPER[0], height / PAPER[1]
-
-
-def whole_pixels(length):
-    """The nearest length that is a whole number of pixels. [inch]"""
-    return round(length * DPI) / DPI
+        x, y = (round(length * form.dpi) / form.dpi for length in (left + column * (width + GAP), top - row * pitch - CAPTION - height))  # whole pixels
+        yield x / form.width, y / form.height, width / form.width, height / form.height
 
 
 def heading(figure, frames, what):
@@ -95,8 +108,13 @@ def heading(figure, frames, what):
         figure.text(EDGE / width, 1 - 0.46 / height, result, fontsize=10, va="top")
 
 
-def write_end(stem, frames, frame=-1, dpi=130):
-    """Write `stem`.png: the two views of a frame, the last one unless said otherwise. Returns the path in a list. Raises OSError."""
+def write_end(stem, frames):
+    """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
+    return save(both_views(frames, -1, END_DPI), stem, ("png",), END_DPI)
+
+
+def both_views(frames, frame, dpi):
+    """Figure with the two views of a frame."""
     solids, start, marks = snapshot.solids(frames, frame), snapshot.solids(frames), snapshot.marks(frames, frame)
     boxes = [window(view, start, [solids]) for view in VIEWS]
     top = max(box[3] for box in boxes)
@@ -116,7 +134,7 @@ def write_end(stem, frames, frame=-1, dpi=130):
         left += width + GAP
     heading(figure, frames, f"After {frames.time[frame]:.1f} s")
     legend(figure, solids, {m.state for m in marks}, 10)
-    return save(figure, stem, ("png",), dpi)
+    return figure
 
 
 def save(figure, stem, endings, dpi):

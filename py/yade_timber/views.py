@@ -85,7 +85,7 @@ def draw_view(ax, view, box, density, solids, start, marks, mark_size=MARK_SIZE)
     solids, start  lists of Solid: now, and at the start (drawn as a dashed outline; None: not drawn)
     """
     picture, depth = shade(solids, view, box, density)
-    ax.imshow(picture, extent=box, interpolation="none", aspect="equal")
+    ax.imshow(picture, extent=box, interpolation="antialiased", aspect="equal")
     if start is not None:
         was = outline([s for s in start if s.kind != "ground"], view, box, OUTLINE_PIXELS)
         ax.contour(was.astype(float), [0.5], extent=box, origin="upper", colors=INK, linewidths=0.1 * mark_size, linestyles="dashed")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Pictures: what hides what, where things are drawn, and that a picture comes out whole. Needs no YADE."""
+import dataclasses
+
 import numpy as np
 import pytest
 from small_frames import frames
@@ -68,7 +70,7 @@ def test_marks_sit_on_the_damaged_joints():
 
 @pytest.fixture
 def coarse(monkeypatch):
-    monkeypatch.setattr(sheets, "DPI", 60)
+    monkeypatch.setattr(sheets, "PRINT", dataclasses.replace(sheets.PRINT, dpi=60))
 
 
 def test_pictures_are_written_whole(tmp_path, coarse):
