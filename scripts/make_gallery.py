@@ -35,18 +35,25 @@ def telling_view(run):
 
 
 def write(path, figure, dpi=DPI):
-    """Write a figure as PNG with so many colours that it stays below LARGEST; returns the path."""
+    """Write a figure as PNG with as many colours as LARGEST allows; returns the path."""
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=dpi)
     picture = Image.open(data).convert("RGB")
-    for colors in (256, 128, 64, 32):
-        packed = io.BytesIO()
-        picture.quantize(colors, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(packed, "png", optimize=True)
-        if packed.tell() < LARGEST:
-            break
+    contents = (packed(quantized(picture, colors) if colors else picture) for colors in (None, 256, 128, 64, 32))
     with written_whole(path) as part:
-        part.write_bytes(packed.getvalue())
+        part.write_bytes(next(content for content in contents if len(content) < LARGEST))
     return path
+
+
+def quantized(picture, colors):
+    return picture.quantize(colors, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+
+
+def packed(picture):
+    """Bytes of a picture as PNG."""
+    data = io.BytesIO()
+    picture.save(data, "png", optimize=True)
+    return data.getvalue()
 
 
 def make(results, out):

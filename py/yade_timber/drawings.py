@@ -66,9 +66,9 @@ def cell(ax):
 
 
 def density(ax, box):
-    """Pixels per metre, a multiple of 10, with which a box fills axes."""
+    """Pixels per metre, a multiple of 2, with which a box fills axes."""
     width, height = cell(ax)
-    return int(PRINT.dpi * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 10 * 10
+    return int(PRINT.dpi * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 2 * 2
 
 
 def draw_space(ax, solids):

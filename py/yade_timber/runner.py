@@ -12,7 +12,7 @@ import time
 import yade.runtime
 import yade.wrapper as yw
 
-from . import checkpoint, cli, frames, pictures, results
+from . import checkpoint, cli, frames, pictures, results, viewer
 from .errors import RunError
 from .export import export_scene
 from .house import HouseError, build_house, load_house
@@ -172,10 +172,11 @@ class Run:
     # --- live ---------------------------------------------------------------------------------------------------------
 
     def start(self):
-        """Run in the background; the results follow when the last step is done, however often the run is paused."""
+        """Run in the background, in the viewer where there is a display; the results follow when the last step is done, however often the run is paused."""
         if O.iter >= self.steps:
             self.write()
             return
+        viewer.show()
         self._since = time.perf_counter()
         if self.recorder:
             self._record_live()

@@ -75,7 +75,7 @@ def words(frames, moment):
 
 
 def layout(form, count, box):
-    """(columns, pixels per metre, a multiple of 10) that draws panels of `box` largest on the paper."""
+    """(columns, pixels per metre, a multiple of 2) that draws panels of `box` largest on the paper."""
     width, height = box[1] - box[0], box[3] - box[2]
     found = []
     for columns in (1, 2, 3):
@@ -84,7 +84,7 @@ def layout(form, count, box):
         up = ((form.height - HEAD - FOOT) / rows - CAPTION - GAP) / height
         found.append((min(across, up), columns))
     scale, columns = max(found)
-    return columns, max(10, int(scale * form.dpi) // 10 * 10)
+    return columns, max(2, int(scale * form.dpi) // 2 * 2)
 
 
 def places(form, count, columns, density, box):
@@ -119,7 +119,7 @@ def both_views(frames, frame, dpi):
     boxes = [window(view, start, [solids]) for view in VIEWS]
     top = max(box[3] for box in boxes)
     boxes = [(*box[:3], top) for box in boxes]
-    density = int(12.5 * dpi / sum(box[1] - box[0] for box in boxes)) // 10 * 10
+    density = int(12.5 * dpi / sum(box[1] - box[0] for box in boxes)) // 2 * 2
     sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
     paper = sum(width for width, _ in sizes) + 2 * EDGE + GAP, sizes[0][1] + HEAD + CAPTION + FOOT + 0.25
     figure = Figure(figsize=paper, facecolor="white")

@@ -19,5 +19,5 @@ def show():
     renderer.bgColor = Vector3(*BACKGROUND)
     renderer.extraDrawers = [yw.GlTimberJoints()]
     view = qt.View()
-    view.upVector, view.lookAt, view.eyePosition = Vector3.UnitZ, Vector3(*CENTRE), Vector3(*EYE)
+    view.eyePosition, view.upVector, view.lookAt = Vector3(*EYE), Vector3.UnitZ, Vector3(*CENTRE)
     return view

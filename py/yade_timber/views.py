@@ -46,10 +46,10 @@ VIEWS = (FRONT, SIDE)
 
 MARGIN = 0.8
 """Around the house, before and now. [m]"""
-DEPTH_BELOW = 0.4
+DEPTH_BELOW = 0.5
 """How much of the soil is shown. [m]"""
-GRID = 0.1
-"""Windows begin and end at multiples of it, so that a picture of a multiple of 10 pixels per metre has whole pixels. [m]"""
+GRID = 0.5
+"""Windows begin and end at multiples of it, so that a picture of a multiple of 2 pixels per metre has whole pixels. [m]"""
 FAR = 8.0
 """How far from the place of the house wreckage is still shown. [m]"""
 OUTLINE_PIXELS = 60

@@ -91,4 +91,4 @@ def test_pictures_of_a_run_that_is_not_over(tmp_path, coarse):
 def test_far_wreckage_does_not_shrink_the_house():
     start = [cube((0, 0, 0.5))]
     left, right, _, _ = views.window(FRONT, start, [[cube((0, 100, 0.5))]])
-    assert left == pytest.approx(-0.5 - views.MARGIN) and right == pytest.approx(0.5 + views.FAR + views.MARGIN)
+    assert -0.5 - views.MARGIN - views.GRID < left <= -0.5 - views.MARGIN and 0 <= right - (0.5 + views.FAR + views.MARGIN) < views.GRID
