@@ -23,7 +23,7 @@ def choose(frames, count=PANELS):
     """Up to `count` moments in the order of time.
 
     First those that have a name, in this order as far as there is room: the start, the end, collapse, the first lean beyond 1/10,
-    strongest shaking, the first break, the largest drift. Then, again and again, the frame that halves the motion in the gap
+    strongest shaking, the first break, in a house that stands the largest drift. Then, again and again, the frame that halves the motion in the gap
     between two neighbours in which the elements move most.
     """
     chosen = {}
@@ -51,7 +51,7 @@ def named(frames):
         yield strongest_shaking(frames), "strongest shaking"
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first spring breaks"
-    if frames.history and len(frames.history[1]):
+    if frames.history and len(frames.history[1]) and not found["collapsed"]:
         yield largest_drift(frames), "largest drift"
 
 

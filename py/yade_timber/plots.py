@@ -37,7 +37,7 @@ def page(frames):
     figure = Figure(figsize=PAPER, facecolor="white")
     FigureCanvasAgg(figure)
     axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
-    figure.subplots_adjust(left=0.11, right=0.77, top=1 - 0.95 / PAPER[1], bottom=0.06, hspace=0.16)
+    figure.subplots_adjust(left=0.11, right=0.77, top=1 - 0.95 / PAPER[1], bottom=0.06, hspace=0.18)
     if shaken:
         draw_motion(axes.pop(0), frames.motion)
     for axis, key, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
@@ -91,10 +91,10 @@ def draw_drifts(axis, values, key, name):
         if level < reach:
             for sign in (-1, 1):
                 axis.axhline(sign * level, color="black", lw=0.7, ls=":")
-            axis.annotate(text, (0.006, level), (0, 1), ("axes fraction", "data"), "offset points", va="bottom", fontsize=7)
+            axis.annotate(text, (1, level), (4, 0), ("axes fraction", "data"), "offset points", va="center", fontsize=8)
     axis.set_ylim(-reach, reach)
     label(axis, f"storey drift {name} [-]")
-    legend(axis)
+    axis.legend(loc="lower left", bbox_to_anchor=(1.01, -0.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
 def draw_breaks(axis, frames):
@@ -121,6 +121,6 @@ def draw_energy(axis, values):
     axis.plot(values["time [s]"], came / 1e3, "k--", lw=1, label="came in: ground\nmotion and gravity")
     left = abs(sum(parts) - came).max()
     share = 100 * left / max(abs(came).max(), 1e-300)
-    axis.annotate(f"not accounted for: at most {left / 1e3:.2g} kJ, {share:.2g} %", (0.01, 0.95), xycoords="axes fraction", va="top", fontsize=7)
+    axis.set_title(f"not accounted for: at most {left / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3)
     label(axis, "energy [kJ]")
     legend(axis)
