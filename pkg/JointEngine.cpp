@@ -31,6 +31,16 @@ timber::JointStiffness TimberJoint::stiffness() const
 	return { share * kn, share * ks };
 }
 
+Real TimberJoint::load() const
+{
+	Real sum = 0, largest = 0;
+	for (const Vector3r& f : forces) {
+		sum += f.norm();
+		largest = math::max(largest, Real(f.norm()));
+	}
+	return (perJoint ? sum : largest) / strength;
+}
+
 boost::python::list TimberJoint::pySprings() const
 {
 	boost::python::list all;

@@ -12,6 +12,8 @@ public:
 	/// Of one of the springs, which share the joint's if it is per joint.
 	timber::JointStiffness stiffness() const;
 	bool                isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
+	/// Largest spring force, or of a joint that acts as a whole their sum, by the strength. [-]
+	Real                load() const;
 	boost::python::list pySprings() const;
 
 	// clang-format off
@@ -33,6 +35,7 @@ public:
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isFinished", &TimberJoint::isFinished, "Whether all springs are broken. [-]")
+		.add_property("load", &TimberJoint::load, "Largest spring force, or of a joint that acts as a whole their sum, by the strength. [-]")
 	);
 	// clang-format on
 };

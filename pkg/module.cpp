@@ -3,6 +3,7 @@
 #include <pch.hpp>
 
 #include <Gl1_RoundedPolyhedron.hpp>
+#include <Recording.hpp>
 #include <build_info.hpp>
 #include <layout_guard.hpp>
 
@@ -35,6 +36,9 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	defineLayoutGuard();
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
+	boost::python::def("packed_placements", &yade::packedPlacements);
+	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
+	boost::python::def("packed_contacts", &yade::packedContacts);
 #ifdef YADE_OPENGL
 	boost::python::def("refresh_viewer", &yade::refreshViewer);
 #endif

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Measure a strong-motion record and plot its motion and its 5 % response spectra.
+"""Measure a strong-motion record and plot its motion and its 5 % response spectra, as PNG and PDF.
 
     scripts/show_record.py [FILE_OR_PREFIX] [--component ns] [--units gal] [--angle 0] [--scale 1] [--out FILE.png]
 
@@ -13,12 +13,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
-import numpy as np  # noqa: E402
-
 from yade_timber import motion as gm  # noqa: E402
-
-PERIODS = np.geomspace(0.05, 10.0, 120)
-COLUMNS = ("ew", "ns", "ud")
+from yade_timber import record_plot  # noqa: E402
 
 
 def print_measures(motion, corner):
@@ -39,38 +35,6 @@ def print_measures(motion, corner):
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
-def plot(motion, corner, path):
-    """Accelerations, velocities and spectra -> PNG."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(3, 2, figsize=(13, 8), constrained_layout=True)
-    velocity = gm.velocity(motion, corner) * 100.0
-    for row, k in enumerate((1, 0, 2)):
-        axes[row, 0].plot(motion.time, motion.acceleration[:, k] / gm.GAL, lw=0.5)
-        axes[row, 0].set_ylabel(f"{COLUMNS[k].upper()} [gal]")
-        axes[0, 1].plot(motion.time, velocity[:, k], lw=0.7, label=COLUMNS[k].upper())
-        spectrum = gm.response_spectrum(motion.acceleration[:, k], motion.dt, PERIODS)
-        axes[1, 1].loglog(PERIODS, np.maximum(spectrum.sa, 1e-6), label=COLUMNS[k].upper())
-        axes[2, 1].loglog(PERIODS, np.maximum(spectrum.psv, 1e-6), label=COLUMNS[k].upper())
-    finish(axes, motion.name)
-    figure.savefig(path, dpi=110)
-
-
-def finish(axes, name):
-    """Titles, labels and grids."""
-    axes[0, 0].set_title(name)
-    axes[0, 1].set_ylabel("velocity [cm/s]")
-    for axis in (*axes[:, 0], axes[0, 1]):
-        axis.set_xlabel("time [s]")
-    for axis, label in ((axes[1, 1], "5 % Sa [gal]"), (axes[2, 1], "5 % pSv [cm/s]")):
-        axis.set(xlabel="period [s]", ylabel=label)
-        axis.grid(which="both", alpha=0.3)
-    axes[0, 1].legend()
-
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("record", nargs="?", help="file, three files separated by commas, or prefix of three files")
@@ -79,7 +43,7 @@ def arguments():
     parser.add_argument("--angle", type=float, default=0.0, help="azimuth of the record's north in the house's frame")
     parser.add_argument("--scale", type=float, default=1.0, help="factor on the acceleration")
     parser.add_argument("--highpass", type=float, default=0.05, help="corner for PGV and PGD [Hz]; 0: none")
-    parser.add_argument("--out", type=Path, help="PNG file (default: NAME.png in this folder)")
+    parser.add_argument("--out", type=Path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     return parser.parse_args()
 
 
@@ -91,12 +55,12 @@ def main():
         motion = gm.scaled(motion, options.scale)
         print_measures(motion, corner)
         out = options.out or Path(f"{motion.name}.png")
-        plot(motion, corner, out)
+        written = record_plot.write(out.with_suffix(""), motion, corner)
     except gm.RecordError as error:
         sys.exit(f"error: {error}")
     except OSError as error:
         sys.exit(f"error: {error.filename}: cannot be written ({error.strerror})")
-    print(f"written: {out}")
+    print("written: " + ", ".join(map(str, written)))
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@ class Output:
     folder: Path
     resume: bool = False
     views: bool = True
+    frames: bool = True  # no views without them
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
@@ -48,7 +49,8 @@ def parser(script):
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true", help="go on from the last checkpoint in the folder of the results, if there is one")
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
-    made.add_argument("--no-views", action="store_true", help="make no pictures")
+    made.add_argument("--no-views", action="store_true", help="make no pictures; scripts/show_run.py makes them later from the recorded frames")
+    made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
     made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
     made.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return made
@@ -87,7 +89,9 @@ def _run(given, name, house, earthquake, depth, remedy):
     scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
     folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
-    return scenario, Output(folder, given.resume, not given.no_views, export, given.quiet, given.checkpoint)
+    return scenario, Output(
+        folder, given.resume, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint
+    )
 
 
 def _joined(words):

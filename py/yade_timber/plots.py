@@ -4,80 +4,110 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .files import written_whole
+from . import palette
+from .sheets import heading, save
 
-DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 tilted"))
+PAPER = (8.27, 11.69)
+"""A4, upright. [inch]"""
+DPI = 200
+DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 leaning"))
 """Storey drifts that engineers know. [-]"""
-COLORS = {"ns": "#0072B2", "ew": "#D55E00", "ud": "#999999"}  # Okabe and Ito 2008
+DRIFT_RANGE = 0.16
+"""Largest drift shown: beyond it a storey falls. [-]"""
+STOREYS = ((palette.BLUE, "-"), (palette.ORANGE, "--"), (palette.GREEN, "-."))
+JOINT_KINDS = {"column_beam": palette.ORANGE, "brace_beam": palette.BLUE, "floor_beam": palette.AMBER, "roof_beam": palette.PURPLE, "roof_roof": palette.GREEN}
 DISSIPATED = {
-    "dashpot_normal": ("contact dashpots, normal", "#56B4E9"),
-    "dashpot_shear": ("contact dashpots, tangential", "#0072B2"),
-    "friction": ("friction", "#E69F00"),
-    "broken_springs": ("broken joints", "#D55E00"),
-    "lost_contacts": ("contacts lost under load", "#CC79A7"),
+    "dashpot_normal": ("contact dashpots,\nnormal", palette.SKY_BLUE),
+    "dashpot_shear": ("contact dashpots,\ntangential", palette.BLUE),
+    "friction": ("friction", palette.AMBER),
+    "broken_springs": ("broken joints", palette.ORANGE),
+    "lost_contacts": ("contacts lost\nunder load", palette.PURPLE),
 }
 
 
-def history(path, header, rows, title, motion=None):
-    """Write the page as PNG.
+def write(stem, frames):
+    """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
+    return save(page(frames), stem, ("png", "pdf"), DPI)
 
-    header  column names with units, as in history.csv; rows (n, columns)
-    title   heading
-    motion  (t (m,), acceleration (m, 3)) [s, m/s2] in the order ew, ns, ud, or None
-    """
-    values = dict(zip(header, np.asarray(rows, float).T))
-    figure = Figure(figsize=(10, 11 if motion is not None else 9), layout="constrained")
+
+def page(frames):
+    """Figure with the curves of an ended run."""
+    values = dict(zip(frames.history[0], np.asarray(frames.history[1], float).T))
+    shaken = frames.motion is not None
+    figure = Figure(figsize=PAPER, facecolor="white")
     FigureCanvasAgg(figure)
-    axes = list(figure.subplots(4 if motion is not None else 3, 1, sharex=True))
-    figure.suptitle(title, x=0.01, ha="left", fontweight="bold")
-    if motion is not None:
-        draw_motion(axes.pop(0), *motion)
-    draw_drifts(axes[0], values)
-    draw_breaks(axes[1], values)
-    draw_energy(axes[2], values)
+    axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
+    figure.subplots_adjust(left=0.11, right=0.77, top=1 - 0.95 / PAPER[1], bottom=0.06, hspace=0.18)
+    if shaken:
+        draw_motion(axes.pop(0), frames.motion)
+    for axis, key, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
+        draw_drifts(axis, values, key, name)
+    draw_breaks(axes[2], frames)
+    draw_energy(axes[3], values)
+    draw_events(figure.axes, frames.summary)
     for axis in figure.axes:
-        axis.grid(alpha=0.3)
-        axis.margins(x=0)
-    figure.axes[-1].set_xlabel("time [s]")
-    figure.axes[-1].set_xlim(0, values["time [s]"][-1])
-    with written_whole(path) as part:
-        figure.savefig(part, dpi=100, format="png")
+        axis.grid(alpha=0.25)
+        axis.tick_params(labelsize=8)
+        axis.set_xlim(0, frames.time[-1])
+    figure.axes[-1].set_xlabel("time [s]", fontsize=9)
+    figure.align_ylabels()
+    heading(figure, frames, "History")
+    return figure
+
+
+def draw_events(axes, found):
+    """Lines through all axes when the house leans by 1/10 and when a floor has come down by half a storey, with words on top."""
+    for key, text, side in (("tilt_time_s", "leans", "right"), ("collapse_time_s", "collapses", "left")):
+        if found[key] is not None:
+            for axis in axes:
+                axis.axvline(found[key], color="black", lw=0.7, ls="--")
+            axes[0].annotate(text, (found[key], 1), (0, 2), ("data", "axes fraction"), "offset points", fontsize=8, ha=side)
 
 
 def legend(axis):
     """Legend beside the axes, where it hides no curve."""
-    axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize="small")
+    axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
-def draw_motion(axis, time, acceleration):
+def label(axis, text):
+    axis.set_ylabel(text, fontsize=9)
+
+
+def draw_motion(axis, motion):
     """Ground acceleration."""
-    for k, (key, name) in enumerate((("ew", "E-W"), ("ns", "N-S"), ("ud", "up-down"))):
-        axis.plot(time, acceleration[:, k], color=COLORS[key], lw=0.6, label=name)
-    axis.set_ylabel("ground acceleration\n[m/s²]")
+    for k, key, name in ((2, "ud", "up-down"), (0, "ew", "E-W"), (1, "ns", "N-S")):
+        axis.plot(motion.time, motion.acceleration[:, k], color=palette.DIRECTIONS[key], lw=0.6, label=name)
+    label(axis, "ground acceleration\n[m/s²]")
     legend(axis)
 
 
-def draw_drifts(axis, values):
-    """Storey drifts with the lines that engineers know, as far as the drifts reach."""
-    storeys = sum(name.startswith("drift_ns") for name in values)
-    largest = max(abs(values[f"drift_{key}{k + 1} [-]"]).max() for key in ("ns", "ew") for k in range(storeys))
-    for k in range(storeys):
-        for key, name in (("ns", "N-S"), ("ew", "E-W")):
-            axis.plot(values["time [s]"], values[f"drift_{key}{k + 1} [-]"], color=COLORS[key], ls=("-", "--")[k % 2], lw=0.9, label=f"storey {k + 1}, {name}")
-    for level, name in DRIFT_LINES:
-        if level < 2 * max(largest, DRIFT_LINES[0][0]):
+def draw_drifts(axis, values, key, name):
+    """Storey drifts in one direction with the lines that engineers know, as far as the drifts reach."""
+    curves = [values[column] for column in values if column.startswith(f"drift_{key}")]
+    for k, (curve, (color, dashes)) in enumerate(zip(curves, STOREYS), 1):
+        axis.plot(values["time [s]"], curve, color=color, ls=dashes, lw=0.9, label=f"storey {k}")
+    reach = min(DRIFT_RANGE, max(1.2 * np.nanmax(np.abs(curves)), 1.25 * DRIFT_LINES[0][0]))
+    for level, text in DRIFT_LINES:
+        if level < reach:
             for sign in (-1, 1):
-                axis.axhline(sign * level, color="k", lw=0.6, ls=":")
-            axis.annotate(name, (0.005, level), xycoords=("axes fraction", "data"), va="bottom", fontsize="x-small")
-    axis.set_ylabel("storey drift [-]")
-    legend(axis)
+                axis.axhline(sign * level, color="black", lw=0.7, ls=":")
+            axis.annotate(text, (1, level), (4, 0), ("axes fraction", "data"), "offset points", va="center", fontsize=8)
+    axis.set_ylim(-reach, reach)
+    label(axis, f"storey drift {name} [-]")
+    axis.legend(loc="lower left", bbox_to_anchor=(1.01, -0.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
-def draw_breaks(axis, values):
-    """Broken joints and springs."""
-    axis.step(values["time [s]"], values["broken_springs [-]"], where="post", color=COLORS["ew"], label="springs")
-    axis.step(values["time [s]"], values["broken_joints [-]"], where="post", color=COLORS["ns"], label="joints, those\nfrom the start too")
-    axis.set_ylabel("broken")
+def draw_breaks(axis, frames):
+    """Joints broken during the run by kind, and those of which some springs are broken."""
+    kinds = np.array(frames.joints.kind)
+    states = np.array([frames.joint_states(k) for k in range(len(frames.time))])
+    for kind in dict.fromkeys(kinds):
+        broken = (states[:, kinds == kind] == "broken").sum(1)
+        axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, palette.GREY), label=kind.replace("_", "-"))
+    axis.step(frames.time, (states == "partly").sum(1), where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
+    axis.yaxis.get_major_locator().set_params(integer=True)
+    axis.set_ylim(0, max(1, axis.get_ylim()[1]))
+    label(axis, "broken joints")
     legend(axis)
 
 
@@ -85,11 +115,12 @@ def draw_energy(axis, values):
     """What came in, and where it went; what is left over is printed."""
     came = values["ground_motion [J]"] - values["gravity [J]"]
     parts = [values[f"{name} [J]"] for name in DISSIPATED] + [values["elastic_contacts [J]"] + values["elastic_joints [J]"], values["kinetic [J]"]]
-    names = [name for name, _ in DISSIPATED.values()] + ["elastic", "kinetic"]
-    colors = [color for _, color in DISSIPATED.values()] + ["#009E73", "#F0E442"]
+    names = [name for name, _ in DISSIPATED.values()] + ["elastic", "moving"]
+    colors = [color for _, color in DISSIPATED.values()] + [palette.GREEN, palette.YELLOW]
     axis.stackplot(values["time [s]"], [part / 1e3 for part in parts], labels=names, colors=colors, lw=0)
-    axis.plot(values["time [s]"], came / 1e3, "k--", lw=1, label="ground motion and gravity")
+    axis.plot(values["time [s]"], came / 1e3, "k--", lw=1, label="came in: ground\nmotion and gravity")
     left = abs(sum(parts) - came).max()
-    axis.set_title(f"largest difference {left:.3g} J, {100 * left / max(abs(came).max(), 1e-300):.2g} % of the largest input", fontsize="small", loc="left")
-    axis.set_ylabel("energy [kJ]")
+    share = 100 * left / max(abs(came).max(), 1e-300)
+    axis.set_title(f"not accounted for: at most {left / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3)
+    label(axis, "energy [kJ]")
     legend(axis)

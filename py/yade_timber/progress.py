@@ -6,7 +6,8 @@ import yade.wrapper as yw
 from tqdm import tqdm
 
 from . import scene
-from .results import break_row, direction_name, ratio
+from .results import break_row
+from .words import direction_name, ratio
 
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0

@@ -11,27 +11,28 @@ DARKEST = 0.74
 HAZE, HAZE_DEPTH = 0.4, 12.0
 """Share of sky over what lies HAZE_DEPTH [m] behind the front of the house: far walls recede. [-]"""
 EDGE_COLOR = 0.22
-SKY = np.array([0.76, 0.85, 0.93])
+EDGE_ON = 1e-6
+"""A face whose normal turns less to the viewer is seen edge on: not at all. [-]"""
+SKY = np.array([0.76, 0.85, 0.93], np.float32)
 
 
-def shade(solids, view, box, density):
+def shade(solids, view, box, density, sky=SKY):
     """Picture and depth of bodies.
 
-    solids   list with .vertices, .faces, .color, .kind; view: .right and .toward, unit vectors; box (left, right, bottom, top) [m]
-    density  pixels per metre
+    solids   list with .vertices, .faces, .color, .kind; view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m]
+    density  pixels per metre; sky: RGB of what is behind everything, or one number for a grey
     Returns RGB picture (rows, columns, 3) in 0..1, first row at the top, and the coordinate towards the viewer of what is seen in
     each pixel [m], minus infinity where nothing is.
     """
     face, depth, faces = _scan(solids, view, box, density * SUPERSAMPLING)
-    shown = [solids[k].vertices @ view.toward for k in range(len(solids)) if solids[k].kind != "ground"]
-    nearest = max(v.max() for v in shown) if shown else 0.0
-    colors = np.array([SKY] + [_tint(solids[body], normal) for body, normal in faces])
+    shown = [(s.vertices @ view.toward).max() for s in solids if s.kind != "ground"]
+    haze = _haze(face, depth, max(shown, default=0.0))
+    sky = np.broadcast_to(np.float32(sky), 3)
+    colors = np.array([sky] + [_tint(solids[body], normal) for body, normal in faces], np.float32)
     picture = colors[face + 1]
-    behind = np.clip((nearest - depth) / HAZE_DEPTH, 0, 1)
-    behind[face < 0] = 0
-    picture = picture + (HAZE * behind)[..., None] * (SKY - picture)
     lines = _edges(face)
-    picture[lines] = (EDGE_COLOR + (0.85 - EDGE_COLOR) * HAZE * behind[lines])[:, None]
+    picture[lines] = EDGE_COLOR
+    picture += haze[..., None] * (sky - picture)
     return _smaller(picture), depth[::SUPERSAMPLING, ::SUPERSAMPLING]
 
 
@@ -46,55 +47,63 @@ def _tint(solid, normal):
     return np.array(solid.color) * (DARKEST + (1 - DARKEST) * light)
 
 
+def _haze(face, depth, nearest):
+    """(rows, columns) share of sky over what is seen."""
+    haze = np.clip((nearest - depth) * np.float32(HAZE / HAZE_DEPTH), 0, HAZE)
+    haze[face < 0] = 0
+    return haze
+
+
 def _scan(solids, view, box, density):
     """Depth buffer: (face number or -1, depth, list of (body, normal) of the faces)."""
     left, right, bottom, top = box
     shape = round((top - bottom) * density), round((right - left) * density)
-    owner, depth = np.full(shape, -1), np.full(shape, -np.inf)
-    axes = np.array([view.right, view.toward, (0, 0, 1)], float)
+    owner, depth = np.full(shape, -1, np.int32), np.full(shape, -np.inf, np.float32)
+    axes = np.array([view.right, view.toward, view.up], float)
     faces = []
     for body, solid in enumerate(solids):
-        corners = solid.vertices @ axes.T
-        pixels = np.column_stack([(corners[:, 0] - left) * density, (top - corners[:, 2]) * density, corners[:, 1]])
+        corners = (solid.vertices @ axes.T - (left, 0, top)) * (density, 1, -density)  # column, depth, row
         for face in solid.faces:
             normal = _normal(corners[face])
-            if normal[1] > 1e-6:
-                _fill(pixels[face], len(faces), owner, depth)
-                faces.append((body, normal))
+            if normal[1] > EDGE_ON * np.abs(normal).sum():
+                _fill(corners[face], normal, len(faces), owner, depth)
+                outward = normal * (density, 1, -density)
+                faces.append((body, outward / np.linalg.norm(outward)))
     return owner, depth, faces
 
 
 def _normal(corners):
-    """Unit normal of a convex polygon (n, 3) by Newell's sum. In the axes (right, toward, up), which are left-handed, the sign turns."""
-    normal = -np.cross(corners, np.roll(corners, -1, 0)).sum(0)
-    return normal / np.linalg.norm(normal)
+    """Normal of a convex polygon (n, 3: column, depth, row) by Newell's sum, its middle component > 0 when it faces the viewer."""
+    a, b = corners, np.concatenate([corners[1:], corners[:1]])
+    return np.array([a[:, j] @ b[:, k] - a[:, k] @ b[:, j] for j, k in ((1, 2), (2, 0), (0, 1))])
 
 
-def _fill(polygon, number, owner, depth):
-    """Enter a convex polygon (n, 3: column, row, depth) into the buffers where it is nearest. Pixel centres count."""
-    low = np.maximum(np.floor(polygon[:, :2].min(0)).astype(int), 0)
-    high = np.minimum(np.ceil(polygon[:, :2].max(0)).astype(int), owner.shape[::-1])
+def _fill(polygon, normal, number, owner, depth):
+    """Enter a convex polygon (n, 3: column, depth, row) into the buffers where it is nearest. Pixel centres count."""
+    across, up = polygon[:, 0], polygon[:, 2]
+    low = np.maximum([int(np.floor(up.min())), int(np.floor(across.min()))], 0)
+    high = np.minimum([int(np.ceil(up.max())), int(np.ceil(across.max()))], owner.shape)
     if (low >= high).any():
         return
-    x, y = np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1])[:, None] + 0.5
-    first, second = polygon, np.roll(polygon, -1, 0)
-    area = np.sum(first[:, 0] * second[:, 1] - second[:, 0] * first[:, 1])
+    x, y = np.arange(low[1], high[1]) + 0.5, np.arange(low[0], high[0])[:, None] + 0.5
     inside = np.ones((len(y), len(x)), bool)
-    for a, b in zip(first, second):
-        inside &= ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) * np.sign(area) >= 0
-    slope, *_ = np.linalg.lstsq(np.column_stack([polygon[:, :2], np.ones(len(polygon))]), polygon[:, 2], rcond=None)
-    here = slope[0] * x + slope[1] * y + slope[2]
-    window = np.s_[low[1] : high[1], low[0] : high[0]]
+    for a, b in zip(polygon, np.concatenate([polygon[1:], polygon[:1]])):
+        inside &= (b[0] - a[0]) * (y - a[2]) <= (b[2] - a[2]) * (x - a[0])
+    here = polygon[0, 1] - (normal[0] * (x - across[0]) + normal[2] * (y - up[0])) / normal[1]
+    window = np.s_[low[0] : high[0], low[1] : high[1]]
     nearer = inside & (here > depth[window])
     owner[window][nearer] = number
     depth[window][nearer] = here[nearer]
 
 
 def _edges(face):
-    """Pixels at which the visible face changes to that of the right or lower neighbour."""
+    """Pixels on either side of a change of the visible face."""
     lines = np.zeros(face.shape, bool)
-    lines[:, :-1] |= face[:, :-1] != face[:, 1:]
-    lines[:-1] |= face[:-1] != face[1:]
+    across, down = face[:, :-1] != face[:, 1:], face[:-1] != face[1:]
+    lines[:, :-1] |= across
+    lines[:, 1:] |= across
+    lines[:-1] |= down
+    lines[1:] |= down
     return lines
 
 
@@ -102,4 +111,4 @@ def _smaller(picture):
     """Mean over blocks of SUPERSAMPLING x SUPERSAMPLING pixels; a rest at the border goes."""
     n = SUPERSAMPLING
     rows, columns = picture.shape[0] // n * n, picture.shape[1] // n * n
-    return picture[:rows, :columns].reshape(rows // n, n, columns // n, n, 3).mean((1, 3))
+    return sum(picture[i:rows:n, k:columns:n] for i in range(n) for k in range(n)) / n**2

@@ -170,45 +170,6 @@ def summary(scenario, model, wall_s):
     }
 
 
-def largest_drift(found):
-    """(drift, storey, 'ns' | 'ew') of the largest peak drift in a summary; zero before the first sample."""
-    known = [(value, storey, way) for storey, ways in found["peak_drift"].items() for way, value in ways.items() if value is not None]
-    return max(known, default=(0.0, "storey1", "ns"))
-
-
-def sentence(found):
-    """One plain sentence about a summary, for people."""
-    broken = f"{found['broken']['total']} of {found['joints']['total']} joints broken"
-    if found["broken"]["damaged_at_start"]["total"]:
-        broken += f" ({found['broken']['damaged_at_start']['total']} more from the start)"
-    if found["snow"]:
-        broken += f", snow {found['snow_mass_kg'] / 1000:.1f} t"
-    return f"House {found['model']} {fate(found)}, {broken}"
-
-
-def fate(found):
-    """What became of the house, in words."""
-    tilt = found["tilt_time_s"]
-    leaning = "" if tilt is None else f"leans {direction_name(found['tilt_direction'])} from {tilt:.1f} s"
-    if found["collapsed"]:
-        return f"{leaning or 'stands'} and collapses at {found['collapse_time_s']:.1f} s"
-    drift, storey, way = largest_drift(found)
-    place = f"largest storey drift {ratio(drift)} {direction_name(way)} in storey {storey[len('storey'):]}"
-    return f"{leaning} but does not collapse: {place}" if leaning else f"stands: {place}"
-
-
-def direction_name(key):
-    """'ns' -> 'N-S'."""
-    return {"ns": "N-S", "ew": "E-W"}.get(key, key)
-
-
-def ratio(drift):
-    """A drift as people of the trade write it: 1/85."""
-    if drift < 1e-3:
-        return "below 1/1000"
-    return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"
-
-
 # --- files ------------------------------------------------------------------------------------------------------------
 
 

@@ -9,26 +9,24 @@ import sys
 import threading
 import time
 
-import numpy as np
 import yade.runtime
 import yade.wrapper as yw
 
-from . import checkpoint, cli, plots, results, scene, views
+from . import checkpoint, cli, frames, pictures, results, viewer
 from .errors import RunError
 from .export import export_scene
 from .house import HouseError, build_house, load_house
 from .motion import RecordError
 from .progress import Progress
+from .recorder import Recorder
 from .scenario import build
-from .snapshot import marks, solids
+from .words import sentence
 
-CHUNK = 0.05
-"""Simulated time between two looks at signals, progress and the checkpoint's clock; results do not depend on it. [s]"""
-PICTURE = "end_state.png"
-CURVES = "history.png"
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 O = yw.Omega()
+live = None
+"""The Run of a live session that records frames."""
 
 
 class Interrupted(Exception):
@@ -41,10 +39,11 @@ class Run:
     def __init__(self, scenario, output):
         self.scenario, self.output = scenario, output
         self.steps = round(scenario.duration / scenario.dt)
+        self.chunk = frames.steps_between(scenario.dt)  # also between two looks at signals, progress and the checkpoint's clock
         self.wall_s = 0.0  # [s] spent on steps, also by the runs before a resume
         self.last_saved = None  # step of the last checkpoint
         self.signal = None
-        self.checkpoint_path = output.folder / checkpoint.NAME
+        self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
         cli.prepare_folder(output.folder)
         resumed = output.resume and self.checkpoint_path.exists()
         self._load() if resumed else self._start()
@@ -57,8 +56,11 @@ class Run:
         """Build the scene; results of an earlier run go, so that nothing in the folder passes for this run's."""
         self.model = build(self.scenario)
         self.identity = self._identity()
-        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, PICTURE, CURVES, checkpoint.NAME):
+        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, *pictures.NAMES, frames.NAME, checkpoint.NAME):
             (self.output.folder / name).unlink(missing_ok=True)
+        self.recorder = self._recorder()
+        if self.recorder:
+            self.recorder.take(O.time)
         if self.output.resume:
             self.say(f"no checkpoint in {self.output.folder}: starting from the beginning")
 
@@ -70,8 +72,14 @@ class Run:
         if O.iter >= self.steps:
             raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; ask for more")
         self.last_saved = O.iter
+        self.recorder = self._recorder()
+        if self.recorder and self.frames_path.exists():
+            self.recorder.restore(self.frames_path)
         (self.output.folder / results.SUMMARY).unlink(missing_ok=True)
         self.say(f"going on from {O.time:.2f} s")
+
+    def _recorder(self):
+        return Recorder(self.scenario, self.model, title(self.scenario, self.model)) if self.output.frames else None
 
     def _identity(self):
         return checkpoint.identity(self.scenario, self.model, results.versions()["package"])
@@ -105,15 +113,17 @@ class Run:
         self.signal = number
 
     def _chunk(self):
-        """Some steps, and a checkpoint when its time has come.
+        """The steps to the next frame, and a checkpoint when its time has come.
 
         The last checkpoint comes one step before the end, and the last step by itself: energies and contact points are at hand
         only after a step, so a resumed run always has one to make.
         """
         left = self.steps - O.iter
-        self._advance(min(max(1, left - 1), max(1, round(CHUNK / self.scenario.dt))))
+        self._advance(min(max(1, left - 1), self.chunk - O.iter % self.chunk))
         if O.iter == self.steps:
             return
+        if self.recorder and O.iter % self.chunk == 0:
+            self.recorder.take(O.time)
         if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
             self.save()
         if self.signal:
@@ -134,50 +144,52 @@ class Run:
         return every > 0 and O.iter // every > (self.last_saved or 0) // every
 
     def save(self):
-        """Save a checkpoint now, unless checkpoints are switched off."""
+        """Save a checkpoint now, unless checkpoints are switched off. The frames go first: those after a checkpoint can be dropped."""
         if self.output.checkpoint_interval > 0:
+            if self.recorder:
+                self.recorder.save(self.frames_path)
             checkpoint.save(self.checkpoint_path, self.identity, self.wall_s)
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self):
-        """Write results and picture of the scene as it is now, and say so."""
+        """Write results and pictures of the scene as it is now, and say so."""
         folder = self.output.folder
         found = results.summary(self.scenario, self.model, self.wall_s)
-        pictures = [self.picture(folder / PICTURE, found), self.curves(folder / CURVES)] if self.output.views else []
-        written = pictures + results.write(folder, found, self.model)
+        written = []
+        if self.recorder:
+            self.recorder.take(O.time, last=True)
+            self.recorder.finish(self.frames_path, found)
+            written.append(self.frames_path)
+        if self.output.views:
+            written += pictures.write(folder)
+        written += results.write(folder, found, self.model)
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
-        self.say(results.sentence(found))
+        self.say(sentence(found))
         self.say("written: " + ", ".join(str(path) for path in written))
-
-    def picture(self, path, found):
-        """Picture of the scene as it is now; returns the path."""
-        caption = views.Caption(title(self.scenario, self.model), f"after {O.time:.1f} s", results.sentence(found))
-        views.end_state(path, solids(), solids(reference=True), marks(self.model), caption)
-        return path
-
-    def curves(self, path):
-        """Page of curves of the run so far; returns the path."""
-        monitor = scene.find_engine(yw.HouseMonitor)
-        motion = scene.find_engine(yw.GroundMotionEngine)
-        shaking = None
-        if motion:
-            place = range(len(motion.acceleration))
-            shaking = [motion.start + k * motion.step for k in place], motion.scale * np.array(motion.acceleration)
-        plots.history(path, monitor.columns(), results.rows(monitor), title(self.scenario, self.model), shaking)
-        return path
 
     # --- live ---------------------------------------------------------------------------------------------------------
 
     def start(self):
-        """Run in the background; the results follow when the last step is done, however often the run is paused."""
+        """Run in the background, in the viewer where there is a display; the results follow when the last step is done, however often the run is paused."""
         if O.iter >= self.steps:
             self.write()
             return
+        viewer.show()
         self._since = time.perf_counter()
+        if self.recorder:
+            self._record_live()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()
+
+    def _record_live(self):
+        """An engine at the end of the chain that records each frame, in the step that leads to it."""
+        global live
+        live = self
+        before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
+        command = f"import {__name__}; {__name__}.record_frame()"
+        O.engines = O.engines + [yw.PyRunner(command=command, iterPeriod=self.chunk, iterLast=before, nDone=1)]
 
     def _watch(self):
         while O.iter < self.steps:
@@ -189,6 +201,12 @@ class Run:
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
         return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
+
+
+def record_frame():
+    """Record the state that the present step of the live run, whose bodies have moved already, leads to."""
+    if live and O.iter + 1 < live.steps:
+        live.recorder.take(O.time + O.dt)
 
 
 def title(scenario, model):

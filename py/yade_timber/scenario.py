@@ -6,23 +6,12 @@ from hashlib import sha256
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
-from . import elements, scene
+from . import elements, palette, scene
 from .house import build_house, load_house
 from .house.friction import own_coefficient
 
 O = yw.Omega()
 
-COLORS = {  # colour-blind safe (Okabe and Ito 2008)
-    "ground": (0.55, 0.55, 0.50),
-    "foundation": (0.60, 0.60, 0.60),
-    "sill": (0.60, 0.45, 0.30),
-    "column": (0.90, 0.75, 0.50),
-    "beam": (0.75, 0.55, 0.35),
-    "floor": (0.80, 0.70, 0.55),
-    "brace": (0.00, 0.45, 0.70),
-    "roof": (0.35, 0.35, 0.40),
-    "snow": (0.95, 0.97, 1.00),
-}
 DEFAULT_DT = 2e-4
 """Time step of the house scenarios. [s]"""
 MAX_DT = 4e-4
@@ -88,7 +77,7 @@ def add_elements(model):
             fixed=element.fixed,
             name=element.name,
             kind=element.kind,
-            color=COLORS.get(element.kind),
+            color=palette.KINDS.get(element.kind),
         )
         ids[element.name] = O.bodies.append(body)
     return ids

@@ -13,8 +13,11 @@ import subprocess
 import time
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
+from yade_timber import frames
+from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
@@ -129,6 +132,44 @@ def assert_same_results(one, other):
         assert digest(one / name) == digest(other / name), name
     first, second = ({k: v for k, v in summary(folder).items() if k not in RUN_TIME} for folder in (one, other))
     assert json.dumps(first) == json.dumps(second)
+    assert_same_frames(one, other)
+
+
+def assert_same_frames(one, other):
+    """Every number and word of frames.h5."""
+    with h5py.File(one / frames.NAME) as first, h5py.File(other / frames.NAME) as second:
+        names = []
+        first.visit(names.append)
+        assert {"frames/position", "contacts/force", "breaks/cause"} <= set(names)
+        for name in names:
+            if isinstance(first[name], h5py.Dataset):
+                assert np.array_equal(first[name][()], second[name][()]), name
+
+
+def test_frames(straight):
+    """20 a second and the last state; at the end they agree with the other results."""
+    made, found = frames.load(straight / frames.NAME), summary(straight)
+    assert np.allclose(made.time, np.arange(13) * 0.05) and np.allclose(made.contacts.time, [0, 0.5, 0.6])
+    assert made.summary == found and made.title == "House B1: earthquake" and len(made.breaks["time"]) == found["broken"]["springs"]
+    states = made.joint_states(-1)
+    assert (states == "broken").sum() == found["broken"]["total"] and (states == "partly").sum() == found["broken"]["partly_broken"]
+    assert (states == "before").sum() == found["broken"]["damaged_at_start"]["total"]
+    assert 0.5 < made.load.max() <= 1 and np.ptp(made.position[:, made.elements.kind.index("roof")], axis=0).max() > 0.1
+    assert np.allclose(np.linalg.norm(made.orientation, axis=2), 1, atol=1e-6)
+
+
+def test_frames_of_the_start_are_the_house(straight):
+    """Corners, joints and contacts in the first frame and at the end, against the house that was built."""
+    made, model = frames.load(straight / frames.NAME), build_house(load_house("B1"), snow_depth=0.0)
+    assert made.elements.name == [e.name for e in model.elements] and made.joints.name == [j.name for j in model.joints]
+    for k, element in enumerate(model.elements):
+        assert np.allclose(made.corners(0, k), element.vertices, atol=1e-5), element.name
+    assert np.allclose(made.joint_places(0), [j.centre for j in model.joints], atol=1e-5)
+    pair, position = made.contacts.pair[-1], made.contacts.position[-1]
+    assert len(pair) > 100
+    for (a, _), place in list(zip(pair, position))[::20]:
+        corners = made.corners(-1, a)
+        assert (corners.min(0) - 0.02 < place).all() and (place < corners.max(0) + 0.02).all()
 
 
 def test_killed_and_resumed(tmp_path, shove, straight):
@@ -193,7 +234,7 @@ def test_words_pictures_export(tmp_path):
 def test_live_session(tmp_path):
     """Without -x, at a terminal: the scene runs, O, yt and run are there, and the results follow by themselves."""
     ours, theirs = pty.openpty()
-    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.05", "--no-views", "--out", str(tmp_path)]
+    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.12", "--no-views", "--out", str(tmp_path)]
     session = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=subprocess.STDOUT, close_fds=True, env={**os.environ, "TERM": "dumb"})
     os.close(theirs)
     try:
@@ -203,4 +244,5 @@ def test_live_session(tmp_path):
         session.kill()
         session.wait()
         os.close(ours)
-    assert summary(tmp_path)["steps"] == 250 and "<modelA_snow" in said
+    assert summary(tmp_path)["steps"] == 600 and "<modelA_snow" in said
+    assert np.allclose(frames.load(tmp_path / frames.NAME).time, [0, 0.05, 0.1, 0.12])

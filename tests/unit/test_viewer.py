@@ -1,43 +1,62 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""YADE's own viewer draws the elements: a session with a display (Xvfb) opens a view and survives it."""
+"""YADE's own viewer on a display (Xvfb): elements in the colours of their kinds, joints by load, crosses where they are broken."""
 import os
 import shutil
 import subprocess
 import textwrap
 
+import numpy as np
 import pytest
+from PIL import Image
+from yade_timber import palette
 
 SESSION = textwrap.dedent(
     """
     import os, time
-    import yade_timber as yt
-    from yade import O, qt
+    from yade import O
+    from yade_timber import cli, scenario, viewer
     from PyQt5 import QtWidgets
-    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
-    O.bodies.append(yt.box((0.1, 0.1, 1), (0, 0, 0.5)))
-    O.dt, O.engines = 1e-4, yt.engines()
-    view = qt.View()
-    O.run(100, True)
-    for _ in range(20):
-        QtWidgets.QApplication.processEvents()
-        time.sleep(0.05)
+
+    def draw(times):
+        for _ in range(times):
+            QtWidgets.QApplication.processEvents()
+            time.sleep(0.05)
+
+    scenario.build(cli.read("C2", False, True, ["modelC2_snow.py"])[0])
+    view = viewer.show()
+    O.run(20, True)
+    draw(20)
+    view.saveSnapshot({picture!r})  # with the next drawing
+    draw(20)
     print("drawn", flush=True)
     os._exit(0)
     """
 )
+ORANGE = (0.84, 0.37, 0.0)
+"""Crosses of broken joints. [RGB]"""
 
 
-def test_viewer_draws_the_elements(tmp_path):
+def share(picture, color):
+    """Share of the pixels whose colour has nearly this hue and saturation."""
+    pixels = picture / np.linalg.norm(picture, axis=2, keepdims=True)
+    return (np.linalg.norm(pixels - np.array(color) / np.linalg.norm(color), axis=2) < 0.06).mean()
+
+
+def test_viewer_draws_elements_and_joints(tmp_path):
     if not shutil.which("xvfb-run"):
         pytest.skip("xvfb-run is missing (package xvfb)")
-    script = tmp_path / "view.py"
-    script.write_text(SESSION)
+    script, picture = tmp_path / "view.py", tmp_path / "view.jpg"
+    script.write_text(SESSION.format(picture=str(picture)))
+    tmp_path.chmod(0o700)
     done = subprocess.run(
         ["xvfb-run", "-a", "-s", "-screen 0 1024x768x24", "yade", str(script)],
         env={**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "XDG_RUNTIME_DIR": str(tmp_path)},
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=150,
     )
     assert done.returncode == 0 and "drawn" in done.stdout, done.stdout + done.stderr
+    seen = np.asarray(Image.open(picture), float)
+    assert share(seen, palette.KINDS["brace"]) > 0.01 and share(seen, palette.KINDS["column"]) > 0.01 and share(seen, (1, 1, 1)) > 0.03
+    assert share(seen, ORANGE) > 1e-4

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Pictures: what hides what, where things are drawn, and that a picture comes out whole. Needs no YADE."""
+import dataclasses
+
 import numpy as np
 import pytest
-from yade_timber import raster, views
-from yade_timber.views import FRONT, SIDE, Caption, Mark, Solid
+from small_frames import frames
+from yade_timber import pictures, raster, sheets, snapshot, views
+from yade_timber import frames as recorded
+from yade_timber.views import FRONT, SIDE, Solid
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 BOX = (-2.0, 2.0, -1.0, 3.0)
@@ -57,14 +61,34 @@ def test_outline_is_filled():
     assert raster.outline(frame, FRONT, BOX, 20)[30, 40]
 
 
-def test_picture_is_written_whole(tmp_path):
-    solids = [cube((0, 0, 0.5)), cube((0, 0, -5), 10, kind="ground"), cube((0, 0, 1.5), kind="snow", color=(1, 1, 1))]
-    marks = [Mark(np.array([0.5, 0.5, 1.0]), state) for state in ("broken", "partly", "before")]
-    views.end_state(tmp_path / "a.png", solids, solids, marks, Caption("House", "after 1 s", "stands"))
-    assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG" and len(list(tmp_path.iterdir())) == 1
+def test_marks_sit_on_the_damaged_joints():
+    made = frames()
+    found = {m.state: m.place for m in snapshot.marks(made, made.at(2.0))}
+    assert set(found) == {"before", "broken", "partly"} and np.allclose(found["broken"], (0.5, 0, 1))
+    assert [m.state for m in snapshot.marks(made, 0)] == ["before"]
+
+
+@pytest.fixture
+def coarse(monkeypatch):
+    monkeypatch.setattr(sheets, "PRINT", dataclasses.replace(sheets.PRINT, dpi=60))
+
+
+def test_pictures_are_written_whole(tmp_path, coarse):
+    recorded.save(tmp_path / recorded.NAME, frames())
+    written = pictures.write(tmp_path)
+    assert [path.name for path in written] == pictures.NAMES and {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *pictures.NAMES}
+    assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF") for path in written)
+
+
+def test_pictures_of_a_run_that_is_not_over(tmp_path, coarse):
+    """No curves, no sentence; and the pictures may go elsewhere."""
+    recorded.save(tmp_path / recorded.NAME, frames(ended=False, shaken=False))
+    (tmp_path / "out").mkdir()
+    written = pictures.write(tmp_path / "out", tmp_path)
+    assert {path.name for path in written} == {"end_state.png", "front.png", "front.pdf", "side.png", "side.pdf"}
 
 
 def test_far_wreckage_does_not_shrink_the_house():
     start = [cube((0, 0, 0.5))]
-    left, right, _, _ = views.window(FRONT, [cube((0, 100, 0.5))], start)
-    assert left == pytest.approx(-0.5 - views.MARGIN) and right == pytest.approx(0.5 + views.FAR + views.MARGIN)
+    left, right, _, _ = views.window(FRONT, start, [[cube((0, 100, 0.5))]])
+    assert -0.5 - views.MARGIN - views.GRID < left <= -0.5 - views.MARGIN and 0 <= right - (0.5 + views.FAR + views.MARGIN) < views.GRID

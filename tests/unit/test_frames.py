@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""Recorded frames: what is written is read back, where things are in a frame, which moments are chosen. Needs no YADE."""
+import dataclasses
+
+import h5py
+import numpy as np
+import pytest
+from small_frames import CUBE, frames
+from yade_timber import moments
+from yade_timber import frames as files
+from yade_timber.errors import RunError
+
+
+def same(one, other):
+    """Whether two values agree: arrays, lists of arrays or strings, data classes of them."""
+    if dataclasses.is_dataclass(one):
+        return all(same(a, b) for a, b in zip(vars(one).values(), vars(other).values()))
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if isinstance(one, (list, tuple)):
+        return len(one) == len(other) and all(same(a, b) for a, b in zip(one, other))
+    return np.array_equal(one, other)
+
+
+@pytest.mark.parametrize("ended", [True, False])
+@pytest.mark.parametrize("shaken", [True, False])
+def test_written_is_read_back(tmp_path, ended, shaken):
+    made = frames(ended, shaken)
+    files.save(tmp_path / "frames.h5", made)
+    read = files.load(tmp_path / "frames.h5")
+    for field in dataclasses.fields(made):
+        assert same(getattr(made, field.name), getattr(read, field.name)), field.name
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_comparison_can_fail():
+    one, other = frames(), frames()
+    other.position[7][2][0] += 1e-3
+    assert same(one, one) and not same(one.position, other.position) and not same(["a"], ["b"])
+
+
+def test_the_first_frame_alone_is_a_whole_file(tmp_path):
+    """A run that is killed before its first checkpoint has no more than this."""
+    made = frames(ended=False)
+    for name in ("time", "position", "orientation", "load", "broken"):
+        setattr(made, name, [])
+    files.save(tmp_path / "frames.h5", made)
+    assert files.load(tmp_path / "frames.h5").position.shape == (0, 3, 3)
+
+
+@pytest.mark.parametrize("content", [None, b"", b"no HDF5 at all"])
+def test_what_is_no_frames_file(tmp_path, content):
+    path = tmp_path / "frames.h5"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(RunError, match="frames.h5: ") as raised:
+        files.load(path)
+    assert "\n" not in str(raised.value)
+
+
+def test_another_hdf5_file(tmp_path):
+    h5py.File(tmp_path / "other.h5", "w").close()
+    with pytest.raises(RunError, match="no recorded frames"):
+        files.load(tmp_path / "other.h5")
+
+
+def test_corners_move_and_turn():
+    """The upper box at the end: 1 m to the east, tipped by 0.3 rad towards the east."""
+    made, c, s = frames(), np.cos(0.3), np.sin(0.3)
+    turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    assert np.allclose(made.corners(-1, 2), CUBE @ turn.T + (1, 0, 1.5), atol=1e-6)
+    assert np.allclose(made.corners_at_start(2), CUBE + (0, 0, 1.5))
+
+
+def test_joints_sit_on_their_first_element():
+    made = frames()
+    assert np.allclose(made.joint_places(-1), [[0, 0, 0], [0.5, 0, 1], [-0.5, 0, 1]])
+
+
+def test_joint_states():
+    made = frames()
+    assert [list(made.joint_states(made.at(t))) for t in (0, 1.3, 2.0)] == [
+        ["before", "whole", "whole"], ["before", "partly", "whole"], ["before", "broken", "partly"]]
+
+
+# --- moments ----------------------------------------------------------------------------------------------------------
+
+
+def test_moments_that_have_a_name():
+    made = frames()
+    found = {m.reason: made.time[m.frame] for m in moments.choose(made)}
+    assert found == pytest.approx({"start": 0, "end": 3, "collapse: half a storey down": 2, "leans by 1/10": 1.5, "strongest shaking": 1.2, "": found[""]})
+
+
+def test_other_moments_halve_the_motion():
+    """Nothing is known of this run but its frames: the upper box moves between 1 s and 2 s only."""
+    made = frames(ended=False, shaken=False)
+    times = [made.time[m.frame] for m in moments.choose(made)]
+    assert len(times) == 6 and times == sorted(times) and (times[0], times[-1]) == (0, 3)
+    assert sum(1 <= t <= 2 for t in times) >= 3
+
+
+def test_a_run_of_two_frames():
+    made = frames(ended=False, shaken=False)
+    made.time, made.position = made.time[:2], made.position[:2]
+    assert [(m.frame, m.reason) for m in moments.choose(made)] == [(0, "start"), (1, "end")]

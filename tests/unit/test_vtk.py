@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""The VTK export, read back with VTK: elements, joints and contact forces of an invented run are where the frames say. Needs no YADE."""
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from small_frames import FACES, frames
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from yade_timber import frames as recorded
+
+
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "export_vtk.py"
+
+
+def export(folder, *options):
+    return subprocess.run([sys.executable, SCRIPT, folder, *options], capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Folder with the export of every 20th frame."""
+    place = tmp_path_factory.mktemp("run")
+    recorded.save(place / recorded.NAME, frames())
+    done = export(place, "--every", "20")
+    assert done.returncode == 0 and "contacts.pvd" in done.stdout, done.stderr
+    return place / "vtk"
+
+
+def series(folder, name):
+    """[(time [s], vtkPolyData)] of a .pvd file."""
+    found = []
+    for entry in ElementTree.parse(folder / f"{name}.pvd").iter("DataSet"):
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(str(folder / entry.get("file")))
+        reader.Update()
+        found.append((float(entry.get("timestep")), reader.GetOutput()))
+    return found
+
+
+def points(data):
+    return vtk_to_numpy(data.GetPoints().GetData())
+
+
+def values(attributes, name):
+    return vtk_to_numpy(attributes.GetArray(name))
+
+
+def test_times(folder):
+    assert [t for t, _ in series(folder, "elements")] == [0, 1, 2, 3] == [t for t, _ in series(folder, "joints")]
+    assert [t for t, _ in series(folder, "contacts")] == [0, 3]
+
+
+def test_elements(folder):
+    made, (_, data) = frames(), series(folder, "elements")[-1]
+    assert np.allclose(points(data)[16:], made.corners(-1, 2), atol=1e-5) and data.GetNumberOfPolys() == 18
+    assert np.allclose(values(data.GetPointData(), "displacement")[16:], made.corners(-1, 2) - made.corners_at_start(2), atol=1e-5)
+    assert np.allclose(values(data.GetPointData(), "displacement")[:16], 0)
+    cell = [data.GetCell(13).GetPointId(k) - 16 for k in range(4)]
+    assert cell == FACES[1] and list(values(data.GetCellData(), "element")) == [0] * 6 + [1] * 6 + [2] * 6
+    names = data.GetFieldData().GetAbstractArray("kind_names")
+    assert [names.GetValue(k) for k in values(data.GetCellData(), "kind")[::6]] == made.elements.kind
+    assert list(values(data.GetCellData(), "storey")[::6]) == [0, 1, 2] and list(values(data.GetCellData(), "fixed")[::6]) == [1, 0, 0]
+
+
+def test_joints(folder):
+    """The two ends coincide at the start; at the end that of the upper box has gone with it."""
+    made, found = frames(), series(folder, "joints")
+    first, last = points(found[0][1]), points(found[-1][1])
+    assert np.allclose(first[:3], first[3:], atol=1e-6) and np.allclose(last[:3], made.joint_places(-1), atol=1e-6)
+    assert np.allclose(last[4], np.array([np.cos(0.3) * 0.5 - np.sin(0.3) * 0.5 + 1, 0, 1.5 - np.sin(0.3) * 0.5 - np.cos(0.3) * 0.5]), atol=1e-5)
+    data = found[-1][1]
+    assert list(values(data.GetPointData(), "state")) == [3, 2, 1] * 2 and np.allclose(values(data.GetPointData(), "load")[:3], made.load[-1])
+    assert data.GetNumberOfVerts() == 6 and data.GetNumberOfLines() == 3
+
+
+def test_contacts(folder):
+    empty, data = (data for _, data in series(folder, "contacts"))
+    assert empty.GetNumberOfPoints() == 0 and np.allclose(points(data), [[0, 0, 0], [0, 0, 1]])
+    assert np.allclose(values(data.GetPointData(), "force"), [[0, 0, 20], [0, 0, 10]]) and values(data.GetPointData(), "elements").tolist() == [[0, 1], [1, 2]]
+
+
+@pytest.mark.parametrize("options, words", [(["--every", "0"], "1 or more"), ([], "no such file")])
+def test_bad_input(tmp_path, options, words):
+    done = export(tmp_path, *options)
+    assert done.returncode != 0 and words in done.stderr
