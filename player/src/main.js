@@ -88,7 +88,8 @@ function open(panel, run, box) {
   try {
     return new Stage(panel.view, run, box);
   } catch (problem) {
-    panel.fault.textContent = `No 3D picture: this browser cannot use WebGL 2 (${problem.message}). Curves and events work.`;
+    console.error(problem);
+    panel.fault.textContent = "No 3D picture: this browser offers no WebGL 2 here. Curves and events work.";
     panel.fault.hidden = false;
     return null;
   }
