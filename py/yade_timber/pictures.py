@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All pictures of a run, from its recorded frames alone. Needs no YADE."""
-from . import frames, plots, sheets
+"""All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
+from . import frames, player, plots, sheets
 from .views import VIEWS
 
 END, CURVES = "end_state", "history"
-NAMES = [f"{END}.png"] + [f"{stem}.{ending}" for stem in (*(view.name for view in VIEWS), CURVES) for ending in ("png", "pdf")]
+NAMES = [f"{END}.png"] + [f"{stem}.{ending}" for stem in (*(view.name for view in VIEWS), CURVES) for ending in ("png", "pdf")] + [player.NAME]
 """Files that `write` makes."""
 
 
@@ -19,4 +19,4 @@ def write(folder, results=None):
         written += sheets.write_sheet(folder / view.name, recorded, view)
     if recorded.history:
         written += plots.write(folder / CURVES, recorded)
-    return written
+    return written + [player.make((results or folder) / frames.NAME, folder / player.NAME)]

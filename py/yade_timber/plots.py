@@ -6,12 +6,11 @@ from matplotlib.figure import Figure
 
 from . import palette
 from .sheets import heading, save
+from .words import DRIFT_LINES
 
 PAPER = (8.27, 11.69)
 """A4, upright. [inch]"""
 DPI = 200
-DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 leaning"))
-"""Storey drifts that engineers know. [-]"""
 DRIFT_RANGE = 0.16
 """Largest drift shown: beyond it a storey falls. [-]"""
 STOREYS = ((palette.BLUE, "-"), (palette.ORANGE, "--"), (palette.GREEN, "-."))

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results in plain words. A summary is the content of summary.json. Needs no YADE."""
 
+DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 leaning"))
+"""Storey drifts that engineers know. [-]"""
+
 
 def largest_drift(found):
     """(drift, storey, 'ns' | 'ew') of the largest peak drift in a summary; zero before the first sample."""

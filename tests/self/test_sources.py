@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SKIPPED_FOLDERS = {"build", "results", ".git", "__pycache__", ".pytest_cache", ".hypothesis"}
+SKIPPED_FOLDERS = {"build", "results", ".git", "__pycache__", ".pytest_cache", ".hypothesis", "node_modules"}
 SOURCE_ENDINGS = {".py", ".cpp", ".hpp", ".in", ".cmake", ".txt", ".json", ".yaml", ".yml", ".md", ".cff", ".csv", ""}
 # A path that begins at a home folder, a scratch folder or a mounted working folder.
 MACHINE_PATH = re.compile(r"(?<![\w.~$}])/(?:home|root|work|tmp|mnt|media|Users)/[\w.]")

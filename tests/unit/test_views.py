@@ -77,7 +77,7 @@ def test_pictures_are_written_whole(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames())
     written = pictures.write(tmp_path)
     assert [path.name for path in written] == pictures.NAMES and {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *pictures.NAMES}
-    assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF") for path in written)
+    assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF", b"<!DO") for path in written)
 
 
 def test_pictures_of_a_run_that_is_not_over(tmp_path, coarse):
@@ -85,7 +85,7 @@ def test_pictures_of_a_run_that_is_not_over(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames(ended=False, shaken=False))
     (tmp_path / "out").mkdir()
     written = pictures.write(tmp_path / "out", tmp_path)
-    assert {path.name for path in written} == {"end_state.png", "front.png", "front.pdf", "side.png", "side.pdf"}
+    assert {path.name for path in written} == {"end_state.png", "front.png", "front.pdf", "side.png", "side.pdf", "player.html"}
 
 
 def test_far_wreckage_does_not_shrink_the_house():

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ground motion and storey drifts over time, with a cursor; a click goes to that time.
+import { rowAt } from "./run.js";
+
+/** Okabe and Ito (2008); storeys differ by dashes, too. */
+export const COLORS = { ns: "#0072b2", ew: "#d55e00", ud: "#8a8a8a" };
+const NAMES = { ns: "N–S", ew: "E–W", ud: "up–down" };
+const DASHES = [[], [5, 3], [2, 2]];
+const MOST_DRIFT = 1 / 5; // a house beyond it is falling: the curve stays at the border
+const LEFT = 42; // [pixel] for the numbers
+const [INK, PALE] = ["#39424a", "#d9d5cb"];
+const FONT = "11px system-ui, sans-serif";
+
+/** The curves of a run in an element of the page. scales: from `largest`; seek: called with a time. */
+export class Curves {
+  constructor(place, run, scales, seek) {
+    Object.assign(this, { place, run });
+    this.charts = [run.info.motion && motionChart(run, scales.acceleration), run.info.drifts.length && driftChart(run, scales.drifts)].filter(Boolean);
+    for (const chart of this.charts) place.append(this.figure(chart));
+    this.cursor = Object.assign(document.createElement("div"), { className: "cursor" });
+    place.append(this.cursor);
+    this.listen(seek);
+  }
+
+  figure(chart) {
+    const figure = Object.assign(document.createElement("figure"), { className: chart.name });
+    const caption = Object.assign(document.createElement("figcaption"), { innerHTML: chart.caption });
+    chart.canvas = document.createElement("canvas");
+    chart.canvas.setAttribute("role", "img");
+    chart.canvas.setAttribute("aria-label", chart.words);
+    figure.append(caption, chart.canvas);
+    return figure;
+  }
+
+  listen(seek) {
+    const go = (event) => {
+      const { left, width } = this.place.getBoundingClientRect();
+      seek(Math.min(Math.max((event.clientX - left - LEFT) / (width - LEFT), 0), 1) * this.span);
+    };
+    this.place.addEventListener("pointerdown", (event) => {
+      this.place.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    this.place.addEventListener("pointermove", (event) => event.buttons && go(event));
+  }
+
+  /** Draw all for the present size. span: time at the right end [s]. */
+  resize(span) {
+    this.span = span;
+    for (const chart of this.charts) paint(chart, this.run, span);
+  }
+
+  update(t) {
+    const x = LEFT + (Math.min(t / this.span, 1) || 0) * (this.place.clientWidth - LEFT);
+    this.cursor.style.transform = `translateX(${x}px)`;
+  }
+}
+
+/** Largest sizes in any of the runs, so that their curves compare: { acceleration [m/s2], drifts [-] }. */
+export function largest(runs) {
+  const most = (name) => runs.reduce((sum, run) => (run[name] ?? []).reduce((a, b) => Math.max(a, Math.abs(b)), sum), 1e-6);
+  return { acceleration: most("acceleration"), drifts: most("drifts") };
+}
+
+function motionChart(run, most) {
+  const { dt, start } = run.info.motion;
+  const count = run.acceleration.length / 3;
+  const lines = ["ew", "ns", "ud"].map((key, k) => ({ key, k, dash: [] })).reverse();
+  return {
+    name: "motion",
+    caption: `<span>Ground<span class="wide"> acceleration</span>, m/s²</span> ${["ns", "ew", "ud"].map((key) => key_(key)).join(" ")}`,
+    words: `Ground acceleration over time, up to ${most.toFixed(1)} m/s²`,
+    lines: lines.map((line) => ({ ...line, value: (i) => run.acceleration[3 * i + line.k], time: (i) => start + i * dt, count })),
+    scale: (value) => value / (1.05 * most),
+    marks: [round(most)].flatMap((v) => [{ value: v, text: `${v}` }, { value: -v, text: `−${v}` }]),
+  };
+}
+
+/** Signed square roots: small drifts are seen beside large ones. */
+function driftChart(run, most) {
+  const columns = run.info.drifts;
+  const width = columns.length;
+  const rows = run.history_time.length;
+  const full = Math.sqrt(Math.min(Math.max(1.1 * most, 1 / 8), MOST_DRIFT));
+  const storeys = Math.max(...columns.map(({ storey }) => storey));
+  const dashes = storeys > 1 ? Array.from({ length: storeys }, (_, k) => swatch("#555", DASHES[k], `storey ${k + 1}`)) : [];
+  return {
+    name: "drift",
+    caption: `<span><span class="wide">Storey drift</span><span class="narrow">Drift</span></span> ${["ns", "ew"].map((key) => key_(key)).join(" ")} ${dashes.join(" ")}`,
+    words: `Storey drifts over time. ${run.info.result}`,
+    lines: columns.map(({ key, storey }, k) => ({
+      key,
+      dash: DASHES[(storey - 1) % DASHES.length],
+      value: (i) => run.drifts[i * width + k],
+      time: (i) => run.history_time[i],
+      count: rows,
+    })),
+    scale: (value) => Math.max(-1, Math.min(1, (Math.sign(value) * Math.sqrt(Math.abs(value))) / full)),
+    marks: run.info.levels.flatMap(({ value, text }, k) => [
+      { value, text: k % 2 ? "" : text, line: true }, // the words by turns above and below: they would touch
+      { value: -value, text: k % 2 ? text : "", line: true },
+    ]),
+  };
+}
+
+const round = (v) => Number((v >= 2 ? Math.floor(v) : v).toPrecision(2));
+const key_ = (key) => swatch(COLORS[key], [], NAMES[key]);
+
+function swatch(color, dash, name) {
+  const style = `stroke="${color}" stroke-width="2.5" ${dash.length ? `stroke-dasharray="${dash.join(" ")}"` : ""}`;
+  return `<span class="key"><svg width="18" height="8" aria-hidden="true"><path d="M0 4H18" ${style}/></svg>${name}</span>`;
+}
+
+function paint(chart, run, span) {
+  const { canvas } = chart;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const ratio = devicePixelRatio;
+  Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
+  const pen = canvas.getContext("2d");
+  pen.scale(ratio, ratio);
+  const x = (t) => LEFT + (t / span) * (width - LEFT);
+  const y = (value) => (height - 14) * (0.5 - 0.5 * chart.scale(value)) + 0.5;
+  axes(pen, chart, x, y, width, height, span);
+  for (const { time } of run.info.events) stroke(pen, [[x(time), 0], [x(time), height - 14]], "#b8b2a4", 1, [1, 3]);
+  for (const line of chart.lines) curve(pen, line, x, y, span);
+}
+
+function axes(pen, chart, x, y, width, height, span) {
+  Object.assign(pen, { font: FONT, fillStyle: INK, textBaseline: "middle", textAlign: "right" });
+  stroke(pen, [[LEFT, y(0)], [width, y(0)]], "#9b9789", 1);
+  for (const { value, text, line } of chart.marks) {
+    if (line) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
+    pen.fillText(text, LEFT - 5, Math.max(y(value), 6));
+  }
+  Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
+  const gap = [1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
+  for (let t = 0; t <= span; t += gap) {
+    stroke(pen, [[x(t), 0], [x(t), height - 14]], PALE, 1);
+    if (x(t) < width - 16) pen.fillText(t === 0 ? "0 s" : `${t}`, Math.max(x(t), LEFT + 8), height);
+  }
+}
+
+function stroke(pen, points, color, width, dash = []) {
+  Object.assign(pen, { strokeStyle: color, lineWidth: width });
+  pen.setLineDash(dash);
+  pen.beginPath();
+  for (const [x, y] of points) pen.lineTo(x, y);
+  pen.stroke();
+}
+
+function curve(pen, { key, dash, value, time, count }, x, y, span) {
+  Object.assign(pen, { strokeStyle: COLORS[key], lineWidth: 1.2, lineJoin: "round" });
+  pen.setLineDash(dash);
+  pen.beginPath();
+  for (let i = 0; i < count && time(i) <= span; i++) if (time(i) >= 0) pen.lineTo(x(time(i)), y(value(i)));
+  pen.stroke();
+}
+
+/** Drift of largest size at a time, of a run: a number. */
+export function driftAt(run, t) {
+  const width = run.info.drifts.length;
+  const row = rowAt(run.history_time, t) * width;
+  let most = 0;
+  for (let k = 0; k < width; k++) most = Math.max(most, Math.abs(run.drifts[row + k] ?? 0));
+  return most;
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The page: runs that are played in step, by one clock and with one camera.
+import { Box3, Vector3 } from "three";
+import { Clock } from "./clock.js";
+import { connect } from "./controls.js";
+import { Curves, largest } from "./curves.js";
+import { Panel, legend } from "./panel.js";
+import { unpack } from "./run.js";
+import { Stage } from "./stage.js";
+import { View } from "./view.js";
+
+const BEFORE_SHAKING = 2; // where the page opens [s]
+const NEAR = 6; // wreckage that is still in the picture [m]
+
+/** All that is shown, and when: draws only what has changed. */
+class Player {
+  constructor(runs) {
+    this.runs = runs;
+    this.options = { shaken: runs.some((run) => run.info.motion), joints: true };
+    this.clock = new Clock(Math.max(...runs.map((run) => run.end)));
+    const start = corners(runs, 0);
+    const box = new Box3().setFromPoints(start);
+    this.view = new View(inPicture(start, runs), () => this.changed());
+    const scales = largest(runs);
+    const seek = (t) => this.seek(t);
+    this.parts = runs.map((run) => {
+      const panel = new Panel(run, seek);
+      document.getElementById("runs").append(panel.section);
+      const curves = new Curves(panel.curves, run, scales, seek);
+      return { run, panel, curves, stage: open(panel, run, box) };
+    });
+    for (const { stage } of this.parts) if (stage) this.view.listen(stage.canvas);
+    for (const { panel } of this.parts) panel.view.addEventListener("webglcontextrestored", () => this.changed());
+    this.tick = this.tick.bind(this);
+    this.pending = 0;
+    new ResizeObserver(() => this.resize()).observe(document.body);
+    for (const { panel } of this.parts) new ResizeObserver(() => this.resize()).observe(panel.stage);
+  }
+
+  seek(t) {
+    this.clock.seek(t);
+    this.changed();
+  }
+
+  play(on) {
+    this.clock.play(on);
+    this.changed();
+  }
+
+  /** Something has changed: draw before the next picture. */
+  changed() {
+    this.pending ||= requestAnimationFrame(this.tick);
+  }
+
+  tick(now) {
+    this.pending = 0;
+    this.clock.advance(now);
+    const gliding = this.view.step(now);
+    this.draw();
+    if (this.clock.playing || gliding) this.changed();
+  }
+
+  draw() {
+    const t = this.clock.time;
+    for (const { run, panel, curves, stage } of this.parts) {
+      run.at(t);
+      stage?.draw(this.view, this.options);
+      panel.update(t, this.view);
+      curves.update(t);
+    }
+    this.shown?.();
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.parts[0].panel.view;
+    if (!clientHeight) return;
+    this.view.resize(clientWidth / clientHeight);
+    for (const { curves, stage } of this.parts) {
+      stage?.resize(this.view.fov);
+      curves.resize(this.clock.end);
+    }
+    this.draw();
+  }
+}
+
+/** The stage of a run, or none with a word why. */
+function open(panel, run, box) {
+  try {
+    return new Stage(panel.view, run, box);
+  } catch (problem) {
+    console.error(problem);
+    panel.fault.textContent = "No 3D picture: this browser offers no WebGL 2 here. Curves and events work.";
+    panel.fault.hidden = false;
+    return null;
+  }
+}
+
+/** Corners of the houses at a time, without the ground. */
+function corners(runs, time) {
+  return runs.flatMap((run) => {
+    run.at(time);
+    return run.info.elements.flatMap(({ kind }, k) => (kind === "ground" ? [] : run.corners(k)));
+  });
+}
+
+/** What the camera has in the picture: the houses at the start, and at the end as far as NEAR around it. */
+function inPicture(start, runs) {
+  const near = new Box3().setFromPoints(start).expandByVector(new Vector3(NEAR, NEAR, 0));
+  return [...start, ...corners(runs, Infinity).map((point) => near.clampPoint(point, point))];
+}
+
+/** For tests and the curious: seek(t), play(on), time, playing; of a point [m] in the body frame of an element of a run (from 0 on):
+ *  position(name, run, point) [m, frame of the ground], screen(name, run, point) { x, y } [pixel]. */
+function expose(player) {
+  const position = (name, k = 0, point = [0, 0, 0]) => {
+    const { run } = player.parts[k];
+    return run.placed(run.info.elements.findIndex((element) => element.name === name), new Vector3(...point)).toArray();
+  };
+  window.player = Object.freeze({
+    seek(t) {
+      player.play(false);
+      player.clock.seek(t);
+      player.draw();
+    },
+    play: (on = true) => player.play(on),
+    get time() {
+      return player.clock.time;
+    },
+    get playing() {
+      return player.clock.playing;
+    },
+    position,
+    screen: (name, k = 0, point = undefined) => player.parts[k].stage.screen(position(name, k, point), player.view),
+  });
+}
+
+/** #t=12.3 opens at that time, paused; else the page opens shortly before the shaking and plays, unless the user wants no motion. */
+function begin(player) {
+  const wanted = () => Number.parseFloat(new URLSearchParams(location.hash.slice(1)).get("t"));
+  const jump = () => {
+    player.play(false);
+    player.seek(wanted());
+  };
+  addEventListener("hashchange", () => Number.isFinite(wanted()) && jump());
+  if (Number.isFinite(wanted())) return jump();
+  const onsets = player.runs.flatMap((run) => (run.info.motion ? [run.info.motion.onset] : []));
+  player.seek(onsets.length ? Math.max(0, Math.min(...onsets) - BEFORE_SHAKING) : 0);
+  player.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+}
+
+async function main() {
+  const runs = await Promise.all(Array.from(document.querySelectorAll("script.run-data"), (place) => unpack(place.textContent)));
+  document.body.classList.add(runs.length > 1 ? "compare" : "single");
+  const player = new Player(runs);
+  legend(document.getElementById("legend-list"), runs);
+  connect(player);
+  player.resize();
+  begin(player);
+  expose(player);
+  document.body.classList.add("ready");
+}
+
+main().catch((problem) => {
+  document.getElementById("loading").textContent = `This page cannot be shown: ${problem.message}. It needs a browser of 2023 or later.`;
+  throw problem;
+});

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A recorded run as the page holds it: text -> numbers, and where things are at a time.
+import { Quaternion, Vector3 } from "three";
+
+/** Text made by packing.py -> Run. Throws when it is damaged. */
+export async function unpack(text) {
+  const packed = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const length = new DataView(bytes.buffer).getUint32(0, true);
+  const info = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+  let offset = 4 + length;
+  const arrays = {};
+  for (const { name, shape, step } of info.arrays) {
+    const count = shape.reduce((a, b) => a * b, 1);
+    arrays[name] = decode(bytes.subarray(offset, offset + 4 * count), shape[0], step);
+    offset += 4 * count;
+  }
+  return new Run(info, arrays);
+}
+
+/** Four byte planes of zigzag differences, series after series -> Float64Array, row after row. */
+function decode(planes, rows, step) {
+  const count = planes.length / 4;
+  const width = rows ? count / rows : 0;
+  const values = new Float64Array(count);
+  for (let series = 0, k = 0; series < width; series++) {
+    for (let row = 0, sum = 0; row < rows; row++, k++) {
+      const z = planes[k] | (planes[k + count] << 8) | (planes[k + 2 * count] << 16) | (planes[k + 3 * count] << 24);
+      sum += (z >>> 1) ^ -(z & 1);
+      values[row * width + series] = sum * step;
+    }
+  }
+  return values;
+}
+
+/** Largest k with times[k] <= t, at least 0. */
+export function rowAt(times, t) {
+  let low = 0;
+  let high = times.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/** One run: `info` (title, result, events, names, ...; see player.py) and its arrays. */
+export class Run {
+  constructor(info, arrays) {
+    Object.assign(this, arrays);
+    this.info = info;
+    this.elements = info.elements.length;
+    this.joints = info.joints;
+    this.end = this.time.at(-1);
+    this.position = new Float32Array(3 * this.elements); // at the time of the last call of `at` [m], frame of the ground
+    this.orientation = new Float32Array(4 * this.elements); // x, y, z, w
+    this.joint = { place: new Float32Array(3 * this.joints), load: new Float32Array(this.joints), state: new Uint8Array(this.joints) };
+    this.ground = [0, 0, 0]; // displacement of the ground [m]
+    this.frame = 0;
+  }
+
+  /** Interpolate all elements and joints to a time [s]. Allocates nothing. */
+  at(t) {
+    const k = (this.frame = rowAt(this.time, t));
+    const next = Math.min(k + 1, this.time.length - 1);
+    const weight = next > k ? Math.min(Math.max((t - this.time[k]) / (this.time[next] - this.time[k]), 0), 1) : 0;
+    this.placeElements(k, next, weight);
+    this.placeJoints(k, next, weight);
+    this.moveGround(t);
+  }
+
+  placeElements(k, next, weight) {
+    const { position, orientation, positions, orientations } = this;
+    const a = k * position.length;
+    const b = next * position.length;
+    for (let i = 0; i < position.length; i++) position[i] = positions[a + i] * (1 - weight) + positions[b + i] * weight;
+    const c = k * orientation.length;
+    const d = next * orientation.length;
+    for (let i = 0; i < orientation.length; i += 4) Quaternion.slerpFlat(orientation, i, orientations, c + i, orientations, d + i, weight);
+  }
+
+  placeJoints(k, next, weight) {
+    const { place, load, state } = this.joint;
+    const { a, anchor, loads, position, orientation } = this;
+    for (let j = 0; j < this.joints; j++) {
+      turned(place, 3 * j, anchor, 3 * j, orientation, 4 * a[j]);
+      for (let i = 0; i < 3; i++) place[3 * j + i] += position[3 * a[j] + i];
+      load[j] = loads[k * this.joints + j] * (1 - weight) + loads[next * this.joints + j] * weight;
+      state[j] = this.stateOf(k, j);
+    }
+  }
+
+  /** What has become of a joint by frame k. */
+  stateOf(k, j) {
+    const gone = this.broken[k * this.joints + j];
+    return this.damaged[j] ? STATE.before : gone === 0 ? STATE.whole : gone < this.springs[j] ? STATE.partly : STATE.broken;
+  }
+
+  /** Whether any joint is in a state at any time. */
+  occurs(state) {
+    for (let k = 0; k < this.time.length; k++) for (let j = 0; j < this.joints; j++) if (this.stateOf(k, j) === state) return true;
+    return false;
+  }
+
+  /** A point (Vector3) from the body frame of element k to where it is now [m]; returns it. */
+  placed(k, point) {
+    const [q, p] = [this.orientation.subarray(4 * k), this.position.subarray(3 * k)];
+    return point.applyQuaternion({ x: q[0], y: q[1], z: q[2], w: q[3] }).add({ x: p[0], y: p[1], z: p[2] });
+  }
+
+  /** Corners of element k, now: list of Vector3 [m]. */
+  corners(k) {
+    const [from, to] = [this.vertex_start[k], this.vertex_start[k + 1]];
+    return Array.from({ length: to - from }, (_, i) => this.placed(k, new Vector3().fromArray(this.vertices, 3 * (from + i))));
+  }
+
+  /** Number of joints in a state, now. */
+  count(state) {
+    let found = 0;
+    for (const one of this.joint.state) found += one === state;
+    return found;
+  }
+
+  moveGround(t) {
+    const { dt, start } = this.info.motion ?? {};
+    if (!dt) return;
+    const last = this.displacement.length / 3 - 1;
+    const place = Math.min(Math.max((t - start) / dt, 0), last);
+    const k = Math.min(Math.floor(place), Math.max(last - 1, 0));
+    const next = Math.min(k + 1, last);
+    for (let i = 0; i < 3; i++) {
+      const from = this.displacement[3 * k + i];
+      this.ground[i] = from + (place - k) * (this.displacement[3 * next + i] - from);
+    }
+  }
+}
+
+/** What has become of a joint: numbers that joints.js gives the shader. */
+export const STATE = { whole: 0, partly: 1, broken: 2, before: 3 };
+
+/** out[o..] = vector v[i..] turned by the quaternion q[k..] (x, y, z, w). */
+function turned(out, o, v, i, q, k) {
+  const [x, y, z, w] = [q[k], q[k + 1], q[k + 2], q[k + 3]];
+  const [a, b, c] = [v[i], v[i + 1], v[i + 2]];
+  const tx = 2 * (y * c - z * b);
+  const ty = 2 * (z * a - x * c);
+  const tz = 2 * (x * b - y * a);
+  out[o] = a + w * tx + y * tz - z * ty;
+  out[o + 1] = b + w * ty + z * tx - x * tz;
+  out[o + 2] = c + w * tz + x * ty - y * tx;
+}

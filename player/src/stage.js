@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One run in 3D on its canvas. Frame: x east, y north, z up [m], fixed to the viewer.
+import { DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, Scene, Vector3, WebGLRenderer } from "three";
+import { Ground } from "./ground.js";
+import { House } from "./house.js";
+import { Joints } from "./joints.js";
+
+const MOST_PIXELS = 2; // device pixels per pixel that are drawn at most
+const HORIZON = 0xe9eef0;
+
+/** Draws a run as seen by a shared camera. Throws when the browser has no WebGL. */
+export class Stage {
+  constructor(canvas, run, box) {
+    Object.assign(this, { canvas, run });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.house = new House(run);
+    this.joints = new Joints(run);
+    this.moving = new Group().add(this.house, this.joints, new Ground(box));
+    this.scene = new Scene().add(this.moving, ...lights(box));
+    this.scene.fog = new Fog(HORIZON);
+  }
+
+  /** Fit the canvas to its place on the page. */
+  resize(fov) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.aspect = width / height;
+    const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.joints.resize(height * ratio, fov, ratio);
+  }
+
+  /** Draw the run as it is now. shaken: whether the ground moves before the viewer's eyes. */
+  draw(view, { shaken, joints }) {
+    this.house.update();
+    this.joints.update();
+    this.joints.visible = joints;
+    if (shaken) this.moving.position.fromArray(this.run.ground);
+    else this.moving.position.set(0, 0, 0);
+    view.shape(this.aspect);
+    this.scene.fog.near = view.distance;
+    this.scene.fog.far = view.distance + 45;
+    this.renderer.render(this.scene, view.camera);
+  }
+
+  /** Where a point [m, frame of the ground] is on the page: {x, y} [pixel]. */
+  screen(point, view) {
+    view.shape(this.aspect);
+    const seen = new Vector3(...point).add(this.moving.position).project(view.camera);
+    const place = this.canvas.getBoundingClientRect();
+    return { x: place.left + ((seen.x + 1) / 2) * place.width, y: place.top + ((1 - seen.y) / 2) * place.height };
+  }
+}
+
+/** Soft light from the sky and a sun in the south-east whose shadows reach as far as wreckage does. */
+function lights(box) {
+  const [middle, size] = [box.getCenter(new Vector3()), box.getSize(new Vector3())];
+  const sky = new HemisphereLight(0xffffff, 0xb9ab97, 1.9);
+  const sun = new DirectionalLight(0xfff4e2, 2.1);
+  sun.position.set(13, -5, 17).add(middle);
+  sun.target.position.copy(middle);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(2048, 2048);
+  const half = Math.max(size.x, size.y) / 2 + 7;
+  Object.assign(sun.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 1, far: 60 });
+  Object.assign(sun.shadow, { bias: -0.0006, normalBias: 0.02, radius: 2.5 });
+  return [sky, sun, sun.target];
+}

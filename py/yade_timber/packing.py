@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables of numbers in few bytes, for the player (player/src/run.js is the reader). Needs no YADE.
+
+Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64 text. A number
+is a whole multiple of its array's step: it is off by at most half a step. Each column is stored as differences from row to row,
+signs folded into the lowest bit, and the four bytes of all differences apart: what hardly changes is a run of zeros.
+"""
+import base64
+import json
+import zlib
+
+import numpy as np
+
+LARGEST = 2**30
+"""Largest multiple of a step that is stored. [-]"""
+
+
+def pack(info, arrays):
+    """Base64 text. info: JSON content; arrays: {name: (values (rows, ...), step)}. Raises ValueError for values that do not fit."""
+    header = {**info, "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()]}
+    text = json.dumps(header, allow_nan=False).encode()
+    parts = [len(text).to_bytes(4, "little"), text, *(planes(name, values, step) for name, (values, step) in arrays.items())]
+    return base64.b64encode(zlib.compress(b"".join(parts), 9)).decode()
+
+
+def planes(name, values, step):
+    """The bytes of one array, 4 a number."""
+    whole = np.rint(np.asarray(values, float) / step)
+    if not (np.abs(whole) < LARGEST).all():  # NaN fails, too
+        raise ValueError(f"{name}: numbers must be finite and below {LARGEST * step:g}")
+    columns = whole.astype(np.int64).reshape(len(whole), int(np.prod(whole.shape[1:]))).T
+    change = np.diff(columns, axis=1, prepend=0)
+    folded = np.where(change < 0, -2 * change - 1, 2 * change).astype("<u4")
+    return np.ascontiguousarray(folded).view(np.uint8).reshape(-1, 4).T.tobytes()

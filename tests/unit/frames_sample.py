@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
+import numpy as np
+from yade_timber import frames
+
+FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+FALL = 2.0
+"""When the fall begins; it takes a second. [s]"""
+DURATION = 4.0
+ORIGIN = (5.0, -3.0, 0.0)
+"""Where the middle of the house is. [m]"""
+PARTS = {  # name: (kind, extents, centre from ORIGIN) [m]
+    "ground": ("ground", (40, 40, 1), (0, 0, -0.5)),
+    "base": ("foundation", (4.2, 6.2, 0.3), (0, 0, 0.15)),
+    "column.SW": ("column", (0.12, 0.12, 2.7), (-1.9, -2.9, 1.65)),
+    "column.SE": ("column", (0.12, 0.12, 2.7), (1.9, -2.9, 1.65)),
+    "column.NW": ("column", (0.12, 0.12, 2.7), (-1.9, 2.9, 1.65)),
+    "column.NE": ("column", (0.12, 0.12, 2.7), (1.9, 2.9, 1.65)),
+    "roof": ("roof", (4.2, 6.2, 0.2), (0, 0, 3.1)),
+}
+
+
+def box(extents):
+    return np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * extents
+
+
+def elements():
+    kinds, extents, centres = zip(*PARTS.values())
+    count = len(PARTS)
+    fixed = np.array([kind in ("ground", "foundation") for kind in kinds])
+    return frames.Elements(list(PARTS), list(kinds), ["main"] * count, ["timber"] * count, np.ones(count, int), fixed, np.array(centres) + ORIGIN,
+                           np.tile([1.0, 0, 0, 0], (count, 1)), [box(e) for e in extents], [FACES] * count)
+
+
+def joints():
+    """One at each end of each column; that of the south-west column's foot is damaged from the start."""
+    columns = [2, 3, 4, 5] * 2
+    ends = [-1.35] * 4 + [1.35] * 4
+    count = len(columns)
+    damaged = np.arange(count) == 0
+    return frames.Joints([f"joint{k}" for k in range(count)], ["column_beam"] * count, ["1"] * count, ["south"] * count, np.array(columns),
+                         np.array([1] * 4 + [6] * 4), np.array([[0, 0, z] for z in ends]), np.full(count, 4), damaged, np.full(count, 5880.0))
+
+
+def placements(time, start):
+    """(N, 3) positions and (N, 4) orientations of the elements at a time."""
+    lean = 0.02 * np.sin(2 * np.pi * time) + 1.3 * np.clip(time - FALL, 0, 1) ** 2  # of the columns to the north [rad]
+    position, orientation = start.position.copy(), start.orientation.copy()
+    top = 2.7 * np.array([0, np.sin(lean), np.cos(lean) - 1])
+    for k, kind in enumerate(start.kind):
+        if kind == "column":
+            position[k] += top / 2
+            orientation[k] = np.cos(lean / 2), -np.sin(lean / 2), 0, 0
+        elif kind == "roof":
+            position[k] += top
+    return position, orientation
+
+
+def history():
+    """(columns, rows) with one storey."""
+    time = np.arange(0, DURATION + 0.005, 0.01)
+    drift = 0.02 * np.sin(2 * np.pi * time) + 1.3 * np.clip(time - FALL, 0, 1) ** 2
+    return ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "broken_joints [-]"], np.column_stack([time, drift, 0.3 * drift, 0 * time])
+
+
+def motion():
+    """A second of quiet, then 1 Hz E-W with 20 cm."""
+    time = np.arange(0, DURATION + 0.005, 0.01)
+    way = 0.2 * np.sin(2 * np.pi * time) * (time > 1)
+    return frames.Motion(0.01, 0.0, np.column_stack([-4 * np.pi**2 * way, 0 * way, 0 * way]), np.column_stack([way, 0 * way, 0 * way]))
+
+
+def summary(name):
+    drift = {"ns": 1.3, "ew": 0.39}
+    return {"model": name, "broken": {"total": 7, "damaged_at_start": {"total": 1}}, "joints": {"total": 8}, "snow": False, "tilt_time_s": 2.3,
+            "tilt_direction": "ns", "collapsed": True, "collapse_time_s": 2.9, "peak_drift": {"storey1": drift, "storey2": {"ns": None, "ew": None}}}
+
+
+def run(name="A", until=DURATION):
+    """Frames of a run whose joints break at the top one after the other."""
+    start, times = elements(), np.arange(0, until + 0.025, 0.05)
+    position, orientation = zip(*(placements(t, start) for t in times))
+    broken = np.array([[4 if k == 0 else int(np.clip(20 * (t - FALL) - k, 0, 4)) for k in range(8)] for t in times])
+    breaks = {"time": [FALL + 0.1], "joint": [1], "spring": [0], "cause": ["tension"], "force": [5900.0]}
+    return frames.Frames(f"House {name}: earthquake", f"model{name}_quake", name, "0", start, joints(), times, np.array(position), np.array(orientation),
+                         np.clip(times / 3, 0, 1)[:, None] * np.ones(8), broken, motion=motion(), summary=summary(name), history=history(), breaks=breaks)
+
+
+def write(path, **options):
+    """Save a run as frames.h5 file; returns the run."""
+    made = run(**options)
+    frames.save(path, made)
+    return made

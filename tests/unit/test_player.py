@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""The player's file: what is packed comes out again, small enough, whole, and needs nothing else. Needs no YADE and no browser."""
+import base64
+import json
+import re
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+import frames_sample
+import numpy as np
+import pytest
+from yade_timber import frames, player
+from yade_timber.errors import RunError
+from yade_timber.packing import pack
+
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "make_player.py"
+
+
+def unpack(text):
+    """(info, {name: array}) of a packed text, read as packing.py describes it."""
+    raw = zlib.decompress(base64.b64decode(text))
+    start = 4 + int.from_bytes(raw[:4], "little")
+    info, arrays = json.loads(raw[4:start]), {}
+    for entry in info["arrays"]:
+        count = int(np.prod(entry["shape"]))
+        planes = np.frombuffer(raw, np.uint8, 4 * count, start).reshape(4, count).astype(np.int64)
+        folded = planes[0] + (planes[1] << 8) + (planes[2] << 16) + (planes[3] << 24)
+        change = np.where(folded % 2, -(folded + 1) // 2, folded // 2)
+        rows = entry["shape"][0]
+        arrays[entry["name"]] = (np.cumsum(change.reshape(-1, rows), axis=1).T * entry["step"]).reshape(entry["shape"]) if count else np.empty(entry["shape"])
+        start += 4 * count
+    assert start == len(raw)
+    return info, arrays
+
+
+def flight(count=20, times=60):
+    """A run of elements that tumble up to 100 m away, with quaternions whose signs jump."""
+    random = np.random.default_rng(1)
+    made = frames_sample.run()
+    position = np.cumsum(random.normal(size=(times, len(made.elements.name), 3)), axis=0) * 5
+    turns = random.normal(size=(times, len(made.elements.name), 4))
+    made.time, made.position = np.arange(times) * 0.05, position
+    made.orientation = turns / np.linalg.norm(turns, axis=2, keepdims=True)
+    made.load, made.broken = np.zeros((times, 8)), np.zeros((times, 8))
+    return made
+
+
+def turned_by(a, b):
+    """Angles between unit quaternions. [degree]"""
+    return np.degrees(2 * np.arccos(np.clip(np.abs(np.sum(a * b, axis=-1)), 0, 1)))
+
+
+def test_positions_and_orientations_come_out_again():
+    run = flight()
+    _, arrays = unpack(player.packed("x", run))
+    assert np.linalg.norm(arrays["positions"] - run.position, axis=2).max() < 0.45e-3  # half a step in each direction
+    turns = arrays["orientations"][..., [3, 0, 1, 2]]
+    assert turned_by(turns / np.linalg.norm(turns, axis=2, keepdims=True), run.orientation).max() < 0.005
+
+
+def test_orientations_do_not_jump_between_frames():
+    _, arrays = unpack(player.packed("x", flight()))
+    turns = arrays["orientations"]
+    assert (np.sum(turns[1:] * turns[:-1], axis=2) >= -1e-9).all()
+
+
+@pytest.mark.parametrize("values", [np.zeros((0, 3)), np.zeros((1, 2)), np.array([[-1.0, 2**29], [2**29, -(2**29)]]), np.arange(-7, 7)])
+def test_whole_numbers_come_out_exactly(values):
+    info, arrays = unpack(pack({"x": 1}, {"before": ([3], 1), "values": (values, 1), "after": ([[4], [5]], 0.5)}))
+    assert info["x"] == 1 and np.array_equal(arrays["values"], values) and arrays["before"] == [3] and np.array_equal(arrays["after"], [[4], [5]])
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 1e9])
+def test_numbers_that_do_not_fit_are_refused(bad):
+    run = frames_sample.run()
+    run.position[3, 2, 1] = bad
+    with pytest.raises(RunError, match="here.h5: positions: numbers must be finite and below"):
+        player.packed("here.h5", run)
+
+
+def test_a_long_run_stays_below_8_megabytes(tmp_path):
+    """40 s of 191 elements and 294 joints, every number with noise in it: no real run is as large."""
+    random = np.random.default_rng(2)
+    run, times, count = frames_sample.run(), 801, 191
+    for name in ("name", "kind", "group", "material", "vertices", "faces"):
+        setattr(run.elements, name, (getattr(run.elements, name) * 28)[:count])
+    for name in ("name", "kind", "storey", "side"):
+        setattr(run.joints, name, (getattr(run.joints, name) * 37)[:294])
+    for name in ("a", "b", "anchor", "springs", "damaged", "strength"):
+        setattr(run.joints, name, np.concatenate([getattr(run.joints, name)] * 37)[:294])
+    run.time = np.arange(times) * 0.05
+    run.position = np.cumsum(random.normal(size=(times, count, 3)), axis=0) * 0.02
+    turns = np.cumsum(random.normal(size=(times, count, 4)), axis=0) * 0.01 + [1, 0, 0, 0]
+    run.orientation = turns / np.linalg.norm(turns, axis=2, keepdims=True)
+    run.load, run.broken = random.uniform(size=(times, 294)), random.integers(0, 5, (times, 294))
+    frames.save(tmp_path / "frames.h5", run)
+    assert player.make(tmp_path / "frames.h5", tmp_path / "player.html").stat().st_size < 8e6
+
+
+def test_the_page_is_whole_and_needs_nothing_else(tmp_path):
+    frames_sample.write(tmp_path / "frames.h5")
+    page = player.make(tmp_path / "frames.h5", tmp_path / "player.html").read_text(encoding="utf-8")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["frames.h5", "player.html"]
+    assert not re.search(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=|@import|url\(", page.split("<script>")[0])
+    assert not re.search(r"<!--(?:title|style|data|script)-->", page) and page.count("</script>") == 2
+    assert "MIT License" in page and "three.js authors" in page
+
+
+def test_events_are_told_in_order():
+    texts = [f"{event['time']:.2f} {event['text']}" for event in player.events(frames_sample.run())]
+    assert [text[:24] for text in texts] == sorted(text[:24] for text in texts)
+    expected = ["1.01 the shaking begins", "damage begins", "2.10 first joint spring breaks: column-beam, storey 1, south", "heavy damage", "2.30 the house leans N-S", "2.90 collapse"]
+    assert all(any(part in text for text in texts) for part in expected), texts
+    assert player.onset(frames_sample.motion()) == pytest.approx(1.01)
+
+
+def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():
+    run = frames_sample.run(until=1.5)
+    run.summary = run.history = run.breaks = run.motion = None
+    info, arrays = unpack(player.packed("x", run))
+    assert info["result"] == "Not ended yet: the first 1.5 s" and info["events"] == [] and arrays["time"][-1] == pytest.approx(1.5)
+
+
+def test_no_frames_and_too_many_runs(tmp_path):
+    run = frames_sample.run()
+    run.time = []
+    with pytest.raises(RunError, match="no frames in it"):
+        player.packed("empty.h5", run)
+    with pytest.raises(RunError, match="3 runs: the player shows one, or compares two"):
+        player.make(["a", "b", "c"], tmp_path / "x.html")
+
+
+def call(*arguments):
+    return subprocess.run([sys.executable, SCRIPT, *map(str, arguments)], capture_output=True, text=True)
+
+
+def test_script_makes_pages_of_one_and_two_runs(tmp_path):
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+        frames_sample.write(tmp_path / name / "frames.h5", name=name)
+    assert call(tmp_path / "first").returncode == 0 and (tmp_path / "first" / "player.html").exists()
+    done = call(tmp_path / "first", tmp_path / "second" / "frames.h5")
+    page = tmp_path / "first" / "compare_with_second.html"
+    assert done.returncode == 0 and str(page) in done.stdout
+    assert page.read_text(encoding="utf-8").count('class="run-data"') == 2
+    assert call(tmp_path / "first", "--out", tmp_path / "other.html").returncode == 0 and (tmp_path / "other.html").exists()
+
+
+def test_script_says_what_is_wrong_in_a_line(tmp_path):
+    (tmp_path / "frames.h5").write_text("no HDF5")
+    for run, word in ((tmp_path / "none", "no such file"), (tmp_path, "cannot read")):
+        done = call(run)
+        assert done.returncode == 1 and word in done.stderr and done.stderr.count("\n") == 1
+    frames_sample.write(tmp_path / "frames.h5")
+    done = call(tmp_path, "--out", tmp_path / "no" / "such" / "folder.html")
+    assert done.returncode == 1 and "cannot write it" in done.stderr and done.stderr.count("\n") == 1

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""The player in a real browser: it shows what the data say, is worked by mouse and keys, fits a phone, and needs no network."""
+import browser
+import frames_sample
+import numpy as np
+import pytest
+from browser import errors, picture, resize, wait
+from yade_timber import frames, player
+
+WIDE, PHONE = (1000, 640), (360, 740)
+HEAD, FOOT = [0, 0, 1.1], [0, 0, -1.1]  # of a column, near its ends [m]
+ROOF_IS_DARK = 0.5  # brightest channel of its pixels; sky and ground are above 0.7
+
+
+@pytest.fixture(scope="module")
+def driver():
+    with browser.chromium() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """Addresses of a page with one run, and of one with two, of which the second ends earlier; and the runs."""
+    folder = tmp_path_factory.mktemp("player")
+    runs = [frames_sample.write(folder / "a.h5", name="A"), frames_sample.write(folder / "b.h5", name="B", until=3.0)]
+    player.make(folder / "a.h5", folder / "one.html")
+    player.make([folder / "a.h5", folder / "b.h5"], folder / "two.html")
+    return f"file://{folder}/one.html", f"file://{folder}/two.html", runs
+
+
+def load(driver, address, size=WIDE, motion=True, phone=False):
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "no-preference" if motion else "reduce"}]})
+    resize(driver, *size, phone)
+    driver.get("about:blank")
+    driver.get(address)
+    wait(lambda: driver.execute_script("return !!window.player"))
+
+
+def ask(driver, expression):
+    return driver.execute_script(f"return {expression}")
+
+
+def press(driver, *keys):
+    from selenium.webdriver.common.action_chains import ActionChains
+
+    ActionChains(driver).send_keys(*keys).perform()
+
+
+def pixel(driver, name, run=0, point=(0, 0, 0)):
+    """RGB where a point of an element is drawn."""
+    place = ask(driver, f"player.screen('{name}', {run}, {list(point)})")
+    return picture(driver)[round(place["y"]), round(place["x"])]
+
+
+def is_wood(color):
+    """Whether red is well above blue: neither sky nor ground, roof or foundation."""
+    return color[0] - color[2] > 0.2
+
+
+def recorded(run, name, time, point=(0, 0, 0)):
+    """Where a point of an element is at the time of a frame. [m]"""
+    k, frame = run.elements.name.index(name), run.at(time)
+    return frames.placed([point], run.position[frame, k], run.orientation[frame, k])[0]
+
+
+def between(run, name, time):
+    """Position of an element, linear between the recorded frames. [m]"""
+    k = run.elements.name.index(name)
+    return [np.interp(time, run.time, run.position[:, k, axis]) for axis in range(3)]
+
+
+@pytest.fixture(scope="module")
+def one(driver, pages):
+    """The page with one run, opened at 1.5 s."""
+    load(driver, pages[0] + "#t=1.5", motion=False)
+    assert ask(driver, "player.time") == 1.5 and not ask(driver, "player.playing")
+    return driver
+
+
+@pytest.fixture
+def still(one):
+    """The same, seen from the front, at 1.5 s."""
+    ask(one, "document.getElementById('camera-front').click()")
+    ask(one, "player.seek(1.5)")
+    return one
+
+
+def test_the_page_shows_what_the_data_say(still, pages):
+    run = pages[2][0]
+    for time in (0.0, 1.5, 2.5125, 2.987, 4.0):
+        ask(still, f"player.seek({time})")
+        for name in ("roof", "column.NE", "base"):
+            assert ask(still, f"player.position('{name}')") == pytest.approx(between(run, name, time), abs=1e-3)
+    for time in (2.3, 2.65, 2.95):
+        ask(still, f"player.seek({time})")
+        assert ask(still, f"player.position('column.NE', 0, {HEAD})") == pytest.approx(recorded(run, "column.NE", time, HEAD), abs=1e-3)
+
+
+def test_the_house_is_drawn_where_the_data_say(still):
+    ask(still, "player.seek(0)")
+    where = ask(still, "player.screen('roof')")
+    assert pixel(still, "roof").max() < ROOF_IS_DARK
+    north, south = (ask(still, f"player.screen('column.{side}')") for side in ("NE", "SE"))
+    assert north["x"] > where["x"] > south["x"] and where["y"] < north["y"]  # from the east
+    ask(still, "player.seek(4)")
+    assert pixel(still, "roof").max() < ROOF_IS_DARK
+    assert picture(still)[round(where["y"]), round(where["x"])].max() > 0.7  # it is there no more
+    ask(still, "player.seek(2.65)")
+    assert is_wood(pixel(still, "column.NE", 0, HEAD)) and is_wood(pixel(still, "column.NE", 0, FOOT))  # turned as it should be
+    press(still, "2")
+    wait(lambda: ask(still, "player.screen('column.NE').x < player.screen('column.NW').x"))  # from the north
+    assert errors(still) == []
+
+
+def test_broken_joints_are_marked(still):
+    """Orange crosses at the columns' ends, which are not there without joints."""
+    box = ask(still, "document.querySelector('canvas.view').getBoundingClientRect().toJSON()")
+
+    def orange():
+        stage = picture(still)[int(box["top"]) : int(box["bottom"]), : int(box["right"]) - 60]  # without the compass
+        red, green, blue = np.moveaxis(stage, -1, 0)
+        return int(((red > 0.75) & (green > 0.3) & (green < 0.45) & (blue < 0.15)).sum())
+
+    ask(still, "player.seek(1)")
+    assert orange() == 0
+    ask(still, "player.seek(4)")
+    marked = orange()
+    press(still, "j")
+    wait(lambda: orange() == 0)
+    assert marked > 50  # 7 crosses
+    press(still, "j")
+
+
+def test_keys(still):
+    from selenium.webdriver.common.keys import Keys
+
+    for key, time in ((Keys.END, 4.0), (Keys.HOME, 0.0), (Keys.ARROW_RIGHT, 0.5), (".", 0.55), (",", 0.5), (Keys.ARROW_LEFT, 0.0)):
+        press(still, key)
+        assert ask(still, "player.time") == pytest.approx(time), key
+    press(still, Keys.PAGE_DOWN)  # the next event
+    assert ask(still, "player.time") > 0
+    press(still, " ")
+    wait(lambda: ask(still, "document.getElementById('play').getAttribute('aria-label')") == "Pause")
+    wait(lambda: ask(still, "player.time") > 1.1)
+    press(still, " ")
+    assert not ask(still, "player.playing")
+    for key, name in (("3", "free"), ("1", "front"), ("2", "side"), ("c", "free"), ("c", "front")):
+        press(still, key)
+        wait(lambda: ask(still, f"document.getElementById('camera-{name}').getAttribute('aria-pressed')") == "true")
+    press(still, "?")
+    assert ask(still, "document.getElementById('help').open")
+    press(still, Keys.ESCAPE)
+    assert not ask(still, "document.getElementById('help').open")
+    assert errors(still) == []
+
+
+def test_keys_turn_the_house(still):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.keys import Keys
+
+    ask(still, "player.seek(0)")
+    before, middle = ask(still, "player.screen('column.NE')"), ask(still, "player.screen('roof')")
+    ActionChains(still).key_down(Keys.SHIFT).send_keys(Keys.ARROW_RIGHT).key_up(Keys.SHIFT).perform()
+    wait(lambda: abs(ask(still, "player.screen('column.NE')")["x"] - before["x"]) > 3)
+    assert ask(still, "player.screen('roof')")["x"] == pytest.approx(middle["x"], abs=15)  # about its middle: the wreck lies farther north
+    assert ask(still, "player.time") == 0
+
+
+def test_the_ground_moves_or_stands_still(still):
+    """A quarter of a second into a swing of 20 cm to the east, seen from the north: to the left."""
+    ask(still, "document.getElementById('camera-side').click()")
+    ask(still, "player.seek(1.25)")
+    moved = ask(still, "player.screen('base')")["x"]
+    press(still, "g")
+    wait(lambda: ask(still, "player.screen('base')")["x"] - moved > 3)
+    assert ask(still, "player.position('base')") == pytest.approx([5, -3, 0.15], abs=1e-3)
+    press(still, "g")
+
+
+def test_curves_events_and_slider_go_to_a_time(still):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    curves = still.find_element(By.CLASS_NAME, "curves")
+    left, width = 42, curves.size["width"]
+    ActionChains(still).move_to_element_with_offset(curves, round(left + 0.75 * (width - left) - width / 2), 0).click().perform()
+    assert ask(still, "player.time") == pytest.approx(3.0, abs=0.02)
+    events = still.find_elements(By.CSS_SELECTOR, ".events button")
+    events[-1].click()
+    assert ask(still, "player.time") == pytest.approx(2.9)
+    assert "collapse" in events[-1].text
+    wait(lambda: "past" in events[-1].get_attribute("class"))
+    ask(still, "(e => { e.value = 0.8; e.dispatchEvent(new Event('input')); })(document.getElementById('scrub'))")
+    assert ask(still, "player.time") == pytest.approx(0.8)
+    assert "of 8 joints broken" in still.find_element(By.CLASS_NAME, "now").text
+    assert "collapses at 2.9 s" in still.find_element(By.CLASS_NAME, "result").text
+
+
+def test_every_control_has_a_name_and_no_network_is_used(still):
+    nameless = """[...document.querySelectorAll('button, input, select, canvas.view')].filter(
+        (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.labels?.[0]?.textContent.trim())).length"""
+    assert ask(still, nameless) == 0
+    assert ask(still, "performance.getEntriesByType('resource').length") == 0
+
+
+def check_fits(driver):
+    """Nothing is wider than the phone, and the controls stay in sight."""
+    assert ask(driver, "document.documentElement.scrollWidth") <= PHONE[0]
+    box = ask(driver, "document.getElementById('transport').getBoundingClientRect().toJSON()")
+    assert box["left"] >= 0 and box["right"] <= PHONE[0] and box["bottom"] <= PHONE[1] + 1
+    outside = "[...document.querySelectorAll('#transport *')].filter((e) => e.getBoundingClientRect().right > innerWidth + 1).length"
+    assert ask(driver, outside) == 0
+
+
+def test_it_fits_a_phone(still):
+    resize(still, *PHONE, phone=True)
+    wait(lambda: ask(still, "innerWidth") == PHONE[0])
+    check_fits(still)
+    wait(lambda: pixel(still, "roof").max() < ROOF_IS_DARK)
+    small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.getBoundingClientRect().height < 36).length"
+    assert ask(still, small) == 0
+
+
+def test_it_plays_by_itself_unless_the_user_wants_no_motion(driver, pages):
+    load(driver, pages[0], PHONE, motion=False)
+    assert not ask(driver, "player.playing")
+    load(driver, pages[0], PHONE, motion=True)
+    assert ask(driver, "player.playing || player.time > 0")
+    assert errors(driver) == []
+
+
+def test_two_runs_in_step(driver, pages):
+    load(driver, pages[1] + "#t=2.5", motion=False)
+    for time in (2.5, 2.875, 3.6):
+        ask(driver, f"player.seek({time})")
+        for k, run in enumerate(pages[2]):
+            assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    ask(driver, "player.seek(1)")
+    first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
+    assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
+    assert pixel(driver, "roof", 0).max() < ROOF_IS_DARK and pixel(driver, "roof", 1).max() < ROOF_IS_DARK
+
+    resize(driver, *PHONE, phone=True)
+    wait(lambda: ask(driver, "innerWidth") == PHONE[0])
+    check_fits(driver)
+    first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
+    assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
+    assert second["y"] < ask(driver, "document.getElementById('transport').getBoundingClientRect().top")
+    assert errors(driver) == []
