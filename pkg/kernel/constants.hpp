@@ -7,6 +7,10 @@ namespace timber {
 /// Rounding radius as a share of the shortest edge (paper, section 2.2). [-]
 constexpr double radiusShare = 0.10;
 
+/// Admissible largest extent of a polyhedron. [m] Products of three lengths, squared, must neither overflow nor vanish; no
+/// element of a house comes near either end.
+constexpr double smallestSize = 1e-6, largestSize = 1e6;
+
 /// Points closer to a plane than this share of the polyhedron's size lie in it. [-]
 /// Larger: single-precision vertices still make planar faces; smaller: nearly flat corners are kept as corners.
 constexpr double planarShare = 1e-6;

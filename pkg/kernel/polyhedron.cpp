@@ -35,6 +35,14 @@ namespace {
 		return (high - low).maxCoeff();
 	}
 
+	void refuseBadSize(double extent)
+	{
+		if (extent == 0 || (smallestSize <= extent && extent <= largestSize)) return; // 0: refuseBadPoints says more
+		std::ostringstream what;
+		what << "the vertices extend over " << extent << " m: a polyhedron has " << smallestSize << " to " << largestSize << " m";
+		throw PolyhedronError(what.str());
+	}
+
 	void refuseBadPoints(const std::vector<Vec3>& points, double tolerance)
 	{
 		for (size_t k = 0; k < points.size(); ++k)
@@ -207,6 +215,7 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 	for (size_t k = 0; k < points.size(); ++k)
 		if (!points[k].allFinite()) throw PolyhedronError("vertex " + std::to_string(k) + " is not finite: " + text(points[k]));
 	if (points.size() < 4) throw PolyhedronError("a polyhedron has at least 4 vertices, got " + std::to_string(points.size()));
+	refuseBadSize(size(points));
 	refuseBadPoints(points, planarShare * size(points));
 	for (double share = planarShare; share < warpShare; share *= 10)
 		try {

@@ -42,7 +42,8 @@ struct Polyhedron {
 
 	/// Polyhedron whose corners are exactly these points [m].
 	/// Points nearly in a plane make one face (planarShare; up to warpShare where the faces would not close otherwise).
-	/// Throws PolyhedronError: fewer than 4 points, NaN, two equal, all in a plane, one that is no corner of the hull.
+	/// Throws PolyhedronError: fewer than 4 points, NaN, an extent outside smallestSize ... largestSize, two equal, all in a
+	/// plane, one that is no corner of the hull.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
 	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if empty, flat or unbounded.
 	static Polyhedron fromHalfSpaces(const std::vector<HalfSpace>& planes);

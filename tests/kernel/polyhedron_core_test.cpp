@@ -177,6 +177,8 @@ TEST(Refusals, SayWhatIsWrong)
 	expectRefusal({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 0.5, 2, 0 } }, "in one plane");
 	expectRefusal({ { 0, 0, 0 }, { 1, 1, 1 }, { 2, 2, 2 }, { 3, 3, 3 } }, "in one plane");
 	expectRefusal({ { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }, "same point");
+	for (const double scale : { 1e-7, 2e6, 1e200, 1e308 }) // found by fuzzing: products of lengths overflowed
+		expectRefusal(boxVertices(Vec3(1, 1, 0.5) * scale), "a polyhedron has 1e-06 to 1e+06 m");
 }
 
 TEST(Refusals, PointsThatAreNoCorners)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Measured limits of the time step: scenes disturbed a little, at steps below and above the limit that `yt.stable_dt` predicts."""
+import numpy as np
+import yade.wrapper as yw
+import yade_timber as yt
+from yade_timber import scenario, scene
+
+O = yw.Omega()
+
+SETTLING = 2000
+"""Steps of SETTLING_DT before the disturbance."""
+SETTLING_DT = 2e-5
+NUDGE = 1e-6
+"""Size of the disturbance, small enough for contacts to stay closed [m/s, rad/s]."""
+STEPS = 400
+GROWTH = 1e3
+"""Kinetic energy over that of the disturbance that counts as unstable: a stable scene only passes energy on between its modes [-]."""
+JOINT_FACTOR = 1000.0
+"""How much stiffer the joints of the stiff house are [-]."""
+
+
+def hung_block(dt, **options):
+    """A cube on four springs: joints alone."""
+    O.reset()
+    held = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
+    cube = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.3)))
+    O.dt, O.engines = dt, yt.engines(gravity=(0, 0, 0), **options)
+    yt.connect(held, cube, [(x, y, 0.2) for x in (-0.1, 0.1) for y in (-0.1, 0.1)], strength=1e12)
+
+
+def stack(dt, **options):
+    """Three blocks on each other: contacts alone."""
+    O.reset()
+    O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
+    for k in range(3):
+        O.bodies.append(yt.box((0.3, 0.25 - 0.05 * (k % 2), 0.2), (0, 0, 0.1 + 0.2 * k)))
+    O.dt, O.engines = dt, yt.engines(**options)
+
+
+def house(dt, **options):
+    """House B under its own weight."""
+    scenario.build(scenario.Scenario("limit", "B", dt=dt, options=options))
+
+
+def stiff_house(dt, **options):
+    """House B with joints JOINT_FACTOR times as stiff and as strong."""
+    house(dt, **options)
+    for joint in scene.find_engine(yw.JointEngine).joints:
+        joint.kn, joint.ks, joint.strength = (JOINT_FACTOR * value for value in (joint.kn, joint.ks, joint.strength))
+
+
+def settled(build, **options):
+    """Build a scene and let it come to rest at a small step; returns the predicted limit [s]."""
+    build(SETTLING_DT, **options)
+    for _ in range(SETTLING):
+        O.step()
+    return yt.stable_dt(1.0)
+
+
+def disturb(seed=0):
+    """Add a small random velocity and spin to every free body; returns the kinetic energy of the disturbance [J]."""
+    random = np.random.default_rng(seed)
+    energy = 0.0
+    for body in O.bodies:
+        if body.dynamic:
+            nudge = NUDGE * random.normal(size=6)
+            yt.set_velocity(body, nudge[:3], nudge[3:])
+            energy += (body.state.mass * body.state.vel.squaredNorm() + body.state.angMom.dot(body.state.angVel)) / 2
+    return energy
+
+
+def is_stable(build, dt, **options):
+    """Whether the settled, disturbed scene keeps the energy of the disturbance for STEPS steps of dt [s]."""
+    settled(build, **options)
+    before = disturb()
+    O.dt = dt
+    try:
+        for _ in range(STEPS):
+            O.step()
+    except RuntimeError:  # the health check
+        return False
+    return yt.energy()["kinetic"] <= GROWTH * before
+
+
+def measured_limit(build, low, high, tolerance=0.02, **options):
+    """Largest stable step between a stable `low` and an unstable `high` by bisection, to a relative tolerance [s]."""
+    while high > (1 + tolerance) * low:
+        middle = np.sqrt(low * high)
+        low, high = (middle, high) if is_stable(build, middle, **options) else (low, middle)
+    return low
