@@ -21,8 +21,7 @@ from .. import checkpoint, runner
 from ..cli import QUIET_DURATION, Output, prepare_folder
 from ..errors import RunError
 from ..files import write_text
-from ..house import HouseError
-from ..house.overlay import changed_house
+from ..house import HouseError, changed_house
 from ..motion import MotionRequest, RecordError
 from ..scenario import DEFAULT_DT, MAX_DT, Scenario
 from .collect import END
@@ -73,7 +72,7 @@ def _house(row, folder):
 
 
 def main(argv):
-    """Run the row that yade-batch names in YADE_BATCH, or `TABLE:LINE`; results go to FOLDER/<name>. Ends the process.
+    """Run the row that yade-batch names in YADE_BATCH, or `TABLE:LINE` (`TABLE:NAME`); results go to FOLDER/<name>. Ends the process.
 
     argv: [script, TABLE:LINE, FOLDER]; yade-batch's jobs have only the script, and FOLDER in YADE_TIMBER_BATCH.
     Status 0: done, now or before. 1: failed, and recorded. 75: another process is at it. 128 + n: stopped by a signal.
@@ -93,13 +92,13 @@ def main(argv):
 
 
 def row_at(place):
-    """Row of 'TABLE:LINE'. Raises BatchError."""
-    table, _, line = place.rpartition(":")
-    if not table or not line.isdigit():
-        raise BatchError(f"'{place}': give TABLE:LINE, or start this script by yade-batch")
-    row = next((row for row in read_table(table) if row.line == int(line)), None)
+    """Row of 'TABLE:LINE' or 'TABLE:NAME'. Raises BatchError."""
+    table, _, key = place.rpartition(":")
+    if not table:
+        raise BatchError(f"'{place}': give TABLE:LINE and a folder, or start this script by yade-batch")
+    row = next((row for row in read_table(table) if key in (row.name, str(row.line))), None)
     if row is None:
-        raise BatchError(f"{table}: line {line} holds no run")
+        raise BatchError(f"{table}: no run in line {key}, and none of that name")
     return row
 
 
@@ -126,7 +125,9 @@ def finish(row, folder):
         print(f"{row.name}: stopped by {signal.Signals(stop.args[0]).name}, goes on when the batch is run again", file=sys.stderr)
         return 128 + stop.args[0]
     except (RunError, RecordError, HouseError) as problem:
-        return _record(row, folder, " ".join(str(problem).split()))
+        said = " ".join(str(problem).split())
+        place = f"{row.table.name}:{row.line}"
+        return _record(row, folder, said if said.startswith(place) else f"{place}: {said}")
     except Exception as problem:  # a bug, full disk, no memory: this run's loss, not the batch's
         return _record(row, folder, f"{type(problem).__name__}: {problem}")
     return _record(row, folder)
