@@ -92,15 +92,21 @@ def _require_item(node, step, key, where):
 # --- braces and joints ------------------------------------------------------------------------------------------------
 
 
-def _add_brace(data, name, where):
+def brace_parts(name, where="brace"):
+    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises HouseError."""
     match = _BRACE.fullmatch(name)
     if match is None:
         raise HouseError(f"{where}: '{name}': a brace is named like main.brace1.EW.y0.3-4 or main.brace2.NS.x8.6-7")
-    structure, storey, wall, at, foot, head = match.groups()
+    structure, storey, wall, *nodes = match.groups()
+    return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes)
+
+
+def _add_brace(data, name, where):
+    structure, storey, along, at, foot, head = brace_parts(name, where)
     if structure not in data["structures"]:
         raise HouseError(f"{where}: {name}: unknown structure '{structure}'; known: {', '.join(data['structures'])}")
-    line = {"along": "x" if wall == "EW.y" else "y", "at": float(at), "storeys": int(storey)}
-    runs = Items([Items([float(foot), float(head)], where, [where] * 2)], where, [where])
+    line = {"along": along, "at": at, "storeys": storey}
+    runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
     table = data["structures"][structure].setdefault("braces", Table(where=where))
     lines = table.setdefault("lines", Items((), where))
     lines.append(Table({**line, "runs": runs}, where, dict.fromkeys([*line, "runs"], where)))
