@@ -79,7 +79,7 @@ def fit(curve):
 
 
 def plot(table, snows, path):
-    figure, axes = plt.subplots(1, len(snows), figsize=(5.6 * len(snows), 4.6), sharey=True, squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True)
     for axis, snow in zip(axes[0], snows):
         for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
@@ -89,7 +89,7 @@ def plot(table, snows, path):
         axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks], rotation=60, fontsize=8)
         axis.set_xticks([], minor=True)
         axis.grid(alpha=0.3)
-        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.23), ncols=3, fontsize=8, frameon=False)
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8, frameon=False)
     axes[0, 0].set_ylabel("part of the runs in which the house collapses")
     figure.suptitle(f"Points: {max(point['runs'] for point in table)} motions each, bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, largest likelihood", fontsize=9)
     save(figure, path)
