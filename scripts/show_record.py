@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measure a strong-motion record and plot its motion and its 5 % response spectra, as PNG and PDF.
 
-    scripts/show_record.py [FILE_OR_PREFIX] [--component ns] [--units gal] [--angle 0] [--scale 1] [--out FILE.png]
+    scripts/show_record.py [--record FILE_OR_PREFIX] [--azimuth 30] [--start 10] [--pga 400] [--out FILE.png]
 
-Without a record: the synthetic motion that the package ships. Needs no YADE.
+The options are those of the run scripts: what is shown is what would shake the house. Without a record: the synthetic
+motion that the package ships. Needs no YADE.
 """
 
 import argparse
@@ -20,7 +21,8 @@ from yade_timber import record_plot  # noqa: E402
 def print_measures(motion, corner):
     """One line per measure; peaks for each component and for the horizontal vector."""
     print(f"{motion.name}: {motion.source}")
-    print(f"{len(motion)} samples, {motion.dt:g} s, {motion.duration:g} s")
+    begins = f", from {motion.begins:%Y-%m-%d %H:%M:%S}" if motion.begins else ""
+    print(f"{len(motion)} samples every {motion.dt:g} s, {motion.duration:g} s{begins}")
     print(f"{'':22}{'NS':>10}{'EW':>10}{'UD':>10}{'horizontal vector':>20}")
     for label, measure in (("PGA [gal]", gm.pga), ("PGV [cm/s]", gm.pgv), ("PGD [cm]", gm.pgd)):
         extra = {} if measure is gm.pga else {"corner": corner}
@@ -32,27 +34,28 @@ def print_measures(motion, corner):
     intensity = gm.jma_intensity(motion)
     print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
     print(f"Duration D5-95 [s]    {gm.significant_duration(motion):.2f}")
+    print(f"Straight lines between the samples miss at most {100 * gm.interpolation_error(motion):.2g} % of the PGA (--resample: nothing)")
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("record", nargs="?", help="file, three files separated by commas, or prefix of three files")
-    parser.add_argument("--component", help="ns, ew, ud or azimuth, where the file does not say")
-    parser.add_argument("--units", help="gal, m/s2 or g, where the file does not say")
-    parser.add_argument("--angle", type=float, default=0.0, help="azimuth of the record's north in the house's frame")
-    parser.add_argument("--scale", type=float, default=1.0, help="factor on the acceleration")
-    parser.add_argument("--highpass", type=float, default=0.05, help="corner for PGV and PGD [Hz]; 0: none")
+    parser.add_argument("positional", nargs="?", metavar="RECORD", help="the same as --record")
+    gm.add_motion_options(parser)
+    parser.add_argument("--dt", type=float, default=2e-4, help="time step of a run [s], for --resample (default %(default)g)")
+    parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD are taken [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=Path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
-    return parser.parse_args()
+    options = parser.parse_args()
+    options.record = options.record or options.positional
+    return options
 
 
 def main():
     options = arguments()
-    corner = options.highpass or None
+    corner = options.corner or None
     try:
-        motion = gm.read_motion(options.record or gm.DEFAULT_RECORD, options.component, options.units, options.angle)
-        motion = gm.scaled(motion, options.scale)
+        request = gm.motion_request(options)
+        motion = gm.scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
         out = options.out or Path(f"{motion.name}.png")
         written = record_plot.write(out.with_suffix(""), motion, corner)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .errors import RunError
 from .house import load_house, shipped_houses
-from .motion import default_motion, read_motion
+from .motion import add_motion_options, motion_request
 from .scenario import DEFAULT_DT, MAX_DT, Scenario
 
 SNOW_DEPTH = 1.0
@@ -44,8 +44,6 @@ def parser(script):
     made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description="Results go to results/<script name>/ unless --out says otherwise.")
     made.add_argument("--duration", type=float, metavar="S", help=f"simulated time [s] (default: the motion's; without an earthquake {QUIET_DURATION:g})")
     made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], at most {MAX_DT:g} (default {DEFAULT_DT:g})")
-    made.add_argument("--record", metavar="FILE_OR_PREFIX", help="recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
-    made.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion (default 1)")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true", help="go on from the last checkpoint in the folder of the results, if there is one")
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
@@ -53,6 +51,7 @@ def parser(script):
     made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
     made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
     made.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    add_motion_options(made)
     return made
 
 
@@ -77,15 +76,16 @@ def read_house(argv):
     """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
     given = house_parser().parse_args(_joined(argv[1:]))
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
-    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None, depth, "add --quake or --record FILE")
+    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None or given.seed is not None, depth, "add --quake or --record FILE")
 
 
 def _run(given, name, house, earthquake, depth, remedy):
     """(Scenario, Output) of a run called `name`. remedy: what to do when there is no earthquake to scale."""
     _check_numbers(given)
-    motion = _motion(given, earthquake, remedy)
+    request = motion_request(given)
+    motion = _motion(request, earthquake, given.dt, remedy)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
-    scale = 1.0 if given.scale is None else given.scale
+    scale = 1.0 if request.scale is None else request.scale
     scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
     folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
@@ -117,22 +117,20 @@ def _check_numbers(given):
     """Ranges of all numbers; NaN is in none of them."""
     if not 0 < given.dt <= MAX_DT:
         raise RunError(f"--dt {given.dt:g}: the time step must be > 0 and at most {MAX_DT:g} s, beyond which contacts are unstable")
-    for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--scale", given.scale, "factor on the ground motion"),
-                                ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
+    for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
         if value is not None and not 0 <= value < math.inf:
             raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")
 
 
-def _motion(given, earthquake, remedy):
+def _motion(request, earthquake, dt, remedy):
     """GroundMotion or None. What a reader has to warn of becomes a line on standard error."""
     if not earthquake:
-        for option, value in (("--record", given.record), ("--scale", given.scale)):
-            if value is not None:
-                raise RunError(f"{option} {value}: this run has no earthquake; {remedy}")
+        for option in request.given():
+            raise RunError(f"--{option}: this run has no earthquake; {remedy}")
         return None
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")
-        motion = default_motion() if given.record is None else read_motion(given.record)
+        motion = request.motion(dt)
     for note in notes:
         print(f"note: {note.message}", file=sys.stderr)
     return motion

@@ -14,6 +14,7 @@ import yade.wrapper as yw
 
 from . import _plugin, host, scene
 from .files import write_text
+from .motion import interpolation_error
 
 SIDES = ("north", "south", "east", "west", "inside")
 RESIDUAL_WINDOW = 1.0
@@ -123,12 +124,16 @@ def energy_balance(terms):
 
 
 def record_of(scenario):
-    """The part `record`: the ground motion as applied, or None."""
+    """The part `record`: the ground motion as applied, or None.
+
+    interpolation_error: of straight lines between the samples, in parts of the PGA; 0 for samples at every step.
+    """
     motion = scenario.motion
     if motion is None:
         return None
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
-    return {"source": motion.source or motion.name, "pga_gal": pga, "scale": scenario.scale}
+    error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
+    return {"source": motion.source or motion.name, "pga_gal": pga, "scale": scenario.scale, "dt": motion.dt, "interpolation_error": round(error, 6)}
 
 
 def versions():

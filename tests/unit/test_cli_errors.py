@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bad input ends a run script with one line on standard error and status 1, before anything is built or written."""
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from yade_timber import cli
 from yade_timber.errors import RunError
-from yade_timber.motion import GroundMotion, write_csv
+from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
 from yade_timber.runner import main
 
 
@@ -22,7 +24,7 @@ def refused(tmp_path, capsys):
 
     def call(*options, house="C2", out=tmp_path / "out", earthquake=True):
         with pytest.raises(SystemExit) as stop:
-            main(house, earthquake=earthquake, argv=["scripts/modelC2_quake.py", "--out", str(out), *map(str, options)])
+            main(house, earthquake=earthquake, argv=["scripts/modelC2_quake.py", "--duration", "0.001", "--out", str(out), *map(str, options)])
         said = capsys.readouterr()
         assert stop.value.code == 1
         assert said.err.startswith("error: ") and said.err.count("\n") == 1, said.err
@@ -60,6 +62,36 @@ def test_unknown_model(refused):
     assert "unknown house 'D9'" in refused("--duration", 0, house="D9")
 
 
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (["--azimuth", "nan"], "--azimuth nan: must be between -360 and 360"),
+        (["--pga", "0"], "--pga 0: must be >= 0.001"),
+        (["--intensity", "9"], "--intensity 9: must be between 0 and 8"),
+        (["--pga", "300", "--intensity", "6"], "--pga and --intensity exclude each other"),
+        (["--scale", "2", "--pga", "300"], "--pga and --scale exclude each other"),
+        (["--record", "x", "--seed", "1"], "--record and --seed exclude each other"),
+        (["--seed", "-1"], "--seed -1: must be"),
+        (["--units", "gal"], "--units belongs to a record; give --record"),
+        (["--start", "9", "--end", "9"], "--end 9: must be > 9 s"),
+        (["--start", "50"], "nothing between 50 and"),
+        (["--highpass", "50"], "it must lie between 0 and 50 Hz"),
+        (["--detrend", "1.5"], "--detrend"),
+    ],
+)
+def test_motion_options_out_of_range(refused, options, said):
+    assert said in refused(*options)
+
+
+def test_motion_options_reach_the_scenario(record):
+    argv = ["scripts/modelA_quake.py", "--record", str(record), "--pga", "250", "--azimuth", "90", "--end", "0.3"]
+    scenario, _ = cli.read("A", True, False, argv)
+    assert pga(scenario.motion, "level") == pytest.approx(250) and scenario.duration == pytest.approx(0.31)
+    assert scenario.motion.source.endswith("turned by 90 degrees; cut to 0-0.3 s; scaled by 2.5")
+    fine, _ = cli.read("A", True, False, [*argv, "--resample", "--dt", "2e-4"])
+    assert fine.motion.dt == 2e-4 and "resampled to 0.0002 s (bandlimited)" in fine.motion.source
+
+
 def test_missing_record(refused, tmp_path):
     assert "no-such" in refused("--record", tmp_path / "no-such")
 
@@ -85,7 +117,7 @@ def test_binary_record(refused, record):
     assert record.name in refused("--record", record)
 
 
-@pytest.mark.parametrize("option", ["--record=x", "--scale=2"])
+@pytest.mark.parametrize("option", ["--record=x", "--scale=2", "--seed=0", "--resample"])
 def test_no_earthquake_to_change(refused, option):
     assert "no earthquake" in refused(option, earthquake=False)
 
@@ -116,13 +148,13 @@ def test_defaults():
 
 
 def test_record_warnings_are_one_line(monkeypatch, capsys, record):
-    def noisy(path):
+    def noisy(_request, _dt):
         import warnings
 
         warnings.warn("samples: 50, header says 60")
         return GroundMotion(0.01, np.ones((50, 3)))
 
-    monkeypatch.setattr(cli, "read_motion", noisy)
+    monkeypatch.setattr(MotionRequest, "motion", noisy)
     cli.read("A", True, False, ["x.py", "--record", str(record)])
     assert capsys.readouterr().err == "note: samples: 50, header says 60\n"
 
@@ -132,8 +164,8 @@ def test_help_names_every_option(capsys):
         cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
     assert stop.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("--duration", "--dt", "--record", "--scale", "--out", "--resume", "--no-views", "--export", "--quiet"):
-        assert option in shown
+    for option in ("duration", "dt", "out", "resume", "no-views", "export", "quiet", *(f.name for f in fields(MotionRequest))):
+        assert f"--{option}" in shown
 
 
 def test_error_is_a_value_error():

@@ -54,8 +54,18 @@ def test_trim_and_quiet_ends():
         gm.shaking_window(motion, 1000.0)
 
 
+def test_turned():
+    """North shakes along +x after 90 degrees; four right angles are none; lengths stay."""
+    motion = tone()
+    quarter = gm.turned(motion, 90.0)
+    assert np.array_equal(quarter.ew, motion.ns) and np.array_equal(quarter.ns, -motion.ew) and np.array_equal(quarter.ud, motion.ud)
+    assert np.array_equal(gm.turned(motion, 360.0).acceleration, motion.acceleration) and gm.turned(motion, 0.0) is motion
+    assert gm.pga(gm.turned(motion, 33.0), "h") == pytest.approx(gm.pga(motion, "h"))
+
+
 def test_scaling():
     motion = tone()
+    assert gm.pga(gm.scaled_to_pga(motion, 400.0, "level"), "ew") == pytest.approx(400.0)
     assert gm.pga(gm.scaled_to_pga(motion, 500.0), "h") == pytest.approx(500.0)
     assert gm.pga(gm.scaled_to_pga(motion, 300.0, "ud"), "ud") == pytest.approx(300.0)
     assert gm.jma_intensity(gm.scaled_to_intensity(motion, 6.1)).raw == pytest.approx(6.1, abs=1e-12)
@@ -82,6 +92,12 @@ def test_linear_resampling_knows_its_error():
     t = fine.time - 10.0
     exact = 2.0 * np.exp(-((t / 2.0) ** 2)) * np.sin(4 * np.pi * t)
     assert np.abs(fine.ew - exact).max() / 2.0 == pytest.approx(error, rel=0.05)
+
+
+def test_interpolation_error_is_that_of_any_finer_step():
+    for frequency in (2.0, 8.0):
+        motion = tone(frequency=frequency)
+        assert gm.interpolation_error(motion) == pytest.approx(gm.resample(motion, 0.001, "linear")[1], rel=1e-9)
 
 
 def test_downsampling_reports_what_it_loses():

@@ -7,6 +7,7 @@ With YADE_TIMBER_RECORDS naming a folder of real records, those are checked agai
 
 import os
 import sys
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import GAL, GroundMotion, RecordError, RecordWarning, read_motion, write_csv  # noqa: E402
+from yade_timber.motion import GAL, GroundMotion, RecordError, RecordWarning, read_motion, trim, write_csv  # noqa: E402
 from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
 
 N = 40
@@ -86,6 +87,22 @@ def test_knet_prefix_in_both_spellings(tmp_path, header):
     same_waves(motion, KNET_ROUNDING)
 
 
+def test_first_sample_is_15_s_before_the_record_time(tmp_path):
+    """K-NET's Record Time includes the trigger delay; JMA's INITIAL TIME is the first sample's."""
+    assert read_motion(knet_record(tmp_path)).begins == datetime(2004, 10, 23, 17, 56, 5)
+    jma = write(tmp_path, "jma.csv", JMA_OLD + "1,2,3\n1,2,3\n")
+    assert read_motion(jma).begins == datetime(2004, 10, 23, 17, 56)
+    assert trim(read_motion(tmp_path / "TST001"), 2.0).begins == datetime(2004, 10, 23, 17, 56, 7)
+
+
+def test_components_of_two_recordings_are_refused(tmp_path):
+    later = tmp_path / "TST001.UD"
+    knet_record(tmp_path)
+    later.write_text(later.read_text().replace("17:56:20", "17:56:21"))
+    with pytest.raises(RecordError, match="begin at different times"):
+        read_motion(tmp_path / "TST001")
+
+
 def test_kiknet_surface_is_taken_and_borehole_can_be_named(tmp_path):
     knet_record(tmp_path, "1", directions="123")
     surface = {name: wave * 2 for name, wave in WAVES.items()}
@@ -116,6 +133,8 @@ CARDS = [
     "NPTS =   {n} , DT =   .020 SEC ,",
     "NPTS={n},DT=0.02 SEC",
     "   {n}    0.0200   NPTS, DT",
+    "NPTS= {n}, DT=.02",
+    "NPTS=   {n} DT=   .02000 SEC",
     "{n}, 0.02 NPTS,DT",
 ]
 
@@ -173,7 +192,7 @@ JMA_NEW = "SITE CODE=4310B,小千谷市城内,,\nLAT.=37.31,,,\nLON.=138.79,,,\n
 JMA_NEW += "UNIT=gal(cm/s/s),,,\nINITIAL TIME=2004 10 23 17 56 00,,,\nNS,EW,UD,\n"
 
 
-@pytest.mark.parametrize("header", [JMA_OLD, JMA_NEW])
+@pytest.mark.parametrize("header", [JMA_OLD, JMA_NEW, JMA_NEW.replace("SAMPLING RATE", "Sampling Freq")])
 @pytest.mark.parametrize("encoding", ["cp932", "utf-8"])
 def test_jma_headers(tmp_path, header, encoding):
     rows = "\n".join(f"{a:.4f},{b:.4f},{c:.4f}" for a, b, c in zip(*(WAVES[k] for k in ("ns", "ew", "ud"))))
@@ -268,6 +287,7 @@ REFUSALS = {
     "truncated K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S", duration=5), "truncated, 40 samples.*says 50"),
     "K-NET header cut": ("a.NS", lambda: "Origin Time  2004/10/23\nLat. 3\n", "K-NET header without"),
     "scale of K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("/2000000", "/0"), "Scale Factor"),
+    "date of K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("17:56:20", "24:56:20"), "is no date and time"),
     "JMA without rate": ("a.csv", lambda: "SITE CODE=1\nUNIT=gal\nNS,EW,UD\n1,2,3\n1,2,3\n", "without SAMPLING RATE"),
     "JMA without unit": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=100Hz\nNS,EW,UD\n1,2,3\n1,2,3\n", "no unit stated"),
 }

@@ -87,6 +87,7 @@ def test_summary(straight, shove):
     assert (found["scenario"], found["model"], found["earthquake"], found["snow"]) == ("modelB1_quake", "B1", True, False)
     assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (3000, 0.6, 2e-4, 1)
     assert found["record"]["pga_gal"] == {"ns": 2000, "ew": 4000, "ud": 1500} and shove.name in found["record"]["source"]
+    assert found["record"]["dt"] == 0.01 and 0 < found["record"]["interpolation_error"] < 1  # the ends of a constant, and nothing else
     assert found["joints"]["total"] == sum(n for kind, n in found["joints"].items() if kind != "total")
     assert set(found["broken"]["by_side"]) == {"north", "south", "east", "west", "inside"}
     assert set(found["broken"]["by_storey"]) == {"1", "2", "entrance"}

@@ -5,11 +5,13 @@
     model.elements, model.joints, model.counts()
 """
 
+from .bays import free_bays
 from .build import build_house
 from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
+from .overlay import brace_parts, changed_house
 
 __all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
-           "build_house", "check_house", "load_house", "overlaps", "shipped_houses"]
+           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "load_house", "overlaps", "shipped_houses"]

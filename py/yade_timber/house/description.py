@@ -21,14 +21,21 @@ class Description:
 
 def load_house(name_or_path):
     """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
-    path = _find(str(name_or_path))
-    data = HOUSE.check(read_table(path), f"{path.name}:1", "")
-    _check_references(data)
-    check_friction(data)
+    path = house_path(str(name_or_path))
+    data = checked(read_table(path), path)
     return Description(data["name"], path, data)
 
 
-def _find(name):
+def checked(table, path):
+    """A house file's tables with all defaults filled in; raises HouseError."""
+    data = HOUSE.check(table, f"{path.name}:1", "")
+    _check_references(data)
+    check_friction(data)
+    return data
+
+
+def house_path(name):
+    """File of a shipped house or of that path; raises HouseError."""
     own, shipped = [Path(name)], shipped_paths(name)
     for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
         if path.is_file():

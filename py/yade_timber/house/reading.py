@@ -136,3 +136,20 @@ def _convert_mapping(loader, node, name):
 
 def _where(node, name):
     return f"{name}:{node.start_mark.line + 1}"
+
+
+def parse_value(text, where):
+    """One value (a number, a word, a list in brackets) whose every part is said to be at `where`; raises HouseError."""
+    loader = _Loader(text)
+    try:
+        value = _convert(loader, loader.get_single_node(), where)
+    except yaml.YAMLError:
+        raise HouseError(f"{where}: '{text}' is no value; give a number, a word or [a, list]") from None
+    return _moved(value, where)
+
+
+def _moved(value, where):
+    """Lists and tables with `where` in place of file and line."""
+    if isinstance(value, Table):
+        return Table({key: _moved(entry, where) for key, entry in value.items()}, where)
+    return Items([_moved(entry, where) for entry in value], where) if isinstance(value, Items) else value

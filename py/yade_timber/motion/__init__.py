@@ -4,8 +4,6 @@
 Needs numpy and scipy only, never YADE. Frame everywhere: columns ew, ns, ud = x east, y north, z up; m/s2.
 """
 
-from pathlib import Path
-
 from .measures import (
     JmaIntensity,
     Spectrum,
@@ -21,6 +19,7 @@ from .measures import (
 )
 from .processing import (
     highpass,
+    interpolation_error,
     remove_polynomial,
     resample,
     scaled,
@@ -28,34 +27,31 @@ from .processing import (
     scaled_to_pga,
     shaking_window,
     trim,
+    turned,
 )
-from .readers import read_motion
+from .readers import DEFAULT_RECORD, default_motion, read_motion
 from .record import GAL, GroundMotion, RecordError, RecordWarning
+from .request import MotionRequest, add_motion_options, motion_request
 from .synthetic import synthetic_motion
 from .writer import write_csv
-
-DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
-"""The synthetic Ojiya-like motion that the package ships: output of the generator for seed 0."""
-
-
-def default_motion():
-    """The shipped synthetic Ojiya-like motion -> GroundMotion."""
-    return read_motion(DEFAULT_RECORD)
-
 
 __all__ = [
     "DEFAULT_RECORD",
     "GAL",
     "GroundMotion",
     "JmaIntensity",
+    "MotionRequest",
     "RecordError",
     "RecordWarning",
     "Spectrum",
+    "add_motion_options",
     "arias",
     "default_motion",
     "displacement",
     "highpass",
+    "interpolation_error",
     "jma_intensity",
+    "motion_request",
     "pga",
     "pgd",
     "pgv",
@@ -70,6 +66,7 @@ __all__ = [
     "significant_duration",
     "synthetic_motion",
     "trim",
+    "turned",
     "velocity",
     "write_csv",
 ]

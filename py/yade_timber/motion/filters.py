@@ -13,9 +13,15 @@ from .record import RecordError
 
 def zero_phase_highpass(acceleration, dt, corner, order):
     """High-pass of (n, k) samples along the first axis; zeros of 1.5 / corner before and behind take the transients."""
+    padded, pad = highpass_with_ends(acceleration, dt, corner, order)
+    return padded[pad:-pad]
+
+
+def highpass_with_ends(acceleration, dt, corner, order):
+    """The same with the transients before and behind: (n + 2 pad, k) samples, and pad."""
     if not 0.0 < corner < 0.5 / dt:
         raise RecordError(f"high-pass corner {corner:g} Hz; it must lie between 0 and {0.5 / dt:g} Hz")
     pad = math.ceil(1.5 / (corner * dt))
     padded = np.pad(acceleration, ((pad, pad), (0, 0)))
     sos = signal.butter(order, corner, "highpass", fs=1.0 / dt, output="sos")
-    return signal.sosfiltfilt(sos, padded, axis=0, padtype=None)[pad:-pad]
+    return signal.sosfiltfilt(sos, padded, axis=0, padtype=None), pad

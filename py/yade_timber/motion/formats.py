@@ -2,7 +2,7 @@
 """The file formats: each reader turns the lines of one file into channels.
 
 K-NET and KiK-net ASCII: NIED, "About K-NET ASCII format" (17 header lines, whole counts, scale factor). Its Record
-Time includes the logger's trigger delay: the first sample is 15 s earlier. All samples are read, no time is kept.
+Time includes the logger's trigger delay: the first sample is 15 s earlier (KNET_DELAY). All samples are read.
 PEER AT2: four header lines whose fourth has changed its form over the years, values in g.
 Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), values in g.
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from datetime import timedelta
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from .record import GAL, RecordError, RecordWarning, unit_factor
 from .text import (
     UP,
     Channel,
+    clock,
     direction_of,
     finite,
     numbers,
@@ -31,6 +33,9 @@ from .text import (
 KNET_HEADER_LINES = 17
 KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
 """Channel numbers of KiK-net: 1-3 borehole, 4-6 surface, each north, east, up."""
+
+KNET_DELAY = timedelta(seconds=15)
+"""Record Time of a K-NET or KiK-net file is this much after its first sample (NIED, on the loggers' trigger delay)."""
 
 KNET_MAX_TOLERANCE = 0.02
 """Relative difference from the header's Max. Acc. above which a warning is given.
@@ -71,6 +76,7 @@ def parse(path, lines, units=None):
 # --- K-NET and KiK-net --------------------------------------------------------------------------
 
 _KNET_FIELDS = {
+    "time": r"Record Time\s*(\S+\s+\S+)",
     "sampling": r"Sampling Freq\.?\s*\(Hz\)\s*(\S+?)\s*Hz",
     "duration": r"Duration Time\s*\(s\)\s*(\S+)",
     "direction": r"Dir\.\s*(\S+)",
@@ -94,7 +100,8 @@ def _knet(path, lines, units):
     values = (counts - counts.mean()) * _knet_scale(path, field["scale"])
     _compare_peak(path, values, finite(field["peak"], f"{path}, Max. Acc."))
     direction = KIK_DIRECTIONS.get(field["direction"], direction_of(field["direction"]))
-    return [Channel(path, require_step(1.0 / rate, path), values, direction)]
+    begins = clock(field["time"], f"{path}, Record Time") - KNET_DELAY
+    return [Channel(path, require_step(1.0 / rate, path), values, direction, begins)]
 
 
 def _knet_fields(path, lines):
@@ -202,15 +209,17 @@ def _at2_direction(path, header):
 def _jma(path, lines, units):
     """JMA CSV, old and new headers: the keys in any order, then NS, EW, UD (and time) by name."""
     keys, names, first = _jma_header(path, lines)
-    if "SAMPLING RATE" not in keys:
+    sampling = keys.get("SAMPLING RATE", keys.get("SAMPLING FREQ"))
+    if sampling is None:
         raise RecordError(f"{path}: JMA header without SAMPLING RATE")
-    rate = finite(re.sub(r"\s*Hz.*$", "", keys["SAMPLING RATE"], flags=re.I), f"{path}, SAMPLING RATE")
+    rate = finite(re.sub(r"\s*Hz.*$", "", sampling, flags=re.I), f"{path}, SAMPLING RATE")
     if rate <= 0.0:
         raise RecordError(f"{path}, SAMPLING RATE: {rate:g} Hz; it must be > 0")
     factor = _stated_unit(path, [keys["UNIT"].split("(")[0]] if "UNIT" in keys else [], units)
     rows = table(path, lines[first:], first + 1, len(names), ",")
     step = require_step(1.0 / rate, f"{path}, SAMPLING RATE")
-    return _columns_to_channels(path, names, rows, factor, step)
+    begins = clock(keys["INITIAL TIME"], f"{path}, INITIAL TIME") if "INITIAL TIME" in keys else None
+    return _columns_to_channels(path, names, rows, factor, step, begins)
 
 
 def _jma_header(path, lines):
@@ -297,9 +306,9 @@ def _csv_step(path, comments, times):
     return step
 
 
-def _columns_to_channels(path, names, rows, factor, step):
+def _columns_to_channels(path, names, rows, factor, step, begins=None):
     return [
-        Channel(path, step, rows[:, index] * factor, _CSV_DIRECTIONS[name])
+        Channel(path, step, rows[:, index] * factor, _CSV_DIRECTIONS[name], begins)
         for index, name in enumerate(names)
         if name in _CSV_DIRECTIONS
     ]

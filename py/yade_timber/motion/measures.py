@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import integrate, signal
 
-from .filters import zero_phase_highpass
+from .filters import highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError
 
 CM = 0.01
@@ -33,14 +33,14 @@ STEPS_PER_PERIOD = 20
 def peak(values, component="any"):
     """Largest absolute value of (n, 3) columns ew, ns, ud.
 
-    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'any' = largest of
-               the three components
+    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'level' = larger one
+               of the two horizontal components; 'any' = largest of the three components
     """
+    if component in ("level", "any"):
+        return float(np.abs(values[:, : 2 if component == "level" else 3]).max())
     columns = {"ew": [0], "ns": [1], "ud": [2], "h": [0, 1], "v3": [0, 1, 2]}
-    if component == "any":
-        return float(np.abs(values).max())
     if component not in columns:
-        raise RecordError(f"component '{component}'; admissible: ew, ns, ud, h, v3, any")
+        raise RecordError(f"component '{component}'; admissible: ew, ns, ud, h, v3, level, any")
     return float(np.linalg.norm(values[:, columns[component]], axis=1).max())
 
 
@@ -64,15 +64,22 @@ def velocity(motion, corner=VELOCITY_CORNER):
 
     corner  zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none
     """
-    acceleration = motion.acceleration
-    if corner is not None:
-        acceleration = zero_phase_highpass(acceleration, motion.dt, corner, 2)
-    return integrate.cumulative_trapezoid(acceleration, dx=motion.dt, axis=0, initial=0.0)
+    return _integral(motion, corner, 1)
 
 
 def displacement(motion, corner=VELOCITY_CORNER):
     """Ground displacement from rest: trapezoidal integral of `velocity`. (n, 3) [m]"""
-    return integrate.cumulative_trapezoid(velocity(motion, corner), dx=motion.dt, axis=0, initial=0.0)
+    return _integral(motion, corner, 2)
+
+
+def _integral(motion, corner, times):
+    """Acceleration integrated once or twice, from rest before the high-pass's transients: without them it would drift."""
+    values, pad = motion.acceleration, 0
+    if corner is not None:
+        values, pad = highpass_with_ends(values, motion.dt, corner, 2)
+    for _ in range(times):
+        values = integrate.cumulative_trapezoid(values, dx=motion.dt, axis=0, initial=0.0)
+    return values[pad : len(values) - pad]
 
 
 # --- JMA instrumental intensity -----------------------------------------------------------------

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from datetime import timedelta
 from fractions import Fraction
 
 import numpy as np
@@ -19,6 +20,22 @@ PAD_SECONDS = 5.0
 
 LARGEST_RATIO = 100_000
 """Largest numerator or denominator of old step / new step for band-limited resampling."""
+
+
+def turned(motion, angle):
+    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90, north shakes along +x."""
+    if not np.isfinite(angle):
+        raise RecordError(f"{motion.name}: angle {angle}; it must be a finite number of degrees")
+    if angle == 0.0:
+        return motion
+    sine, cosine = round_off(np.sin(np.radians(angle))), round_off(np.cos(np.radians(angle)))
+    ew, ns, ud = motion.acceleration.T
+    return _changed(motion, np.column_stack([cosine * ew + sine * ns, cosine * ns - sine * ew, ud]), f"turned by {angle:g} degrees")
+
+
+def round_off(x):
+    """Sine or cosine with the rounding noise at whole right angles taken away."""
+    return float(np.round(x, 15))
 
 
 def remove_polynomial(motion, order=0):
@@ -43,7 +60,8 @@ def trim(motion, start=0.0, end=None):
     keep = (motion.time >= start - 1e-9) & (motion.time <= end + 1e-9)
     if np.count_nonzero(keep) < 2:
         raise RecordError(f"{motion.name}: nothing between {start:g} and {end:g} s; it lasts {motion.duration:g} s")
-    return _changed(motion, motion.acceleration[keep], f"cut to {start:g}-{end:g} s")
+    cut = _changed(motion, motion.acceleration[keep], f"cut to {start:g}-{end:g} s")
+    return replace(cut, begins=motion.begins + timedelta(seconds=motion.time[keep][0])) if motion.begins else cut
 
 
 def scaled(motion, factor):
@@ -110,6 +128,11 @@ def _fourier(motion, dt):
         return kept[: last + 1], kept[: last + 1]
     dense = signal.resample(padded, total * ratio.denominator, axis=0)
     return dense[:: ratio.numerator][: last + 1], kept[: last + 1]
+
+
+def interpolation_error(motion):
+    """Largest error of straight lines between the samples, in parts of the PGA; found half way between them."""
+    return resample(motion, 0.5 * motion.dt, "linear")[1]
 
 
 def shaking_window(motion, threshold=0.5):

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from .formats import parse
+from .processing import round_off, turned
 from .record import GroundMotion, RecordError
 from .text import DOWN, UP, direction_of, read_lines
 
@@ -29,6 +30,15 @@ _SUFFIXES = (
 sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
 
 
+DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
+"""The synthetic Ojiya-like motion that the package ships: output of the generator for seed 0."""
+
+
+def default_motion():
+    """The shipped synthetic Ojiya-like motion -> GroundMotion."""
+    return read_motion(DEFAULT_RECORD)
+
+
 def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=False):
     """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files.
 
@@ -42,14 +52,13 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     Returns GroundMotion; a component that no file gives is zero, and its `source` says so.
     Raises RecordError: missing, truncated, unknown format, not a number, no unit, components that do not fit.
     """
-    if not np.isfinite(angle):
-        raise RecordError(f"{record}: angle {angle}; it must be a finite number of degrees")
     paths = find_files(record)
     channels = [channel for path in paths for channel in parse(path, read_lines(path), units)]
     directions = _directions(channels, component)
     dt, values = _aligned(channels, trim_to_shortest)
-    acceleration = _to_house_axes(str(record), values, directions, float(angle))
-    return GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions, angle))
+    acceleration = _to_house_axes(str(record), values, directions)
+    motion = GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions), _beginning(channels))
+    return turned(motion, angle)
 
 
 def find_files(record):
@@ -118,7 +127,16 @@ def _aligned(channels, trim_to_shortest):
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
 
 
-def _to_house_axes(record, values, directions, angle):
+def _beginning(channels):
+    """Date and time of the first samples, or None; components that begin at different times are refused."""
+    times = {channel.begins for channel in channels} - {None}
+    if len(times) > 1:
+        stated = ", ".join(f"{c.path.name}: {c.begins}" for c in channels)
+        raise RecordError(f"components begin at different times ({stated}); they must be of one recording")
+    return times.pop() if times else None
+
+
+def _to_house_axes(record, values, directions):
     """(n, 3) in the axes east, north, up from one to three channels with known directions."""
     vertical = [i for i, d in enumerate(directions) if d in (UP, DOWN)]
     level = [i for i, d in enumerate(directions) if d not in (UP, DOWN)]
@@ -128,17 +146,12 @@ def _to_house_axes(record, values, directions, angle):
     if len(level) == 2:
         _require_right_angle(record, directions[level[0]], directions[level[1]])
     for i in level:
-        azimuth = np.radians(directions[i] + angle)
-        acceleration[:, 0] += values[:, i] * _clean(np.sin(azimuth))
-        acceleration[:, 1] += values[:, i] * _clean(np.cos(azimuth))
+        azimuth = np.radians(directions[i])
+        acceleration[:, 0] += values[:, i] * round_off(np.sin(azimuth))
+        acceleration[:, 1] += values[:, i] * round_off(np.cos(azimuth))
     for i in vertical:
         acceleration[:, 2] = values[:, i] if directions[i] == UP else -values[:, i]
     return acceleration
-
-
-def _clean(x):
-    """Sine or cosine with the rounding noise at whole right angles taken away."""
-    return float(np.round(x, 15))
 
 
 def _require_right_angle(record, first, second):
@@ -155,15 +168,14 @@ def _common_name(paths):
     return stems[0][:length].rstrip("-_.") or stems[0]
 
 
-def _provenance(channels, directions, angle):
-    """One line: the files, the direction of each component, what is missing, the angle."""
+def _provenance(channels, directions):
+    """One line: the files, the direction of each component, what is missing."""
     by_file = {}
     for channel, direction in zip(channels, directions):
         by_file.setdefault(channel.path.name, []).append(_word(direction))
     files = ", ".join(f"{name} ({', '.join(words)})" for name, words in by_file.items())
     note = "" if len(channels) == 3 else "; the other components are zero"
-    turned = f"; turned by {angle:g} degrees" if angle else ""
-    return files + note + turned
+    return files + note
 
 
 def _word(direction):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from datetime import datetime
 
 import numpy as np
 
@@ -47,6 +48,7 @@ class GroundMotion:
     acceleration  (n, 3) [m/s2], columns ew, ns, ud: positive towards east, north and up
     name          short name
     source        where it comes from and how its components were mapped
+    begins        date and time of the first sample, where the record says it (K-NET, JMA: Japan's time)
     Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
     """
 
@@ -54,6 +56,7 @@ class GroundMotion:
     acceleration: np.ndarray = field(repr=False)
     name: str = "motion"
     source: str = ""
+    begins: datetime | None = None
 
     def __post_init__(self):
         acceleration = np.array(self.acceleration, dtype=float)

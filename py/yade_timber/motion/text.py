@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -25,12 +26,14 @@ class Channel:
     values     (n,) [m/s2]
     direction  azimuth in degrees clockwise from north in which the motion is positive, UP, DOWN,
                or None where the file does not say
+    begins     date and time of the first sample, or None where the file does not say
     """
 
     path: Path
     dt: float
     values: np.ndarray = field(repr=False)
     direction: float | str | None
+    begins: datetime | None = None
 
 
 def read_lines(path):
@@ -110,6 +113,16 @@ def require_step(dt, where):
     if not 1e-6 <= dt <= 1.0:
         raise RecordError(f"{where}: time step {dt:g} s; it must be between 1e-6 and 1 s")
     return dt
+
+
+def clock(words, where):
+    """Date and time from 'year month day hour minute second' with any signs between. Raises RecordError."""
+    numbers_ = re.findall(r"[\d.]+", words)
+    try:
+        year, month, day, hour, minute = map(int, numbers_[:5])
+        return datetime(year, month, day, hour, minute) + timedelta(seconds=float(numbers_[5]))
+    except (ValueError, IndexError):
+        raise RecordError(f"{where}: '{words.strip()}' is no date and time; it must be like 2004/10/23 17:56:00") from None
 
 
 def direction_of(word):

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A house with changes: single keys, added braces, a factor on the joints' strength. For studies that would need a file a variant."""
+
+import math
+import re
+
+from .description import checked, house_path
+from .errors import HouseError
+from .reading import Items, Table, parse_value, read_table
+
+_STEP = re.compile(r"([A-Za-z_]\w*)((?:\[\d+\])*)")
+_BRACE = re.compile(r"(\w+)\.brace(\d+)\.(EW\.y|NS\.x)([\d.]+)\.([\d.]+)-([\d.]+)")
+
+
+def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):
+    """The raw tables of a house file, with all it extends and the changes, checked against the schema.
+
+    settings  'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3': keys of the house file, list items from 1
+    braces    names of the braces to add, as elements are called: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3)
+    strength  factor on the strength of all joint types
+    where     makes the place that messages open with from 'set', 'braces', 'strength'
+    Raises HouseError.
+    """
+    path = house_path(name_or_path)
+    checked(read_table(path), path)
+    data = read_table(path)
+    for text in settings:
+        _set(data, text, where("set"))
+    for name in braces:
+        _add_brace(data, name, where("braces"))
+    _strengthen(data, strength, where("strength"))
+    checked(data, path)
+    return plain(data)
+
+
+def plain(value):
+    """Tables and lists as dict and list."""
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    return [plain(entry) for entry in value] if isinstance(value, list) else value
+
+
+# --- single keys ------------------------------------------------------------------------------------------------------
+
+
+def _set(data, text, where):
+    key, sign, value = text.partition("=")
+    steps = _steps(key, where)
+    if not sign:
+        raise HouseError(f"{where}: '{text}': write key=value")
+    node = data
+    for step in steps[:-1]:
+        node = _entered(node, step, key, where)
+    _put(node, steps[-1], parse_value(value, where), key, where)
+
+
+def _steps(key, where):
+    """'a.b[2].c' -> ['a', 'b', 1, 'c']."""
+    steps = []
+    for part in key.split("."):
+        match = _STEP.fullmatch(part)
+        if match is None:
+            raise HouseError(f"{where}: '{key}' is no key; write it like materials.timber.density or friction[1].coefficient")
+        steps += [match.group(1), *(int(number) - 1 for number in re.findall(r"\d+", match.group(2)))]
+    return steps
+
+
+def _entered(node, step, key, where):
+    """Entry `step` of a table or list; a table's missing entry becomes an empty table, which the schema then judges."""
+    if isinstance(step, str) and isinstance(node, Table):
+        return node.setdefault(step, Table(where=where))
+    _require_item(node, step, key, where)
+    return node[step]
+
+
+def _put(node, step, value, key, where):
+    if isinstance(step, str) and isinstance(node, Table):
+        node.entries[step] = where
+    else:
+        _require_item(node, step, key, where)
+        node.entries[step:step + 1] = [where]
+    node[step] = value
+
+
+def _require_item(node, step, key, where):
+    if not isinstance(step, int) or not isinstance(node, Items):
+        raise HouseError(f"{where}: {key}: there is no table or list at '{step if isinstance(step, str) else f'[{step + 1}]'}'")
+    if not 0 <= step < len(node):
+        raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
+
+
+# --- braces and joints ------------------------------------------------------------------------------------------------
+
+
+def brace_parts(name, where="brace"):
+    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises HouseError."""
+    match = _BRACE.fullmatch(name)
+    if match is None:
+        raise HouseError(f"{where}: '{name}': a brace is named like main.brace1.EW.y0.3-4 or main.brace2.NS.x8.6-7")
+    structure, storey, wall, *nodes = match.groups()
+    return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes)
+
+
+def _add_brace(data, name, where):
+    structure, storey, along, at, foot, head = brace_parts(name, where)
+    if structure not in data["structures"]:
+        raise HouseError(f"{where}: {name}: unknown structure '{structure}'; known: {', '.join(data['structures'])}")
+    line = {"along": along, "at": at, "storeys": storey}
+    runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
+    table = data["structures"][structure].setdefault("braces", Table(where=where))
+    lines = table.setdefault("lines", Items((), where))
+    lines.append(Table({**line, "runs": runs}, where, dict.fromkeys([*line, "runs"], where)))
+    lines.entries.append(where)
+
+
+def _strengthen(data, factor, where):
+    if not 0 < factor < math.inf:
+        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be > 0 and finite")
+    for kind in data["joint_types"].values():
+        kind["strength"] = kind["strength"] * factor

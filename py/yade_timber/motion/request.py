@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What ground motion is asked for: one set of names for command lines and for the columns of batch tables."""
+
+from dataclasses import dataclass, field, fields
+
+from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
+from .readers import DEFAULT_RECORD, read_motion
+from .record import RecordError
+from .synthetic import synthetic_motion
+
+
+def _option(kind, metavar, low, high, text):
+    """Field of MotionRequest, None unless given; low, high: admissible range of a number, both included."""
+    return field(default=None, metadata={"kind": kind, "metavar": metavar, "low": low, "high": high, "help": text})
+
+
+@dataclass(frozen=True)
+class MotionRequest:
+    """A ground motion as asked for; what is None was not asked for. The changes are made in the order of the fields.
+
+    `scale` is left to the run, which records it beside the motion.
+    """
+
+    record: str = _option(str, "FILE_OR_PREFIX", None, None, "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
+    seed: int = _option(int, "N", 0, 2**31, "synthetic motion of another seed (the default motion is seed 0)")
+    component: str = _option(str, "WORDS", None, None, "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, separated by commas")
+    units: str = _option(str, "UNIT", None, None, "gal, m/s2 or g, where the record does not say")
+    azimuth: float = _option(float, "DEG", -360, 360, "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes the house along +x (default 0)")
+    start: float = _option(float, "S", 0, 1e5, "leave out what comes before this time of the record [s]")
+    end: float = _option(float, "S", 0, 1e5, "leave out what comes after this time of the record [s]")
+    detrend: int = _option(int, "ORDER", 0, 8, "baseline: subtract a polynomial of this order from the accelerations (0: the mean)")
+    highpass: float = _option(float, "HZ", 1e-3, 100, "baseline: zero-phase high-pass at this frequency [Hz]")
+    pga: float = _option(float, "GAL", 1e-3, 1e5, "scale all components so that the larger horizontal one peaks here [gal]")
+    intensity: float = _option(float, "I", 0, 8, "scale all components to this JMA intensity (not rounded)")
+    scale: float = _option(float, "X", 0, 1e6, "factor on the ground motion (default 1)")
+    resample: bool = _option(bool, None, None, None, "band-limited samples at the run's time step, instead of straight lines between the record's samples")
+
+    def given(self):
+        """Names of what was asked for."""
+        return [f.name for f in fields(self) if getattr(self, f.name) is not None and getattr(self, f.name) is not False]
+
+    def check(self, name="--{}"):
+        """Raise RecordError for what is out of range or contradicts itself; `name` makes the reader's name of a field."""
+        for f in fields(self):
+            value, low, high = getattr(self, f.name), f.metadata["low"], f.metadata["high"]
+            if value is not None and low is not None and not low <= value <= high:
+                raise RecordError(f"{name.format(f.name)} {value:g}: must be {_range(low, high)}; {f.metadata['help']}")
+        for one, other in (("record", "seed"), ("pga", "intensity"), ("pga", "scale"), ("intensity", "scale")):
+            if getattr(self, one) is not None and getattr(self, other) is not None:
+                raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
+        for only in ("component", "units"):
+            if getattr(self, only) is not None and self.record is None:
+                raise RecordError(f"{name.format(only)} belongs to a record; give {name.format('record')}, too")
+        if self.end is not None and self.end <= (self.start or 0.0):
+            raise RecordError(f"{name.format('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
+
+    def motion(self, dt):
+        """The GroundMotion asked for, before `scale`. dt [s]: time step to resample to. Raises RecordError."""
+        motion = self._source()
+        if self.start is not None or self.end is not None:
+            motion = trim(motion, self.start or 0.0, self.end)
+        if self.detrend is not None:
+            motion = remove_polynomial(motion, self.detrend)
+        if self.highpass is not None:
+            motion = highpass(motion, self.highpass)
+        if self.pga is not None:
+            motion = scaled_to_pga(motion, self.pga, "level")
+        if self.intensity is not None:
+            motion = scaled_to_intensity(motion, self.intensity)
+        return resample(motion, dt)[0] if self.resample else motion
+
+    def _source(self):
+        if self.seed is not None:
+            return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
+        return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0)
+
+
+def _range(low, high):
+    return f">= {low:g}" if high >= 1e5 else f"between {low:g} and {high:g}"
+
+
+def add_motion_options(parser):
+    """Give an ArgumentParser one option for each field of MotionRequest."""
+    group = parser.add_argument_group("ground motion")
+    for f in fields(MotionRequest):
+        about = {"help": f.metadata["help"]}
+        if f.metadata["kind"] is bool:
+            group.add_argument(f"--{f.name}", action="store_true", **about)
+        else:
+            group.add_argument(f"--{f.name}", type=f.metadata["kind"], metavar=f.metadata["metavar"], **about)
+
+
+def motion_request(given):
+    """MotionRequest, checked, from parsed options (argparse.Namespace). Raises RecordError."""
+    request = MotionRequest(**{f.name: getattr(given, f.name) for f in fields(MotionRequest)})
+    request.check()
+    return request

@@ -1,0 +1,158 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The same tables on Snakemake: this machine's cores; and a real Slurm, whose daemons the test starts and stops."""
+
+import csv
+import os
+import secrets
+import shutil
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+WORKFLOW = Path(__file__).resolve().parents[2] / "workflow"
+TABLE = "house description dt duration\nA good 2e-4 0.004\nB wrong 1 0.004\n"
+DAEMONS = ("munged", "slurmctld", "slurmd")
+
+os.environ["PATH"] += ":/usr/sbin:/sbin"
+missing = [program for program in DAEMONS if shutil.which(program) is None]
+pytestmark = pytest.mark.skipif(shutil.which("snakemake") is None, reason="snakemake is not installed (scripts/setup --with-cluster)")
+
+
+def snakemake(folder, profile, **environment):
+    command = ["snakemake", "--snakefile", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / profile), "--config", "table=runs.txt"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=170, env={**os.environ, **environment})
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stderr
+
+
+def states(folder):
+    with open(folder / "results" / "runs" / "runs.csv", newline="") as file:
+        return {row["description"]: row["status"] for row in csv.DictReader(file)}
+
+
+def test_local_cores(tmp_path):
+    """A failure is a result; a row that is new runs alone, and rows that moved do not run again."""
+    (tmp_path / "runs.txt").write_text(TABLE)
+    snakemake(tmp_path, "local")
+    assert states(tmp_path) == {"good": "done", "wrong": "failed"}
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("run.json")}
+    head, *rows = TABLE.splitlines()
+    (tmp_path / "runs.txt").write_text("\n".join([head, "A new 2e-4 0.002", *rows]) + "\n")
+    said = snakemake(tmp_path, "local")
+    assert said.count("\nrule run:") == 1 and states(tmp_path) == {"new": "done", "good": "done", "wrong": "failed"}
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+
+
+# --- Slurm ------------------------------------------------------------------------------------------------------------
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def slurm_conf(folder, user, host):
+    controller, node = free_ports(2)
+    return f"""ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser={user}
+SlurmdUser={user}
+SlurmctldPort={controller}
+SlurmdPort={node}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket
+CredType=cred/munge
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+NodeName={host} NodeAddr=127.0.0.1 CPUs=2 RealMemory=2000
+PartitionName=test Nodes={host} Default=YES State=UP
+"""
+
+
+@pytest.fixture
+def slurm(tmp_path_factory):
+    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test."""
+    if missing:
+        pytest.skip(f"{', '.join(missing)} not installed (scripts/setup --with-cluster)")
+    folder = tmp_path_factory.mktemp("slurm")
+    for name in ("munge", "state", "spool"):
+        (folder / name).mkdir(mode=0o700)
+    key = folder / "munge" / "key"
+    key.write_bytes(secrets.token_bytes(1024))
+    key.chmod(0o400)
+    conf = folder / "slurm.conf"
+    user = subprocess.run(["id", "-un"], capture_output=True, text=True).stdout.strip()
+    conf.write_text(slurm_conf(folder, user, socket.gethostname().split(".")[0]))
+    munge = [f"--{option}={folder}/munge/{option}" for option in ("socket", "pid-file", "log-file", "seed-file")]
+    commands = [["munged", "--foreground", "--force", f"--key-file={key}", *munge], ["slurmctld", "-D", "-c", "-f", str(conf)], ["slurmd", "-D", "-f", str(conf)]]
+    daemons = []
+    try:
+        for command in commands:
+            log = open(folder / f"{command[0]}.log", "w")
+            daemons.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+        wait_for_node(conf, folder)
+        yield conf
+    finally:
+        for daemon in reversed(daemons):
+            daemon.terminate()
+        for daemon in daemons:
+            daemon.wait(timeout=30)
+
+
+def wait_for_node(conf, folder):
+    end = time.monotonic() + 60
+    while "idle" not in sinfo(conf):
+        assert time.monotonic() < end, "\n".join(path.read_text()[-800:] for path in folder.glob("*.log"))
+        time.sleep(0.2)
+
+
+def sinfo(conf):
+    return subprocess.run(["sinfo", "--noheader"], capture_output=True, text=True, env={**os.environ, "SLURM_CONF": str(conf)}).stdout
+
+
+def test_slurm(tmp_path, slurm):
+    (tmp_path / "runs.txt").write_text(TABLE)
+    said = snakemake(tmp_path, "slurm", SLURM_CONF=str(slurm))
+    assert said.count("Submitted job") == 2 and states(tmp_path) == {"good": "done", "wrong": "failed"}
+
+
+def test_slurm_s_states(slurm):
+    """What Snakemake is told of a job that works, one that fails, and one that nobody knows."""
+    environment = {**os.environ, "SLURM_CONF": str(slurm)}
+
+    def run(*command):
+        return subprocess.run(command, capture_output=True, text=True, env=environment).stdout.strip()
+
+    told = {}
+    for command in ("true", "false", "sleep 60"):
+        job = run("sbatch", "--parsable", "--mem=10", "--output=/dev/null", f"--wrap={command}")
+        told[command] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if command != "sleep 60" else 0)
+    run("scancel", job)
+    assert told == {"true": "success", "false": "failed", "sleep 60": "running"}
+    assert wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30) == "failed"
+    assert run(str(WORKFLOW / "slurm" / "status.sh"), "999999") == "failed"
+
+
+def wait_while(asked, state, seconds):
+    """The answer once it is not `state` any more, or after that many seconds."""
+    end = time.monotonic() + seconds
+    while (answer := asked()) == state and time.monotonic() < end:
+        time.sleep(0.2)
+    return answer

@@ -1,0 +1,90 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Houses changed without a new file: single keys, added braces, a factor on the joints; and the bays that are still free."""
+
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+
+from yade_timber.house import HouseError, build_house, changed_house, free_bays, load_house  # noqa: E402
+
+
+def where(column):
+    return f"runs.txt:3, column {column}"
+
+
+def built(folder, **changes):
+    """(raw tables, HouseModel) of house B with changes, read back from the file that a run would get."""
+    data = changed_house("B", where=where, **changes)
+    path = folder / "house.yaml"
+    path.write_text(yaml.safe_dump(data, sort_keys=False))
+    return data, build_house(load_house(path), check=False)
+
+
+def test_unchanged_is_the_same_house(tmp_path):
+    _, model = built(tmp_path)
+    assert model.counts() == build_house(load_house("B"), check=False).counts()
+
+
+def test_keys_and_list_items(tmp_path):
+    settings = ["materials.timber.density=400", "friction[2].coefficient=0.3", "plumb.drift=1e-3", "structures.main.stack[3].height=2.5"]
+    data, model = built(tmp_path, settings=settings)
+    assert model.materials["timber"]["density"] == 400 and model.friction[1][2] == 0.3
+    assert model.options["plumb"]["drift"] == 1e-3 and data["structures"]["main"]["stack"][2]["height"] == 2.5
+
+
+def test_added_braces_have_two_joints_each(tmp_path):
+    before = build_house(load_house("B"), check=False)
+    names = ["main.brace1.EW.y0.3-4", "main.brace2.NS.x8.6-5"]
+    _, model = built(tmp_path, braces=names)
+    assert {e.name for e in model.elements} - {e.name for e in before.elements} == set(names)
+    assert len(model.joints) == len(before.joints) + 4
+
+
+def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
+    before, (_, model) = build_house(load_house("B"), check=False), built(tmp_path, strength=0.5)
+    assert [j.strength for j in model.joints] == [0.5 * j.strength for j in before.joints]
+    assert any(j.strength == float("inf") for j in model.joints)
+
+
+@pytest.mark.parametrize(
+    "changes, said",
+    [
+        ({"settings": ["materials.timber.densty=400"]}, "column set: materials.timber: unknown key 'densty', did you mean 'density'?"),
+        ({"settings": ["materials.timber.density=-1"]}, "column set: materials.timber.density: must be a number in (0, 30000] kg/m3, got -1"),
+        ({"settings": ["materials.timber.density"]}, "column set: 'materials.timber.density': write key=value"),
+        ({"settings": ["friction[4].coefficient=1"]}, "column set: friction[4].coefficient: there is no item [4]; the list has 3"),
+        ({"settings": ["name.first=x"]}, "column set: name.first: there is no table or list at 'first'"),
+        ({"settings": ["snow.depth=[1"]}, "column set: '[1' is no value"),
+        ({"settings": ["a b=1"]}, "column set: 'a b' is no key"),
+        ({"braces": ["brace1.EW.y0.3-4"]}, "column braces: 'brace1.EW.y0.3-4': a brace is named like main.brace1"),
+        ({"braces": ["shed.brace1.EW.y0.3-4"]}, "column braces: shed.brace1.EW.y0.3-4: unknown structure 'shed'"),
+        ({"strength": 0.0}, "column strength: 0: the factor on the joints' strength must be > 0"),
+    ],
+)
+def test_refusals_name_row_and_column(changes, said):
+    with pytest.raises(HouseError) as caught:
+        changed_house("B", where=where, **changes)
+    assert str(caught.value).startswith("runs.txt:3, ") and said in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_free_bays_of_house_b():
+    """A wall of 9 bays with braces in 2 has 7 free ones, of 8 bays 6; the inner lines have 7 and 4; per storey 37. The entrance's 4 are all free."""
+    bays = free_bays(load_house("B"))
+    assert len(bays) == len(set(bays)) == 2 * 37 + 4
+    walls = {wall: sum(f"main.brace1.{wall}." in name for name in bays) for wall in ("NS.x0", "NS.x4", "NS.x8", "EW.y0", "EW.y4", "EW.y9")}
+    assert walls == {"NS.x0": 7, "NS.x4": 7, "NS.x8": 7, "EW.y0": 6, "EW.y4": 4, "EW.y9": 6}
+    assert "main.brace1.NS.x0.0-1" not in bays and "main.brace1.NS.x0.1-2" in bays
+
+
+def test_a_brace_in_a_free_bay_fits(tmp_path):
+    """No overlap, no loose end: the bays nearest to B's own braces and one over two modules on an inner line."""
+    names = ["main.brace1.NS.x0.1-2", "main.brace1.NS.x4.1-3", "main.brace2.EW.y9.7-6"]
+    assert set(names) <= set(free_bays(load_house("B")))
+    path = tmp_path / "house.yaml"
+    path.write_text(yaml.safe_dump(changed_house("B", braces=names), sort_keys=False))
+    build_house(load_house(path))

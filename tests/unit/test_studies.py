@@ -1,0 +1,84 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the studies make of finished runs: intervals, fitted curves, ranking, pictures. The runs themselves are the batch tests' matter."""
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "py"), str(ROOT / "scripts")]
+
+import study_brace  # noqa: E402
+import study_fragility  # noqa: E402
+
+DRIFTS = {f"peak_drift_{storey}_{way}": 0.01 for storey in (1, 2) for way in ("ns", "ew")}
+
+
+def runs(house, scale, collapses, failed=0):
+    """Finished runs of one point: a list of bool, and failed ones."""
+    same = {"house": house, "snow": "0", "scale": str(scale)}
+    done = [{**same, "status": "done", "collapsed": fell, "collapse_time_s": 9.0 if fell else None} for fell in collapses]
+    return done + [{**same, "status": "failed", "collapsed": None, "collapse_time_s": None}] * failed
+
+
+def test_point_counts_and_interval():
+    """3 of 10: Clopper and Pearson 1934 give 0.0667 to 0.6525 at 95 %. Failed runs are no evidence."""
+    (point,) = study_fragility.points(runs("B", 0.8, [True] * 3 + [False] * 7, failed=2))
+    assert (point["runs"], point["collapsed"], point["failed"], point["median_collapse_time_s"]) == (10, 3, 2, 9.0)
+    assert (point["low"], point["high"]) == pytest.approx((0.0667, 0.6525), abs=1e-4)
+    (none,) = study_fragility.points(runs("B", 0.8, [], failed=1))
+    assert np.isnan(none["part"]) and (none["low"], none["high"]) == (0.0, 1.0)
+
+
+def test_fit_finds_the_curve_it_was_made_from():
+    """Parts of a lognormal curve with median 0.9 and spread 0.3, of 10 000 runs a point: the rounding of counts moves them by 0.1 %."""
+    scales = [0.4, 0.6, 0.8, 1.0, 1.3, 1.6]
+    curve = [{"scale": s, "runs": 10000, "collapsed": round(10000 * stats.norm.cdf(np.log(s / 0.9) / 0.3))} for s in scales]
+    assert study_fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
+
+
+def test_fit_says_nothing_where_there_is_nothing():
+    assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 0} for s in (0.5, 1.0)]) is None
+    assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 5} for s in (0.5, 1.0)]) is None
+    step = [{"scale": s, "runs": 5, "collapsed": 5 * (s > 0.7)} for s in (0.5, 1.0)]
+    assert 0.5 < study_fragility.fit(step)[0] < 1.0 and study_fragility.fit(step)[1] == pytest.approx(study_fragility.SPREAD[0], rel=0.2)
+
+
+def test_fragility_picture(tmp_path):
+    found = [run for house in "AB" for scale, fell in ((0.5, 1), (1.0, 4)) for run in runs(house, scale, [True] * fell + [False] * (5 - fell))]
+    study_fragility.plot(study_fragility.points(found), [0.0], tmp_path / "fragility.png")
+    assert (tmp_path / "fragility.png").stat().st_size > 10000
+
+
+BRACES = ["main.brace1.EW.y0.3-4", "main.brace1.NS.x8.4-5", "main.brace2.NS.x4.1-3"]
+
+
+def braced(brace, drift, collapsed=False, time=None, status="done"):
+    return {**DRIFTS, "peak_drift_1_ns": drift, "braces": brace, "status": status, "collapsed": collapsed, "collapse_time_s": time, "broken": 0}
+
+
+def test_ranking():
+    """Smallest drift first; collapses last, the later the better; what failed is left out."""
+    found = [braced(None, 0.10), braced(None, 0.11), braced("c", 2.0, True, 9.0), braced("a", 0.05), braced("d", 1.5, True, 8.0), braced("b", 0.12), braced("e", None, status="failed")]
+    table, without = study_brace.ranking(found)
+    assert [row["brace"] for row in table] == ["a", "b", "c", "d"] and without == [0.10, 0.11]
+    assert [row["change"] for row in table[:2]] == pytest.approx([-0.5, 0.2])
+
+
+def test_brace_picture(tmp_path):
+    found = [braced(None, 0.10), braced(None, 0.11), *(braced(name, 0.08 + 0.02 * k) for k, name in enumerate(BRACES))]
+    table, without = study_brace.ranking(found)
+    options = SimpleNamespace(house="B", scale=0.6, snow=1.0, seed=1)
+    study_brace.plot(table, without, options, tmp_path / "brace.png")
+    assert (tmp_path / "brace.png").stat().st_size > 10000
+
+
+def test_bays_in_words():
+    model = study_brace.build_house(study_brace.load_house("B"), check=False)
+    assert [study_brace.words(model, name) for name in BRACES] == [
+        "storey 1, south wall, 3.2 m east", "storey 1, east wall, 4.1 m north", "storey 2, inner N-S wall, 1.8 m north"]  # fmt: skip
