@@ -50,6 +50,7 @@ def parser(script):
     made.add_argument("--no-views", action="store_true", help="make no pictures; scripts/show_run.py makes them later from the recorded frames")
     made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
     made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
+    made.add_argument("--every-step", action="store_true", help="compute rest, too: by default the time in which the house rests and the ground is quiet is skipped")
     made.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_motion_options(made)
     return made
@@ -86,7 +87,7 @@ def _run(given, name, house, earthquake, depth, remedy):
     motion = _motion(request, earthquake, given.dt, remedy)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
     scale = 1.0 if request.scale is None else request.scale
-    scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration)
+    scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration, options={"skip_rest": 0} if given.every_step else {})
     folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
     return scenario, Output(

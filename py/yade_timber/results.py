@@ -142,6 +142,12 @@ def versions():
     return {"yade": host.host_facts()["yade"], "package": build["package"]}
 
 
+def skipped():
+    """Simulated time at rest that was not computed. [s]"""
+    skipper = scene.find_engine(yw.RestSkipper)
+    return skipper.skipped if skipper else 0.0
+
+
 def summary(scenario, model, wall_s):
     """Content of summary.json for the scene as it is now. wall_s: time spent on the run so far [s]."""
     monitor = scene.find_engine(yw.HouseMonitor)
@@ -159,6 +165,7 @@ def summary(scenario, model, wall_s):
         "duration_s": simulated,
         "steps": O.iter,
         "wall_s": round(wall_s, 3),
+        "skipped_s": round(skipped(), 3),
         "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
         "threads": O.numThreads,
         "elements": len(O.bodies),

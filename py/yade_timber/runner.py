@@ -12,7 +12,7 @@ import time
 import yade.runtime
 import yade.wrapper as yw
 
-from . import checkpoint, cli, frames, pictures, results, viewer
+from . import checkpoint, cli, frames, pictures, results, scene, viewer
 from .errors import RunError
 from .export import export_scene
 from .house import HouseError, build_house, load_house
@@ -47,6 +47,9 @@ class Run:
         cli.prepare_folder(output.folder)
         resumed = output.resume and self.checkpoint_path.exists()
         self._load() if resumed else self._start()
+        skipper = scene.find_engine(yw.RestSkipper)
+        if skipper:
+            skipper.last = self.steps
         if output.export:
             self._export()
 
@@ -119,7 +122,7 @@ class Run:
         only after a step, so a resumed run always has one to make.
         """
         left = self.steps - O.iter
-        self._advance(min(max(1, left - 1), self.chunk - O.iter % self.chunk))
+        self._advance(O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk))
         if O.iter == self.steps:
             return
         if self.recorder and O.iter % self.chunk == 0:
@@ -129,11 +132,11 @@ class Run:
         if self.signal:
             raise Interrupted(self.signal)
 
-    def _advance(self, count):
-        """`O.step` in a loop: unlike `O.run`, it throws errors here, keeps its threads, and does not wait in slices of 40 ms."""
+    def _advance(self, step):
+        """Go to that step by `O.step` in a loop: unlike `O.run`, it throws errors here, keeps its threads, and does not wait in slices of 40 ms."""
         since = time.perf_counter()
         try:
-            for _ in range(count):
+            while O.iter < step:
                 O.step()
         except RuntimeError as problem:
             raise RunError(f"{problem}; the run stops at {O.time:.4f} s without results") from None

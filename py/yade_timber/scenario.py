@@ -7,6 +7,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
 from . import elements, palette, scene
+from .frames import steps_between
 from .house import build_house, load_house
 from .house.friction import own_coefficient
 
@@ -55,7 +56,7 @@ def build(scenario):
     motion = None
     if scenario.motion is not None:
         motion = scene.ground_motion_engine(scenario.motion, scale=scenario.scale)
-    options = {**law_options(model.law), **scenario.options}
+    options = {**law_options(model.law), "skip_rest": steps_between(scenario.dt), **scenario.options}
     O.engines = scene.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
     O.dt = scenario.dt
     return model

@@ -29,6 +29,7 @@ def engines(
     tolerance=1e-3,
     track_energy=True,
     health_check=100,
+    skip_rest=0,
 ):
     """List for `O.engines`, with nothing in it that the scene has no use for.
 
@@ -44,6 +45,7 @@ def engines(
     tolerance      share of the contact impulses that the last sweep may change [-]
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
+    skip_rest      steps to skip at a time while the scene rests and the ground is quiet (RestSkipper); 0: none
     """
     # the snow functors cost nothing without snow, and YADE ends the process when a pair of materials has none
     laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=increment), yw.Law2_ManifoldGeom_SnowPhys_Linear()]
@@ -69,6 +71,8 @@ def engines(
         chain.append(yw.HealthCheck(every=health_check))
     if monitor is not None:
         chain.append(monitor)
+    if skip_rest:
+        chain.append(yw.RestSkipper(grain=skip_rest))
     return chain
 
 

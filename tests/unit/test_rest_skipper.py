@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rest is skipped, motion is not, and what follows is the same."""
+import numpy as np
+import pytest
+import yade_timber as yt
+from yade import O
+from yade_timber import scene
+from yade_timber.motion import GroundMotion
+
+GRAIN = 250
+PULSE = 5.0  # [s] start of the shaking
+
+
+def block_on_plate(skip_rest, amplitude=3.0):
+    """A block that rests on a plate, and half a second of shaking from PULSE on, hard enough to make it slide (m/s2)."""
+    O.reset()
+    time = np.arange(0, 6.5, 0.01)
+    shaking = np.where(time > PULSE, amplitude * np.sin(2 * np.pi * (time - PULSE)), 0) * (time < PULSE + 0.5)
+    motion = GroundMotion(0.01, np.column_stack([shaking, 0 * time, 0 * time]), "pulse")
+    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), material=yt.timber(friction=0.2), fixed=True))
+    block = O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0.1), material=yt.timber(friction=0.2)))
+    O.engines = yt.engines(ground_motion=motion, skip_rest=skip_rest)
+    O.dt = 2e-4
+    return O.bodies[block]
+
+
+def run_to(time):
+    """Steps that were computed."""
+    steps = 0
+    while O.time < time - O.dt / 2:
+        O.step()
+        steps += 1
+    return steps
+
+
+def test_rest_is_skipped_and_the_result_stays():
+    block = block_on_plate(0)
+    every_step = run_to(6.5)
+    expected = block.state.pos
+    block = block_on_plate(GRAIN)
+    computed = run_to(6.5)
+    skipped = scene.find_engine(yt.RestSkipper).skipped
+    assert abs(expected[0]) > 0.01  # [m] it slid
+    assert (block.state.pos - expected).norm() < 1e-6  # [m] less rest is left for the settling
+    assert skipped > 1.5 and computed == every_step - round(skipped / O.dt)
+    assert O.time == pytest.approx(6.5) and O.iter == round(6.5 / O.dt)
+
+
+def test_slow_growth_is_no_rest():
+    """A free block that gravity of 1e-4 m/s2 moves stays below the speed of rest for ten seconds, and is never skipped."""
+    O.reset()
+    block = O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0)))
+    O.engines = yt.engines(gravity=(1e-4, 0, 0), skip_rest=GRAIN)
+    O.dt = 2e-4
+    run_to(6.0)
+    assert O.bodies[block].state.vel[0] == pytest.approx(6e-4, rel=1e-3)
+    assert scene.find_engine(yt.RestSkipper).skipped == 0
+
+
+def test_the_last_step_is_not_skipped_over():
+    block_on_plate(GRAIN, amplitude=0.0)
+    scene.find_engine(yt.RestSkipper).last = round(6.01 / O.dt)
+    run_to(6.01)
+    assert O.iter == round(6.01 / O.dt)
