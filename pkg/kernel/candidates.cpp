@@ -144,8 +144,8 @@ namespace {
 /// covers what a flush support reaches beyond a border.
 void searchCandidates(const Pair& pair, CandidateCache& cache)
 {
-	Vec3 axis;
-	const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, axis, candidateSkin);
+	const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, cache.axis, candidateSkin);
+	cache.farA = extent(pair.a.core, cache.axis).second;
 	cache.candidates.clear();
 	cache.rotation = pair.rotation;
 	cache.margin = std::max(candidateSkin, gap - pair.touch() - candidateSkin);

@@ -31,7 +31,7 @@ constexpr double parallelSine = 5e-3;
 
 /// Candidate features are kept for a pair until it has moved by this length. [m]
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
-constexpr double candidateSkin = 2e-3;
+constexpr double candidateSkin = 4e-3;
 
 /// Overlapping cores: points whose normal makes a larger angle with the axis of least overlap do not count. [-]
 /// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.

@@ -183,6 +183,14 @@ namespace {
 		});
 	}
 
+	/// The axis on which the cores were apart at the last search keeps them from touching: the usual case of a pair that has
+	/// parted a little. Any axis may say so. A flush support reaches beyond a border, at a corner by sqrt(2) times its tolerance.
+	bool isApart(const Pair& pair, const CandidateCache& cache)
+	{
+		const double nearB = extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis);
+		return nearB - cache.farA > pair.touch() + 2 * flushTolerance;
+	}
+
 	void lookForOverlap(Pair& pair)
 	{
 		pair.gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, pair.axis, 0);
@@ -199,6 +207,7 @@ void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, cons
 	points.clear();
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
+	if (cache.searched() && isApart(pair, cache)) return;
 	if (!cache.holds(pair.rotation, pair.translation)) searchCandidates(pair, cache);
 	if (cache.coresMayMeet) lookForOverlap(pair);
 

@@ -58,10 +58,13 @@ struct CandidateCache {
 	double region = 0; ///< [m]
 	double margin = -1; ///< [m]; < 0: never searched
 	bool coresMayMeet = false; ///< cores may overlap within the margin
+	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart at the search
+	double farA = 0; ///< how far A reaches along it [m]
 
+	bool searched() const { return margin >= 0; }
 	bool holds(const Mat3& nowRotation, const Vec3& nowTranslation) const
 	{
-		if (margin < 0) return false;
+		if (!searched()) return false;
 		const double turned = std::sqrt(0.5 * (nowRotation - rotation).squaredNorm()); // way per radius
 		return (nowRotation * centreB + nowTranslation - centre).norm() + turned * region <= margin;
 	}

@@ -3,13 +3,23 @@
 #pragma once
 #include "types.hpp"
 #include <cmath>
+#include <utility>
 
 namespace timber {
+
+/// Sine and cosine; by their series, exact to rounding, where they are short.
+inline std::pair<double, double> sineCosine(double x)
+{
+	if (std::abs(x) > 0.02) return { std::sin(x), std::cos(x) };
+	const double y = x * x;
+	return { x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42))), 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56))) };
+}
 
 /// Turns the orientation about its own principal axis by `angle` [rad].
 inline void turnAbout(Quat& orientation, Vec3& bodyMomentum, int axis, double angle)
 {
-	const double halfC = std::cos(angle / 2), halfS = std::sin(angle / 2), c = halfC * halfC - halfS * halfS, s = 2 * halfS * halfC;
+	const auto [halfS, halfC] = sineCosine(angle / 2);
+	const double c = halfC * halfC - halfS * halfS, s = 2 * halfS * halfC;
 	const int j = (axis + 1) % 3, k = (axis + 2) % 3;
 	const double mj = bodyMomentum[j], mk = bodyMomentum[k];
 	bodyMomentum[j] = c * mj + s * mk;

