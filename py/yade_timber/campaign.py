@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Many runs of the scripts, each a YADE process of its own, over all cores. Needs no YADE itself."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+FAILURE = "failed.txt"
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run: script name without .py, folder of its results, options of its command line."""
+
+    script: str
+    folder: Path
+    options: tuple = field(default=())
+
+    @property
+    def summary(self):
+        """Content of summary.json, or None when the run has not been done."""
+        path = self.folder / "summary.json"
+        return json.loads(path.read_text()) if path.is_file() else None
+
+
+def run_missing(tasks, jobs=None, scripts=SCRIPTS, say=print):
+    """Do the tasks that have no results yet, `jobs` at a time (default: all cores). Returns {task: summary or None}.
+
+    A run that was stopped goes on from its checkpoint; one that fails leaves its last words in failed.txt, and the others go on.
+    """
+    missing = [task for task in tasks if task.summary is None]
+    if missing:
+        say(f"{len(missing)} of {len(tasks)} runs to do")
+    with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
+        for task, line in zip(missing, pool.map(lambda task: _run(task, scripts), missing)):
+            say(f"{task.folder}: {line}")
+    return {task: task.summary for task in tasks}
+
+
+def _run(task, scripts):
+    """Do one run; returns what became of it in a line."""
+    task.folder.mkdir(parents=True, exist_ok=True)
+    (task.folder / FAILURE).unlink(missing_ok=True)
+    command = [yade(), "-n", "-x", "-j1", str(scripts / f"{task.script}.py"), "--out", str(task.folder), "--no-views", "--quiet", "--resume", *map(str, task.options)]
+    since = time.monotonic()
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    if done.returncode == 0:
+        return f"done in {time.monotonic() - since:.0f} s"
+    (task.folder / FAILURE).write_text(done.stderr)
+    return f"failed: {done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f'exit status {done.returncode}'}"
+
+
+def yade():
+    """Path of the yade executable. Ends the process with a line when there is none."""
+    return shutil.which("yade") or sys.exit("error: no yade on the PATH: install it (scripts/setup)")

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Readings of what the paper leaves open, each as a change to the shipped houses. Needs no YADE."""
+import copy
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+from .files import write_text
+
+HOUSES = Path(__file__).resolve().parent / "data" / "houses"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """words: what is read differently; change: entries laid over every house; houses: more entries for some, by house name."""
+
+    words: str
+    change: dict = field(default_factory=dict)
+    houses: dict = field(default_factory=dict)
+
+    def entries(self, house):
+        """What is laid over that house: B's entries hold for B, B1 and B2."""
+        return merged(self.change, self.houses.get(house[0], {}))
+
+
+def merged(base, change):
+    """`change` laid over `base`: tables entry by entry, everything else replaced as a whole."""
+    result = copy.deepcopy(base)
+    for key, value in change.items():
+        both = isinstance(value, dict) and isinstance(result.get(key), dict)
+        result[key] = merged(result[key], value) if both else copy.deepcopy(value)
+    return result
+
+
+def write_house(reading, run, folder):
+    """House file of a published run ('modelB1_snow') under that reading, in the folder; returns its path. Raises OSError."""
+    house = run[len("model"):].split("_")[0]
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"model{house}.yaml"
+    entries = {"extends": str(HOUSES / f"model{house}.yaml"), **reading.entries(house)}
+    write_text(path, yaml.safe_dump(entries, sort_keys=False))
+    return path
+
+
+# --- changes ------------------------------------------------------------------------------------------------------------
+
+
+def shipped():
+    """base.yaml as plain tables."""
+    return yaml.safe_load((HOUSES / "base.yaml").read_text(encoding="utf-8"))
+
+
+def friction(timber, snow):
+    """Coefficients timber-timber and snow-timber (snow-snow as the latter)."""
+    pairs = ((("timber", "timber"), timber), (("snow", "timber"), snow), (("snow", "snow"), snow))
+    return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs]}
+
+
+def beam_width(width):
+    """Width of sills and beams [m]."""
+    changed = {}
+    for name, structure in shipped()["structures"].items():
+        stack = [{**layer, "width": width} if layer["layer"] in ("sill", "beams") else layer for layer in structure["stack"]]
+        changed[name] = {"stack": stack}
+    return {"structures": changed}
+
+
+def joint_values(factor, *types):
+    """Stiffness and strength of these joint types times a factor."""
+    values = shipped()["joint_types"]
+    return {"joint_types": {name: {key: float(values[name][key]) * factor for key in ("kn", "ks", "strength")} for name in types}}
+
+
+def more_joints(*rules):
+    """Joint rules beside the shipped ones."""
+    return {"joints": shipped()["joints"] + list(rules)}
+
+
+def without_joints(*kinds):
+    return {"joints": [rule for rule in shipped()["joints"] if rule["kind"] not in kinds]}
+
+
+def turned(name):
+    """Braces of a house leaning the other way: [foot, head] -> [head, foot]."""
+    table = yaml.safe_load((HOUSES / f"model{name}.yaml").read_text(encoding="utf-8"))["structures"]
+    for structure in table.values():
+        for line in structure["braces"]["lines"]:
+            line["runs"] = [run[::-1] for run in line["runs"]]
+    return {"structures": table}
+
+
+READINGS = {
+    "shipped": Reading("the houses as shipped"),
+    "joint-whole": Reading("stiffness and P_max belong to the joint, not to each of its springs", {"law": {"joint_reading": "joint"}}),
+    "flush-off": Reading("a vertex exactly over a border is not supported", {"law": {"flush_supports": False}}),
+    "vertex-edge": Reading("vertex-edge and vertex-vertex contacts, too", {"law": {"vertex_edge_contacts": True}}),
+    "increment": Reading("Hertz force in increments (Eq 38)", {"law": {"hertz": "increment"}}),
+    "timber-0.3": Reading("friction timber-timber 0.3", friction(0.3, 0.3)),
+    "snow-0.1": Reading("friction snow-roof 0.1: it slides off by itself", friction(0.5, 0.1)),
+    "snow-0.3": Reading("friction snow-roof 0.3", friction(0.5, 0.3)),
+    "plumb-1e-3": Reading("out of plumb by 1/1000 to the north", {"plumb": {"drift": 1e-3, "towards": "north"}}),
+    "plumb-1e-2": Reading("out of plumb by 1/100 to the north", {"plumb": {"drift": 1e-2, "towards": "north"}}),
+    "beam-0.12": Reading("sills and beams 12 cm wide", beam_width(0.12)),
+    "floor-roof-stiff": Reading("floors and roof fixed to the beams, ten times as stiff and strong", joint_values(10, "floor_bolt", "roof_plate")),
+    "tie-corner": Reading("roof slabs tied with the corner fitting's values", {"joint_types": {"roof_tie": {"kn": 58800.0, "ks": 58800.0, "strength": 5880.0}}}),
+    "beams-joined": Reading("beams joined where they butt", more_joints({"between": ["beam", "beam"], "type": "corner_fitting", "kind": "beam_beam"})),
+    "braces-turned": Reading("braces leaning the other way", {}, {"B": turned("B"), "C": turned("C")}),
+    "damage-top": Reading("damaged joints at the columns' heads", {"damage": {"end": "top"}}),
+}
+"""Name -> Reading; each differs from the shipped houses in one thing."""
