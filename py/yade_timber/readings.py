@@ -57,13 +57,24 @@ def friction(timber, snow):
     return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs]}
 
 
-def beam_width(width):
-    """Width of sills and beams [m]."""
+def layers(kinds, **entries):
+    """Entries laid over the layers of these kinds in all structures."""
     changed = {}
     for name, structure in shipped()["structures"].items():
-        stack = [{**layer, "width": width} if layer["layer"] in ("sill", "beams") else layer for layer in structure["stack"]]
-        changed[name] = {"stack": stack}
+        changed[name] = {"stack": [{**layer, **entries} if layer["layer"] in kinds else layer for layer in structure["stack"]]}
     return {"structures": changed}
+
+
+def beam_width(width):
+    """Width of sills and beams [m]."""
+    return layers(("sill", "beams"), width=width)
+
+
+def rough_roof(coefficient):
+    """Roofing that holds its snow with more friction than timber has on timber: a pair has the smaller one of two materials' own."""
+    pairs = {("timber", "timber"): 0.5, ("roofing", "timber"): 0.5, ("roofing", "roofing"): coefficient, ("snow", "roofing"): coefficient, ("snow", "snow"): coefficient}
+    listed = [{"between": list(pair), "coefficient": value} for pair, value in pairs.items()]
+    return {"materials": {"roofing": shipped()["materials"]["timber"]}, "friction": listed, **layers(("roof",), material="roofing")}
 
 
 def joint_values(factor, *types):
@@ -99,6 +110,7 @@ READINGS = {
     "timber-0.3": Reading("friction timber-timber 0.3", friction(0.3, 0.3)),
     "snow-0.1": Reading("friction snow-roof 0.1: it slides off by itself", friction(0.5, 0.1)),
     "snow-0.3": Reading("friction snow-roof 0.3", friction(0.5, 0.3)),
+    "snow-1": Reading("friction snow-roof 1: roofing and snow guards hold it", rough_roof(1.0)),
     "plumb-1e-3": Reading("out of plumb by 1/1000 to the north", {"plumb": {"drift": 1e-3, "towards": "north"}}),
     "plumb-1e-2": Reading("out of plumb by 1/100 to the north", {"plumb": {"drift": 1e-2, "towards": "north"}}),
     "beam-0.12": Reading("sills and beams 12 cm wide", beam_width(0.12)),
