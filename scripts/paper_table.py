@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's fourteen runs and its claims: does what is missing, then prints and writes the table of claims with their numbers.
 
-    scripts/paper_table.py [--out results] [--jobs 2] [options of the run scripts, e.g. --record PREFIX --dt 2e-4]
+    scripts/paper_table.py [--out results] [--jobs 2] [--record PREFIX] [--scale X] [--dt S] [--duration S]
 
 A run is there when its folder holds a summary.json: other options want another --out. Writes claims.md, claims.csv and claims.json.
 Needs no YADE itself.
@@ -14,15 +14,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber import campaign, claims_table  # noqa: E402
-from yade_timber.claims import RUNS, judge  # noqa: E402
+from yade_timber.claims import RUNS, judge, loads  # noqa: E402
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
-    parser.add_argument("--out", type=Path, default=Path("results"), help="folder that holds a folder of each run (default results)")
-    parser.add_argument("--jobs", type=int, help="runs at a time (default: all cores)")
-    options, passed = parser.parse_known_args()
-    tasks = [campaign.Task(run, options.out / run, tuple(passed)) for run in RUNS]
+    campaign.add_arguments(parser, "results")
+    options = parser.parse_args()
+    tasks = [campaign.Task(run, options.out / run, campaign.handed_on(options, earthquake=loads(run)[1])) for run in RUNS]
     done = campaign.run_missing(tasks, options.jobs)
     summaries = {task.script: summary for task, summary in done.items() if summary is not None}
     results = judge(summaries)

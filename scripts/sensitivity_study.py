@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What each reading of the paper's open choices does to its claims: the fourteen runs for every reading in READINGS.
 
-    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-whole,flush-off] [--runs modelA_snow,...] [options of the run scripts]
+    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-whole,flush-off] [--runs modelA_snow,...] [--dt S]
+        [--record PREFIX] [--scale X] [--duration S]
 
 Readings differ from the shipped houses in one thing each. What has been done is not done again. Writes sensitivity.md and .csv.
 Needs no YADE itself.
@@ -14,28 +15,31 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber import campaign, claims_table  # noqa: E402
-from yade_timber.claims import RUNS, judge  # noqa: E402
+from yade_timber.claims import RUNS, judge, loads  # noqa: E402
 from yade_timber.files import write_text  # noqa: E402
-from yade_timber.readings import READINGS, write_house  # noqa: E402
+from yade_timber.readings import READINGS, house_options  # noqa: E402
 
 
-def tasks_of(reading, folder, runs, passed):
+def tasks_of(reading, folder, runs, options):
     """Tasks of a reading: each run with a house file that differs from the shipped one in that reading."""
-    return [campaign.Task(run, folder / run, ("--house", write_house(reading, run, folder / "houses"), *passed)) for run in runs]
+    return [campaign.Task("house", folder / run, task_options(reading, run, folder, options)) for run in runs]
+
+
+def task_options(reading, run, folder, options):
+    return (*house_options(reading, run, folder / "houses"), *campaign.handed_on(options, earthquake=loads(run)[1]))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
-    parser.add_argument("--out", type=Path, default=Path("results/sensitivity"), help="folder of the study (default results/sensitivity)")
-    parser.add_argument("--jobs", type=int, help="runs at a time (default: all cores)")
+    campaign.add_arguments(parser, "results/sensitivity")
     parser.add_argument("--only", help=f"readings, comma-separated, of: {', '.join(READINGS)}")
     parser.add_argument("--runs", help="runs, comma-separated (default: all fourteen)")
-    options, passed = parser.parse_known_args()
+    options = parser.parse_args()
     readings = chosen(options.only, READINGS, "--only")
     runs = chosen(options.runs, RUNS, "--runs")
-    tasks = {name: tasks_of(READINGS[name], options.out / name, runs, passed) for name in readings}
+    tasks = {name: tasks_of(READINGS[name], options.out / name, runs, options) for name in readings}
     done = campaign.run_missing([task for some in tasks.values() for task in some], options.jobs)
-    summaries = {name: {task.script: done[task] for task in some if done[task] is not None} for name, some in tasks.items()}
+    summaries = {name: {task.folder.name: done[task] for task in some if done[task] is not None} for name, some in tasks.items()}
     words = {name: READINGS[name].words for name in readings}
     text = claims_table.compare(words, {name: judge(found) for name, found in summaries.items()})
     print(text)

@@ -14,6 +14,10 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 FAILURE = "failed.txt"
 
 
+MOTION_OPTIONS = ("record", "scale")
+"""Options of the run scripts that runs without an earthquake refuse."""
+
+
 @dataclass(frozen=True)
 class Task:
     """A run: script name without .py, folder of its results, options of its command line."""
@@ -27,6 +31,23 @@ class Task:
         """Content of summary.json, or None when the run has not been done."""
         path = self.folder / "summary.json"
         return json.loads(path.read_text()) if path.is_file() else None
+
+
+def add_arguments(parser, folder):
+    """Arguments that all studies share: where to, how many at a time, and what is handed to every run."""
+    parser.add_argument("--out", type=Path, default=Path(folder), help=f"folder that holds a folder of each run (default {folder})")
+    parser.add_argument("--jobs", type=int, help="runs at a time (default: all cores)")
+    parser.add_argument("--record", metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
+    parser.add_argument("--scale", type=float, metavar="X", help="factor on their ground motion")
+    parser.add_argument("--dt", type=float, metavar="S", help="time step of all runs [s]")
+    parser.add_argument("--duration", type=float, metavar="S", help="simulated time of all runs [s]")
+
+
+def handed_on(given, earthquake):
+    """What is handed to a run, with or without an earthquake, as words of its command line."""
+    names = ("dt", "duration", *(MOTION_OPTIONS if earthquake else ()))
+    chosen = [(name, getattr(given, name, None)) for name in names]
+    return tuple(word for name, value in chosen if value is not None for word in (f"--{name}", value))
 
 
 def run_missing(tasks, jobs=None, scripts=SCRIPTS, say=print):

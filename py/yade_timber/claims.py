@@ -203,6 +203,12 @@ RUNS = tuple(dict.fromkeys(run for _, _, runs in CLAIMS.values() for run in runs
 """The paper's fourteen runs, in its order but for what a claim compares with."""
 
 
+def loads(run):
+    """(house, earthquake, snow) of a published run: 'modelB1_snow' -> ('B1', True, True), 'modelB_snow' -> ('B', False, True)."""
+    house, kind = run[len("model"):].split("_")
+    return house, kind == "quake" or house not in "ABC", kind == "snow"
+
+
 def judge(summaries):
     """List of Result for every claim. summaries: {run name: content of its summary.json}; runs may be missing."""
     return [_judge_one(name, summaries) for name in CLAIMS]

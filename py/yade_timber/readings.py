@@ -6,6 +6,7 @@ from pathlib import Path
 
 import yaml
 
+from .claims import loads
 from .files import write_text
 
 HOUSES = Path(__file__).resolve().parent / "data" / "houses"
@@ -33,9 +34,15 @@ def merged(base, change):
     return result
 
 
+def house_options(reading, run, folder):
+    """Options of scripts/house.py that do a published run under that reading; its house file is written to the folder. Raises OSError."""
+    _, earthquake, snow = loads(run)
+    return (write_house(reading, run, folder), "--snow", 1.0 if snow else 0.0, *(["--quake"] if earthquake else []))
+
+
 def write_house(reading, run, folder):
-    """House file of a published run ('modelB1_snow') under that reading, in the folder; returns its path. Raises OSError."""
-    house = run[len("model"):].split("_")[0]
+    """House file of a published run under that reading, in the folder; returns its path. Raises OSError."""
+    house, _, _ = loads(run)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"model{house}.yaml"
     entries = {"extends": str(HOUSES / f"model{house}.yaml"), **reading.entries(house)}
