@@ -58,10 +58,10 @@ def shipped():
     return yaml.safe_load((HOUSES / "base.yaml").read_text(encoding="utf-8"))
 
 
-def friction(timber, snow):
-    """Coefficients timber-timber and snow-timber (snow-snow as the latter)."""
-    pairs = ((("timber", "timber"), timber), (("snow", "timber"), snow), (("snow", "snow"), snow))
-    return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs]}
+def friction(timber=0.3, snow=2.0):
+    """Coefficients of timber on timber and of snow on its roof."""
+    pairs = {("timber", "timber"): timber, ("roofing", "timber"): min(timber, snow), ("roofing", "roofing"): snow, ("snow", "roofing"): snow, ("snow", "snow"): snow}
+    return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs.items()]}
 
 
 def layers(kinds, **entries):
@@ -77,26 +77,15 @@ def beam_width(width):
     return layers(("sill", "beams"), width=width)
 
 
-def rough_roof(coefficient):
-    """Roofing that holds its snow with more friction than timber has on timber: a pair has the smaller one of two materials' own."""
-    pairs = {("timber", "timber"): 0.5, ("roofing", "timber"): 0.5, ("roofing", "roofing"): coefficient, ("snow", "roofing"): coefficient, ("snow", "snow"): coefficient}
-    listed = [{"between": list(pair), "coefficient": value} for pair, value in pairs.items()]
-    return {"materials": {"roofing": shipped()["materials"]["timber"]}, "friction": listed, **layers(("roof",), material="roofing")}
-
-
-def joint_values(factor, *types):
-    """Stiffness and strength of these joint types times a factor."""
-    values = shipped()["joint_types"]
-    return {"joint_types": {name: {key: float(values[name][key]) * factor for key in ("kn", "ks", "strength")} for name in types}}
+def as_corner_fitting(*types):
+    """These joint types with the corner fitting's stiffness and strength."""
+    fitting = {key: float(shipped()["joint_types"]["corner_fitting"][key]) for key in ("kn", "ks", "strength")}
+    return {"joint_types": {name: dict(fitting) for name in types}}
 
 
 def more_joints(*rules):
     """Joint rules beside the shipped ones."""
     return {"joints": shipped()["joints"] + list(rules)}
-
-
-def without_joints(*kinds):
-    return {"joints": [rule for rule in shipped()["joints"] if rule["kind"] not in kinds]}
 
 
 def turned(name):
@@ -110,19 +99,21 @@ def turned(name):
 
 READINGS = {
     "shipped": Reading("the houses as shipped"),
-    "joint-whole": Reading("stiffness and P_max belong to the joint, not to each of its springs", {"law": {"joint_reading": "joint"}}),
+    "joint-each": Reading("stiffness and P_max belong to each of a joint's springs", {"law": {"joint_reading": "spring"}}),
     "flush-off": Reading("a vertex exactly over a border is not supported", {"law": {"flush_supports": False}}),
     "vertex-edge": Reading("vertex-edge and vertex-vertex contacts, too", {"law": {"vertex_edge_contacts": True}}),
     "increment": Reading("Hertz force in increments (Eq 38)", {"law": {"hertz": "increment"}}),
-    "timber-0.3": Reading("friction timber-timber 0.3", friction(0.3, 0.3)),
-    "snow-0.1": Reading("friction snow-roof 0.1: it slides off by itself", friction(0.5, 0.1)),
-    "snow-0.3": Reading("friction snow-roof 0.3", friction(0.5, 0.3)),
-    "snow-1": Reading("friction snow-roof 1: roofing and snow guards hold it", rough_roof(1.0)),
+    "timber-0.4": Reading("friction timber-timber 0.4", friction(timber=0.4)),
+    "timber-0.5": Reading("friction timber-timber 0.5", friction(timber=0.5)),
+    "snow-0.1": Reading("friction snow-roof 0.1: it slides off by itself", friction(snow=0.1)),
+    "snow-0.3": Reading("friction snow-roof 0.3", friction(snow=0.3)),
+    "snow-0.5": Reading("friction snow-roof 0.5", friction(snow=0.5)),
+    "snow-1": Reading("friction snow-roof 1", friction(snow=1.0)),
     "plumb-1e-3": Reading("out of plumb by 1/1000 to the north", {"plumb": {"drift": 1e-3, "towards": "north"}}),
     "plumb-1e-2": Reading("out of plumb by 1/100 to the north", {"plumb": {"drift": 1e-2, "towards": "north"}}),
     "beam-0.12": Reading("sills and beams 12 cm wide", beam_width(0.12)),
-    "floor-roof-stiff": Reading("floors and roof fixed to the beams, ten times as stiff and strong", joint_values(10, "floor_bolt", "roof_plate")),
-    "tie-corner": Reading("roof slabs tied with the corner fitting's values", {"joint_types": {"roof_tie": {"kn": 58800.0, "ks": 58800.0, "strength": 5880.0}}}),
+    "floor-roof-soft": Reading("floors and roof on their beams with the corner fitting's values", as_corner_fitting("floor_bolt", "roof_plate")),
+    "tie-corner": Reading("roof slabs tied with the corner fitting's values", as_corner_fitting("roof_tie")),
     "beams-joined": Reading("beams joined where they butt", more_joints({"between": ["beam", "beam"], "type": "corner_fitting", "kind": "beam_beam"})),
     "braces-turned": Reading("braces leaning the other way", {}, {"B": turned("B"), "C": turned("C")}),
     "damage-top": Reading("damaged joints at the columns' heads", {"damage": {"end": "top"}}),
