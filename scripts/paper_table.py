@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's fourteen runs and its claims: does what is missing, then prints and writes the table of claims with their numbers.
 
-    scripts/paper_table.py [--out results] [--jobs 2] [--record PREFIX] [--scale X] [--dt S] [--duration S]
+    scripts/paper_table.py [--out results] [--jobs 2] [--record PREFIX | --seed N] [--scale X] [--dt S] [--duration S]
 
 A run is there when its folder holds a summary.json: other options want another --out. Writes claims.md, claims.csv and claims.json.
 Needs no YADE itself.

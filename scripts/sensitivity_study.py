@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What each reading of the paper's open choices does to its claims: the fourteen runs for every reading in READINGS.
 
-    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-whole,flush-off] [--runs modelA_snow,...] [--dt S]
-        [--record PREFIX] [--scale X] [--duration S]
+    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-each,flush-off] [--runs modelA_snow,...] [--dt S]
+        [--record PREFIX | --seed N] [--scale X] [--start S] [--end S] [--duration S]
 
-Readings differ from the shipped houses in one thing each. What has been done is not done again. Writes sensitivity.md and .csv.
-Needs no YADE itself.
+Readings differ from the shipped houses in one thing each. What has been done is not done again. Writes sensitivity.md,
+and the tables of each reading in its folder. Needs no YADE itself.
 """
 import argparse
 import sys
@@ -15,8 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber import campaign, claims_table  # noqa: E402
-from yade_timber.claims import RUNS, judge, loads  # noqa: E402
-from yade_timber.files import write_text  # noqa: E402
+from yade_timber.claims import RUNS, loads  # noqa: E402
 from yade_timber.readings import READINGS, house_options  # noqa: E402
 
 
@@ -35,26 +34,10 @@ def main():
     parser.add_argument("--only", help=f"readings, comma-separated, of: {', '.join(READINGS)}")
     parser.add_argument("--runs", help="runs, comma-separated (default: all fourteen)")
     options = parser.parse_args()
-    readings = chosen(options.only, READINGS, "--only")
-    runs = chosen(options.runs, RUNS, "--runs")
+    readings = campaign.chosen(options.only, READINGS, "--only")
+    runs = campaign.chosen(options.runs, RUNS, "--runs")
     tasks = {name: tasks_of(READINGS[name], options.out / name, runs, options) for name in readings}
-    done = campaign.run_missing([task for some in tasks.values() for task in some], options.jobs)
-    summaries = {name: {task.folder.name: done[task] for task in some if done[task] is not None} for name, some in tasks.items()}
-    words = {name: READINGS[name].words for name in readings}
-    text = claims_table.compare(words, {name: judge(found) for name, found in summaries.items()})
-    print(text)
-    write_text(options.out / "sensitivity.md", text)
-    for name, found in summaries.items():
-        claims_table.write(options.out / name, judge(found), found)
-
-
-def chosen(text, known, option):
-    """Names of a comma-separated list, each of which must be known; all of them without a list."""
-    names = text.split(",") if text else list(known)
-    unknown = [name for name in names if name not in known]
-    if unknown:
-        sys.exit(f"error: {option}: unknown: {', '.join(unknown)}; known: {', '.join(known)}")
-    return names
+    claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@ import csv
 import io
 import json
 
-from .claims import RUNS, damage, drift_text, leaning, sway, time_text
+from . import campaign
+from .claims import RUNS, damage, drift_text, judge, leaning, time_text
 from .files import write_text
 
 WORDS = {True: "holds", False: "does not hold", None: "not known"}
@@ -79,3 +80,15 @@ def write(folder, results, summaries):
     for name, text in contents.items():
         write_text(folder / name, text)
     return [folder / name for name in contents]
+
+
+def study(words, tasks, jobs, folder, name):
+    """Do the runs of a study, print and write its table and those of each case. words: {case: what it is}; tasks: {case: list of Task}."""
+    done = campaign.run_missing(list(dict.fromkeys(task for some in tasks.values() for task in some)), jobs)
+    found = {case: {task.folder.name: done[task] for task in some if done[task] is not None} for case, some in tasks.items()}
+    text = compare(words, {case: judge(summaries) for case, summaries in found.items()})
+    print(text)
+    write_text(folder / name, text)
+    for case, summaries in found.items():
+        (folder / case).mkdir(parents=True, exist_ok=True)
+        write(folder / case, judge(summaries), summaries)

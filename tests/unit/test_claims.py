@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """The claims' checks on made-up summaries: each holds where it should, and fails when one number is wrong."""
+import argparse
 import copy
 import json
+import sys
 
 import pytest
-from yade_timber import claims, claims_table
+from yade_timber import campaign, claims, claims_table
 from yade_timber.house import build_house, load_house
 from yade_timber.readings import READINGS, Reading, merged, write_house
 
@@ -114,3 +116,34 @@ def test_a_reading_is_built(tmp_path):
     reading = Reading("", merged(READINGS["beam-0.12"].change, READINGS["braces-turned"].houses["B"]))
     counts = build_house(load_house(write_house(reading, "modelB1_quake", tmp_path))).counts()
     assert counts["braces"] == 16 and counts["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
+
+def fake_script(folder, body):
+    """A folder of scripts with one, run.py, that is called like a run script."""
+    (folder / "run.py").write_text(body)
+    return folder
+
+
+WRITES = """import sys, json, pathlib
+folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
+(folder / 'summary.json').write_text(json.dumps({'words': sys.argv[1:]}))
+"""
+
+
+def test_only_missing_runs_are_done(tmp_path, monkeypatch):
+    """Options arrive; what has a summary is left alone; a failed run leaves its words and does not stop the others."""
+    monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
+    scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
+    tasks = [campaign.Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
+    tasks[2].folder.mkdir()
+    (tasks[2].folder / "summary.json").write_text('{"old": 1}')
+    said = []
+    done = campaign.run_missing(tasks, 2, scripts, said.append)
+    assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
+    assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
+    assert done[tasks[2]] == {"old": 1} and said[0] == "2 of 3 runs to do"
+
+
+def test_motions_are_handed_only_to_shaken_runs():
+    given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
+    assert campaign.handed_on(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
+    assert campaign.handed_on(given, earthquake=False) == ("--dt", 1e-4)
