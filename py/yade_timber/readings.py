@@ -88,6 +88,18 @@ def more_joints(*rules):
     return {"joints": shipped()["joints"] + list(rules)}
 
 
+def inner_columns(*nodes):
+    """The seven inner columns of a floor at these nodes (x, y)."""
+    groups = [{**group, "at": [list(node) for node in nodes]} if "at" in group else group for group in shipped()["structures"]["main"]["columns"]]
+    return {"structures": {"main": {"columns": groups}}}
+
+
+def braced(main=None, entrance=None):
+    """Braces of the main house and of the entrance, as in house files."""
+    lines = {"main": main, "entrance": entrance}
+    return {"structures": {name: {"braces": {"lines": some}} for name, some in lines.items() if some}}
+
+
 def turned(name):
     """Braces of a house leaning the other way: [foot, head] -> [head, foot]."""
     table = yaml.safe_load((HOUSES / f"model{name}.yaml").read_text(encoding="utf-8"))["structures"]
@@ -116,6 +128,11 @@ READINGS = {
     "tie-corner": Reading("roof slabs tied with the corner fitting's values", as_corner_fitting("roof_tie")),
     "beams-joined": Reading("beams joined where they butt", more_joints({"between": ["beam", "beam"], "type": "corner_fitting", "kind": "beam_beam"})),
     "braces-turned": Reading("braces leaning the other way", {}, {"B": turned("B"), "C": turned("C")}),
+    "braces-inwards": Reading("B's braces one bay away from the corners", {}, {"B": braced([
+        {"along": "y", "at": [0, 8], "runs": [[1, 2], [8, 7]]}, {"along": "x", "at": [0, 9], "runs": [[1, 2], [7, 6]]}])}),
+    "entrance-braced": Reading("B with two more braces at the entrance, 18 in all (section 4.1)", {}, {"B": braced(entrance=[
+        {"along": "x", "at": [0, 1], "runs": [[2, 1]]}])}),
+    "inner-columns": Reading("inner columns of A and B at other nodes", {}, dict.fromkeys("AB", inner_columns((4, 2), (4, 3), (4, 5), (4, 6), (4, 7), (2, 4), (6, 4)))),
     "damage-top": Reading("damaged joints at the columns' heads", {"damage": {"end": "top"}}),
 }
 """Name -> Reading; each differs from the shipped houses in one thing."""
