@@ -14,7 +14,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber.motion import DEFAULT_RECORD, RecordError, synthetic_motion, write_csv  # noqa: E402
-from yade_timber.motion.synthetic import GENERATOR_VERSION, TARGETS, achieved  # noqa: E402
+from yade_timber.motion.synthetic import DEFAULT_SEED, GENERATOR_VERSION, TARGETS, achieved  # noqa: E402
 
 LABELS = {
     "pga_ns": "PGA NS [gal]",
@@ -43,10 +43,10 @@ def target_text(key):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--seed", type=int, default=0, help="whole number >= 0 (default 0, the shipped motion)")
-    parser.add_argument("--out", type=Path, help="CSV file (default: the shipped file for seed 0, else ojiya_like_N.csv)")
+    parser.add_argument("--seed", type=int, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)")
+    parser.add_argument("--out", type=Path, help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)")
     options = parser.parse_args()
-    out = options.out or (DEFAULT_RECORD if options.seed == 0 else Path(f"ojiya_like_{options.seed}.csv"))
+    out = options.out or (DEFAULT_RECORD if options.seed == DEFAULT_SEED else Path(f"ojiya_like_{options.seed}.csv"))
     try:
         motion = synthetic_motion(options.seed)
         got = achieved(motion)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a run leaves behind: summary.json, history.csv, breaks.csv. Made from the scene in YADE and the HouseModel.
 
-The joint k of the scene's JointEngine is `model.joints[k]`. A joint is broken when all its springs are; with some broken it
+The joint k of the scene's JointEngine is `model.joints[k]`, the body k is `model.elements[k]`. A joint is broken when all its springs are; with some broken it
 is partly broken. Joints that are broken from the start (damage) are counted apart, never as broken.
 """
 import csv
@@ -11,14 +11,17 @@ import math
 from collections import Counter
 
 import yade.wrapper as yw
+from yade.minieigenHP import Vector3
 
 from . import _plugin, host, scene
 from .files import write_text
-from .motion import interpolation_error
+from .motion import interpolation_error, onset
 
 SIDES = ("north", "south", "east", "west", "inside")
 RESIDUAL_WINDOW = 1.0
 """The residual drift is the mean over this last part of the run, about a period of the standing houses. [s]"""
+FALLEN = math.radians(45)
+"""A column that is tilted by more has fallen. [rad]"""
 DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
 SUMMARY, HISTORY, BREAKS = "summary.json", "history.csv", "breaks.csv"
 
@@ -64,10 +67,36 @@ def count_broken(model):
         **by_kind(whole),
         "by_side": {side: sum(side in sides_of(j) for j in whole) for side in SIDES},
         "by_storey": {**storeys, **Counter(storey_of(j, model) for j in whole)},
+        "by_place": {storey: {side: by_kind(at(whole, model, storey, side)) for side in SIDES} for storey in storeys},
         "partly_broken": len(partly),
         "springs": len(scene.find_engine(yw.JointEngine).breaks),
         "damaged_at_start": by_kind(damaged),
     }
+
+
+def at(joints, model, storey, side):
+    """Those of the joints that are in this storey on this side."""
+    return [j for j in joints if storey_of(j, model) == storey and side in sides_of(j)]
+
+
+# --- columns ----------------------------------------------------------------------------------------------------------
+
+
+def count_columns(model):
+    """The part `columns`: total; fallen: tilted by more than FALLEN; loose: not fallen, but no joint of theirs has a spring left."""
+    held = {name for spec, joint in zip(model.joints, scene.find_engine(yw.JointEngine).joints) if not joint.isFinished for name in (spec.a, spec.b)}
+    columns = [(element.name, tilt(O.bodies[k])) for k, element in enumerate(model.elements) if element.kind == "column"]
+    return {
+        "total": len(columns),
+        "fallen": sum(angle > FALLEN for _, angle in columns),
+        "loose": sum(angle <= FALLEN and name not in held for name, angle in columns),
+    }
+
+
+def tilt(body):
+    """Angle between what was upright in a body at the start and the vertical. [rad]"""
+    up = body.state.ori * (body.state.refOri.conjugate() * Vector3.UnitZ)
+    return math.acos(min(1.0, max(-1.0, up[2])))
 
 
 # --- drift and energy -------------------------------------------------------------------------------------------------
@@ -98,6 +127,16 @@ def residual_drift(monitor):
     last = [row for row in samples if row[0] > samples[-1][0] - RESIDUAL_WINDOW]
     places = [k for k, name in enumerate(monitor.columns()) if name.startswith("drift")]
     return [abs(sum(row[k] for row in last) / len(last)) for k in places] if last else []
+
+
+def leans_from(monitor):
+    """When the lean began that became the tilt: the last sample before it at which that drift had another sign; None without a tilt. [s]"""
+    if not math.isfinite(monitor.tiltTime):
+        return None
+    before = [row for row in rows(monitor) if row[0] <= monitor.tiltTime]
+    names = monitor.columns()
+    place = max((k for k, name in enumerate(names) if name.startswith(f"drift_{monitor.tiltDirection}")), key=lambda k: abs(before[-1][k]))
+    return next((row[0] for row in reversed(before) if row[place] * before[-1][place] <= 0), 0.0)
 
 
 def energy_balance(terms):
@@ -133,7 +172,8 @@ def record_of(scenario):
         return None
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
-    return {"source": motion.source or motion.name, "pga_gal": pga, "scale": scenario.scale, "dt": motion.dt, "interpolation_error": round(error, 6)}
+    source = motion.source or motion.name
+    return {"source": source, "pga_gal": pga, "scale": scenario.scale, "dt": motion.dt, "interpolation_error": round(error, 6), "onset_s": onset(motion)}
 
 
 def versions():
@@ -171,6 +211,8 @@ def summary(scenario, model, wall_s):
         "elements": len(O.bodies),
         "joints": count_joints(model),
         "broken": count_broken(model),
+        "columns": count_columns(model),
+        "leans_from_s": leans_from(monitor),
         "tilt_time_s": finite(monitor.tiltTime),
         "tilt_direction": monitor.tiltDirection or None,
         "collapsed": collapse is not None,

@@ -226,6 +226,12 @@ def significant_duration(motion, start=0.05, end=0.95):
     return float((last - first) * motion.dt)
 
 
+def onset(motion, share=0.05):
+    """When the strong shaking sets in: the Arias intensity reaches `share` of its final value. [s]; None without any shaking."""
+    growth = _energy(motion).sum(axis=1)
+    return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
+
+
 def _energy(motion):
     """Running integral of the squared acceleration. (n, 3) [m2/s3]"""
     return integrate.cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)

@@ -31,7 +31,7 @@ sensor at the surface is taken, where houses stand (the borehole's three files c
 
 
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
-"""The synthetic Ojiya-like motion that the package ships: output of the generator for seed 0."""
+"""The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 
 
 def default_motion():

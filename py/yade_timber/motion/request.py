@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_motion
 from .record import RecordError
-from .synthetic import synthetic_motion
+from .synthetic import DEFAULT_SEED, synthetic_motion
 
 
 def _option(kind, metavar, low, high, text):
@@ -22,7 +22,7 @@ class MotionRequest:
     """
 
     record: str = _option(str, "FILE_OR_PREFIX", None, None, "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
-    seed: int = _option(int, "N", 0, 2**31, "synthetic motion of another seed (the default motion is seed 0)")
+    seed: int = _option(int, "N", 0, 2**31, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})")
     component: str = _option(str, "WORDS", None, None, "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, separated by commas")
     units: str = _option(str, "UNIT", None, None, "gal, m/s2 or g, where the record does not say")
     azimuth: float = _option(float, "DEG", -360, 360, "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes the house along +x (default 0)")

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables of claims and of the runs behind them, for people (Markdown) and programs (CSV, JSON). Needs no YADE."""
+import csv
+import io
+import json
+
+from . import campaign
+from .claims import RUNS, damage, drift_text, judge, leaning, time_text
+from .files import write_text
+
+WORDS = {True: "holds", False: "does not hold", None: "not known"}
+RUN_COLUMNS = ("run", "fate", "leans from", "tilt (1/10)", "collapse", "peak drift 1 N-S", "1 E-W", "2 N-S", "2 E-W", "residual 1", "residual 2",
+               "springs broken", "joints broken", "column-beam", "brace-beam", "storey 1", "storey 2", "north", "south", "east", "west",
+               "columns fallen", "loose", "wall time [s]")
+
+
+def run_row(name, run):
+    """Values of RUN_COLUMNS for a summary."""
+    broken, columns = run["broken"], run["columns"]
+    peaks = [run["peak_drift"][storey][way] or 0.0 for storey in ("storey1", "storey2") for way in ("ns", "ew")]
+    leans = [leaning(run, storey) for storey in ("storey1", "storey2")]
+    times = [run["leans_from_s"], run["tilt_time_s"], run["collapse_time_s"]]
+    return [
+        name,
+        "collapsed" if run["collapsed"] else "stands",
+        *map(time_text, times),
+        *map(drift_text, peaks + leans),
+        damage(run),
+        broken["total"],
+        broken["column_beam"],
+        broken["brace_beam"],
+        *(broken["by_storey"].get(storey, 0) for storey in "12"),
+        *(broken["by_side"][side] for side in ("north", "south", "east", "west")),
+        columns["fallen"],
+        columns["loose"],
+        round(run["wall_s"]),
+    ]
+
+
+def run_rows(summaries):
+    return [run_row(name, summaries[name]) for name in RUNS if name in summaries]
+
+
+def markdown(results, summaries):
+    """Both tables as Markdown: claims, then runs."""
+    counted = sum(r.holds is True for r in results)
+    wall = sum(run["wall_s"] for run in summaries.values())
+    lines = [f"{counted} of {len(results)} claims hold. {len(summaries)} runs, {wall / 60:.1f} min of computing in all.", ""]
+    lines += table(("claim", "", "words", "numbers"), [(r.name, WORDS[r.holds], r.claim, r.numbers) for r in results])
+    return "\n".join([*lines, "", *table(RUN_COLUMNS, run_rows(summaries))]) + "\n"
+
+
+def compare(words, results):
+    """Cases against claims as Markdown. words: {case: what it is}; results: {case: list of Result}."""
+    signs = {True: "x", False: "-", None: ""}
+    names = [r.name for r in next(iter(results.values()))]
+    rows = [(case, words[case], sum(r.holds is True for r in found), *(signs[r.holds] for r in found)) for case, found in results.items()]
+    return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *table(("case", "what", "hold", *names), rows)]) + "\n"
+
+
+def table(header, rows):
+    """Lines of a Markdown table."""
+    return ["| " + " | ".join(map(str, row)) + " |" for row in (header, ["---"] * len(header), *rows)]
+
+
+def comma_separated(header, rows):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([header, *rows])
+    return text.getvalue()
+
+
+def write(folder, results, summaries):
+    """Write claims.md, claims.csv, runs.csv, claims.json to the folder; returns their paths. Raises OSError."""
+    contents = {
+        "claims.md": markdown(results, summaries),
+        "claims.csv": comma_separated(("claim", "holds", "words", "numbers"), [(r.name, WORDS[r.holds], r.claim, r.numbers) for r in results]),
+        "runs.csv": comma_separated(RUN_COLUMNS, run_rows(summaries)),
+        "claims.json": json.dumps([r.__dict__ for r in results], indent=1) + "\n",
+    }
+    for name, text in contents.items():
+        write_text(folder / name, text)
+    return [folder / name for name in contents]
+
+
+def study(words, tasks, jobs, folder, name):
+    """Do the runs of a study, print and write its table and those of each case. words: {case: what it is}; tasks: {case: list of Task}."""
+    done = campaign.run_missing(list(dict.fromkeys(task for some in tasks.values() for task in some)), jobs)
+    found = {case: {task.folder.name: done[task] for task in some if done[task] is not None} for case, some in tasks.items()}
+    text = compare(words, {case: judge(summaries) for case, summaries in found.items()})
+    print(text)
+    write_text(folder / name, text)
+    for case, summaries in found.items():
+        (folder / case).mkdir(parents=True, exist_ok=True)
+        write(folder / case, judge(summaries), summaries)

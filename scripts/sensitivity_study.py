@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What each reading of the paper's open choices does to its claims: the fourteen runs for every reading in READINGS.
+
+    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-each,flush-off] [--runs modelA_snow,...] [--dt S]
+        [--record PREFIX | --seed N] [--scale X] [--start S] [--end S] [--duration S]
+
+Readings differ from the shipped houses in one thing each. What has been done is not done again. Writes sensitivity.md,
+and the tables of each reading in its folder. Needs no YADE itself.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
+
+from yade_timber import campaign, claims_table  # noqa: E402
+from yade_timber.claims import RUNS, loads  # noqa: E402
+from yade_timber.readings import READINGS, house_options  # noqa: E402
+
+
+def tasks_of(reading, folder, runs, options):
+    """Tasks of a reading: each run with a house file that differs from the shipped one in that reading."""
+    return [campaign.Task("house", folder / run, task_options(reading, run, folder, options)) for run in runs]
+
+
+def task_options(reading, run, folder, options):
+    return (*house_options(reading, run, folder / "houses"), *campaign.handed_on(options, earthquake=loads(run)[1]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
+    campaign.add_arguments(parser, "results/sensitivity")
+    parser.add_argument("--only", help=f"readings, comma-separated, of: {', '.join(READINGS)}")
+    parser.add_argument("--runs", help="runs, comma-separated (default: all fourteen)")
+    options = parser.parse_args()
+    readings = campaign.chosen(options.only, READINGS, "--only")
+    runs = campaign.chosen(options.runs, RUNS, "--runs")
+    tasks = {name: tasks_of(READINGS[name], options.out / name, runs, options) for name in readings}
+    claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""The claims' checks on made-up summaries: each holds where it should, and fails when one number is wrong."""
+import argparse
+import copy
+import json
+import sys
+
+import pytest
+from yade_timber import campaign, claims, claims_table
+from yade_timber.house import build_house, load_house
+from yade_timber.readings import READINGS, Reading, merged, write_house
+
+
+def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
+    """A summary with what claims look at."""
+    drift = {"ns": sway_ns, "ew": sway_ew}
+    place = {"1": {"west": {"column_beam": west[0], "brace_beam": west[1]}}}
+    broken = {"springs": springs, "total": springs // 4, "column_beam": 0, "brace_beam": 0, "by_place": place, "by_storey": {}, "by_side": dict.fromkeys(("north", "south", "east", "west"), 0)}
+    return {
+        "model": model, "snow": snow, "record": {"onset_s": 18.5}, "peak_drift": {"storey1": drift, "storey2": dict(drift)},
+        "residual_drift": {"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}}, "broken": broken,
+        "columns": {"total": 90, "fallen": fallen, "loose": 0}, "collapsed": collapse is not None, "collapse_time_s": collapse,
+        "leans_from_s": leans, "tilt_time_s": leans and leans + 1, "tilt_direction": direction, "wall_s": 1.0,
+    }
+
+
+def as_the_paper_says():
+    return {
+        "modelA_quake": summary("A", collapse=24.0, leans=18.0, direction="ns"),
+        "modelB_quake": summary("B", sway_ns=0.05),
+        "modelC_quake": summary("C", sway_ns=0.02),
+        "modelA_snow": summary("A", True, collapse=12.0, leans=0.2, direction="ns"),
+        "modelB_snow": summary("B", True),
+        "modelC_snow": summary("C", True),
+        "modelB1_quake": summary("B1", sway_ns=0.03, sway_ew=0.08, springs=20, west=(2, 0)),
+        "modelB2_quake": summary("B2", sway_ns=0.07, sway_ew=0.05, springs=18),
+        "modelC1_quake": summary("C1", sway_ew=0.03, springs=4),
+        "modelC2_quake": summary("C2", sway_ew=0.02),
+        "modelB1_snow": summary("B1", True, sway_ew=0.1, lean=0.01, springs=40, fallen=2),
+        "modelB2_snow": summary("B2", True, sway_ns=0.1, springs=30),
+        "modelC1_snow": summary("C1", True, sway_ew=0.05, springs=9),
+        "modelC2_snow": summary("C2", True, sway_ew=0.02, lean=0.004, springs=2),
+    }
+
+
+def holds(runs):
+    return {result.name: result.holds for result in claims.judge(runs)}
+
+
+def test_all_hold_in_the_paper():
+    found = holds(as_the_paper_says())
+    assert len(found) == 14 and all(value is True for value in found.values()), found
+    assert set(claims.RUNS) == set(as_the_paper_says())
+
+
+WRONG = {  # claim -> (run, what is changed in its summary)
+    "E1": ("modelA_quake", {"tilt_direction": "ew"}),
+    "E2": ("modelB_quake", {"collapsed": True, "collapse_time_s": 20.0}),
+    "E3": ("modelC_quake", {"collapsed": True, "collapse_time_s": 20.0}),
+    "S1": ("modelA_snow", {"collapse_time_s": 3.0}),
+    "S2": ("modelB_snow", {"peak_drift": {"storey1": {"ns": 0.01, "ew": 0.0}}}),
+    "S3": ("modelC_snow", {"peak_drift": {"storey1": {"ns": 0.0, "ew": 0.01}}}),
+    "D1": ("modelB1_quake", {"broken": summary("B1", west=(2, 1))["broken"]}),
+    "D2": ("modelB2_quake", {"peak_drift": {"storey1": {"ns": 0.09, "ew": 0.085}}}),
+    "D3": ("modelC1_quake", {"peak_drift": {"storey1": {"ns": 0.001, "ew": 0.09}}}),
+    "D4": ("modelC2_quake", {"peak_drift": {"storey1": {"ns": 0.04, "ew": 0.0}}}),
+    "Q1": ("modelB1_snow", {"columns": {"fallen": 0, "loose": 0}}),
+    "Q2": ("modelB2_snow", {"broken": summary("B2", springs=18)["broken"]}),
+    "Q3": ("modelC1_snow", {"broken": summary("C1", springs=41)["broken"]}),
+    "Q4": ("modelC2_snow", {"residual_drift": {"storey1": {"ns": 0.1, "ew": 0.0}, "storey2": {"ns": 0.0, "ew": 0.0}}}),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_one_wrong_number(name):
+    runs = as_the_paper_says()
+    run, change = WRONG[name]
+    runs[run] = {**copy.deepcopy(runs[run]), **change}
+    assert holds(runs)[name] is False
+
+
+def test_missing_run():
+    runs = as_the_paper_says()
+    del runs["modelB1_quake"]
+    result = next(r for r in claims.judge(runs) if r.name == "D2")
+    assert result.holds is None and "modelB1_quake" in result.numbers
+
+
+def test_a_run_that_tells_nothing():
+    """No drift at all, no tilt, no collapse: a house that stood."""
+    runs = {**as_the_paper_says(), "modelA_quake": summary("A", sway_ns=None, sway_ew=None)}
+    assert holds(runs)["E1"] is False
+
+
+def test_tables(tmp_path):
+    runs = as_the_paper_says()
+    results = claims.judge(runs)
+    paths = claims_table.write(tmp_path, results, runs)
+    assert {path.name for path in paths} == {"claims.md", "claims.csv", "runs.csv", "claims.json"}
+    text = (tmp_path / "claims.md").read_text()
+    assert "14 of 14 claims hold" in text and all(f"| {name} |" in text for name in [*claims.CLAIMS, *claims.RUNS])
+    assert len(json.loads((tmp_path / "claims.json").read_text())) == 14
+    assert "| shipped |" in claims_table.compare({"shipped": "as shipped"}, {"shipped": results})
+
+
+@pytest.mark.parametrize("name", READINGS)
+def test_readings_are_valid_house_files(name, tmp_path):
+    """Every reading is accepted by the house files' schema and differs from the shipped house, but for the shipped one."""
+    described = load_house(write_house(READINGS[name], "modelB1_quake", tmp_path))
+    assert described.name == "B1" and (described.data == load_house("B1").data) is (name == "shipped")
+
+
+def test_a_reading_is_built(tmp_path):
+    """Wider beams, braces turned: the same members and damaged joints as the shipped house."""
+    reading = Reading("", merged(READINGS["beam-0.12"].change, READINGS["braces-turned"].houses["B"]))
+    counts = build_house(load_house(write_house(reading, "modelB1_quake", tmp_path))).counts()
+    assert counts["braces"] == 16 and counts["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
+
+def fake_script(folder, body):
+    """A folder of scripts with one, run.py, that is called like a run script."""
+    (folder / "run.py").write_text(body)
+    return folder
+
+
+WRITES = """import sys, json, pathlib
+folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
+(folder / 'summary.json').write_text(json.dumps({'words': sys.argv[1:]}))
+"""
+
+
+def test_only_missing_runs_are_done(tmp_path, monkeypatch):
+    """Options arrive; what has a summary is left alone; a failed run leaves its words and does not stop the others."""
+    monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
+    scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
+    tasks = [campaign.Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
+    tasks[2].folder.mkdir()
+    (tasks[2].folder / "summary.json").write_text('{"old": 1}')
+    said = []
+    done = campaign.run_missing(tasks, 2, scripts, said.append)
+    assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
+    assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
+    assert done[tasks[2]] == {"old": 1} and said[0] == "2 of 3 runs to do"
+
+
+def test_motions_are_handed_only_to_shaken_runs():
+    given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
+    assert campaign.handed_on(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
+    assert campaign.handed_on(given, earthquake=False) == ("--dt", 1e-4)
