@@ -132,7 +132,7 @@ def test_help_names_every_option(capsys):
         cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
     assert stop.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("--duration", "--dt", "--record", "--scale", "--out", "--resume", "--no-views", "--export", "--quiet"):
+    for option in ("--duration", "--dt", "--record", "--scale", "--out", "--resume", "--no-views", "--no-frames", "--export", "--quiet"):
         assert option in shown
 
 
