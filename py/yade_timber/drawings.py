@@ -55,8 +55,8 @@ def describe(model):
     """What the house is made of, in words."""
     found = model.counts()
     snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
-    columns = " and ".join(f"{count} of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
-    return f"{model.description}\n{sum(found['columns_by_section'].values())} columns ({columns}), {found['braces']} braces, {found['joints']} joints{snow}"
+    columns = " and ".join(f"{count} columns of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
+    return f"{model.description}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}"
 
 
 def cell(ax):

@@ -30,7 +30,8 @@ def choose(frames, count=PANELS):
     for time, reason in named(frames):
         frame = frames.at(time)
         near = min((abs(frames.time[frame] - frames.time[k]) for k in chosen), default=np.inf)
-        if len(chosen) < count and (near >= CLOSE or reason == "end" and near > 0):
+        last = frame == len(frames.time) - 1
+        if len(chosen) < count and near > 0 and (near >= CLOSE or last):
             chosen[frame] = reason
     path = motion_path(frames)
     while len(chosen) < min(count, len(path)):
@@ -41,7 +42,7 @@ def choose(frames, count=PANELS):
 def named(frames):
     """(time [s], reason) of the moments that have a name, the most telling first."""
     yield frames.time[0], "start"
-    yield frames.time[-1], "end"
+    yield frames.time[-1], "end" if frames.summary else "so far"
     found = frames.summary or {}
     if found.get("collapse_time_s") is not None:
         yield found["collapse_time_s"], "collapse: half a storey down"

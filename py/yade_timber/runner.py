@@ -56,11 +56,10 @@ class Run:
     # --- start --------------------------------------------------------------------------------------------------------
 
     def _start(self):
-        """Build the scene; results of an earlier run go, so that nothing in the folder passes for this run's."""
+        """Build the scene."""
         self.model = build(self.scenario)
         self.identity = self._identity()
-        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, *pictures.NAMES, frames.NAME, checkpoint.NAME):
-            (self.output.folder / name).unlink(missing_ok=True)
+        self._clear(frames.NAME, checkpoint.NAME)
         self.recorder = self._recorder()
         if self.recorder:
             self.recorder.take(O.time)
@@ -78,8 +77,14 @@ class Run:
         self.recorder = self._recorder()
         if self.recorder and self.frames_path.exists():
             self.recorder.restore(self.frames_path)
-        (self.output.folder / results.SUMMARY).unlink(missing_ok=True)
+            self.recorder.save(self.frames_path)  # an earlier end is none any more
+        self._clear(*([] if self.recorder else [frames.NAME]))
         self.say(f"going on from {O.time:.2f} s")
+
+    def _clear(self, *more):
+        """Remove results of an earlier run and other files, so that nothing in the folder passes for this run's."""
+        for name in (results.SUMMARY, results.HISTORY, results.BREAKS, *pictures.NAMES, *more):
+            (self.output.folder / name).unlink(missing_ok=True)
 
     def _recorder(self):
         return Recorder(self.scenario, self.model, title(self.scenario, self.model)) if self.output.frames else None

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE's own viewer on the scene that is loaded: elements in the colours of their kinds, joints by load."""
+import numpy as np
 import yade.runtime
 import yade.wrapper as yw
 
 BACKGROUND = (0.80, 0.87, 0.93)
-CENTRE, EYE = (3.6, 4.1, 3.5), (17.0, 16.0, 9.0)
-"""What the camera looks at, and from where: from the north-east, above. [m]"""
+DIRECTION = (0.72, 0.64, 0.30)
+"""From the house to the camera: to the north-east, above. [-]"""
+DISTANCE = 1.5
+"""Of the camera, in diagonals of the house. [-]"""
+
+O = yw.Omega()
 
 
 def show():
@@ -19,5 +24,9 @@ def show():
     renderer.bgColor = Vector3(*BACKGROUND)
     renderer.extraDrawers = [yw.GlTimberJoints()]
     view = qt.View()
-    view.eyePosition, view.upVector, view.lookAt = Vector3(*EYE), Vector3.UnitZ, Vector3(*CENTRE)
+    places = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
+    low, high = places.min(0), places.max(0)
+    centre = (low + high) / 2
+    eye = centre + DISTANCE * np.linalg.norm(high - low) * np.array(DIRECTION)
+    view.eyePosition, view.upVector, view.lookAt = Vector3(*eye), Vector3.UnitZ, Vector3(*centre)  # the direction is taken from the position
     return view

@@ -164,7 +164,7 @@ def test_help_names_every_option(capsys):
         cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
     assert stop.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("duration", "dt", "out", "resume", "no-views", "export", "quiet", *(f.name for f in fields(MotionRequest))):
+    for option in ("duration", "dt", "out", "resume", "no-views", "no-frames", "every-step", "export", "quiet", *(f.name for f in fields(MotionRequest))):
         assert f"--{option}" in shown
 
 

@@ -104,4 +104,4 @@ def test_other_moments_halve_the_motion():
 def test_a_run_of_two_frames():
     made = frames(ended=False, shaken=False)
     made.time, made.position = made.time[:2], made.position[:2]
-    assert [(m.frame, m.reason) for m in moments.choose(made)] == [(0, "start"), (1, "end")]
+    assert [(m.frame, m.reason) for m in moments.choose(made)] == [(0, "start"), (1, "so far")]

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""Scripts that make pictures of finished runs: gallery and pictures again; one line for what cannot be read. Need no YADE."""
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from small_frames import frames
+from yade_timber import frames as recorded
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+
+
+def run(script, *words):
+    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, words)], capture_output=True, text=True)
+
+
+def test_gallery(tmp_path):
+    for name in ("modelA_snow", "modelA_quake", "modelC2_snow"):
+        (tmp_path / name).mkdir()
+        recorded.save(tmp_path / name / recorded.NAME, frames())
+    done = run("make_gallery.py", tmp_path, "--out", tmp_path / "docs")
+    assert done.returncode == 0, done.stderr
+    made = {path.name: path for path in (tmp_path / "docs").rglob("*.png")}
+    assert set(made) == {"modelA_snow.png", "modelA_quake.png", "modelC2_snow.png", "history.png", "houseC2.png", "ground_motion.png"}
+    assert all(5_000 < path.stat().st_size < 150_000 for path in made.values())
+
+
+@pytest.mark.parametrize("script", ["show_run.py", "make_gallery.py"])
+def test_nothing_there(tmp_path, script):
+    done = run(script, tmp_path, "--out", tmp_path)
+    assert done.returncode == 1 and done.stderr.startswith("error: ") and "frames.h5: no such file" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_a_folder_that_cannot_be_written(tmp_path):
+    recorded.save(tmp_path / recorded.NAME, frames())
+    done = run("show_run.py", tmp_path, "--out", tmp_path / recorded.NAME)
+    assert done.returncode == 1 and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
