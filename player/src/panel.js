@@ -17,6 +17,7 @@ export class Panel {
     part("curves-title").textContent = run.info.title;
     this.view.setAttribute("aria-label", `${run.info.title}: the house in 3D. Drag to turn it, Shift and arrow keys turn it, too.`);
     this.section.setAttribute("aria-label", run.info.title);
+    part("happens").hidden = !run.info.events.length;
     this.events = run.info.events.map((event) => this.event(event, part("events"), seek));
   }
 
