@@ -40,7 +40,7 @@ def resize(driver, width, height, phone=False):
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
 
 
-def wait(condition, seconds=20):
+def wait(condition, seconds=60):
     """Wait until a condition holds; fails when it does not."""
     end = time.monotonic() + seconds
     while not (value := condition()):
