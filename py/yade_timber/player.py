@@ -154,16 +154,11 @@ def shapes(elements):
     faces = [face for body in elements.faces for face in body]
     return {
         "vertices": (np.concatenate(elements.vertices), 1e-4),
-        "vertex_start": (starts(elements.vertices), 1),
+        "vertex_start": (frames.starts(elements.vertices), 1),
         "faces": (np.concatenate(faces), 1),
-        "face_start": (starts(faces), 1),
-        "element_start": (starts(elements.faces), 1),
+        "face_start": (frames.starts(faces), 1),
+        "element_start": (frames.starts(elements.faces), 1),
     }
-
-
-def starts(lists):
-    """[0, length of the first, length of the first two, ...]."""
-    return np.cumsum([0, *map(len, lists)])
 
 
 def joints(found):
