@@ -6,6 +6,7 @@ results holds the folders modelA_snow, modelA_quake and modelC2_snow; written ar
 """
 import argparse
 import io
+import os
 import shutil
 import subprocess
 import sys
@@ -73,7 +74,8 @@ def compared(results, time):
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
         player.make([results / name / frames.NAME for name in COMPARED], page)
-        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"], check=True, capture_output=True)
+        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
+                       env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True)
         return Image.open(picture).convert("RGB")
 
 

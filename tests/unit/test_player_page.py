@@ -14,8 +14,8 @@ ROOF_IS_DARK = 0.5  # brightest channel of its pixels; sky and ground are above 
 
 
 @pytest.fixture(scope="module")
-def driver():
-    with browser.chromium() as opened:
+def driver(tmp_path_factory):
+    with browser.chromium(tmp_path_factory.mktemp("chromium")) as opened:
         yield opened
 
 
