@@ -241,6 +241,7 @@ def test_two_runs_in_step(driver, pages):
         ask(driver, f"player.seek({time})")
         for k, run in enumerate(pages[2]):
             assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    assert [place.text.startswith("recorded up to 3.0 s: ") for place in driver.find_elements("class name", "now")] == [False, True]
     ask(driver, "player.seek(1)")
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
     assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
