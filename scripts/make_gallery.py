@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-results holds the folders modelA_snow, modelA_quake and modelC2_snow; written are DIR/modelC2_snow.png and DIR/gallery/*.png.
+results holds the folders modelA_snow, modelA_quake and modelC2_snow; written are DIR/modelC2_snow.png and DIR/gallery/*.png (the player's picture only where Chromium is).
 """
 import argparse
 import io
+import os
+import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
 
 from PIL import Image  # noqa: E402
 
-from yade_timber import drawings, frames, plots, record_plot, sheets  # noqa: E402
+from yade_timber import drawings, frames, player, plots, record_plot, sheets  # noqa: E402
 from yade_timber.errors import RunError  # noqa: E402
 from yade_timber.files import written_whole  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402
@@ -24,6 +28,11 @@ SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"
 LEAD = "modelC2_snow"
 HOUSE = "C2"
+COMPARED = ("modelA_quake", "modelC2_snow")
+AFTER_COLLAPSE = 1.0
+"""When the compared runs are shown, after the first has collapsed. [s]"""
+CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+            "--window-size=1200,760", "--virtual-time-budget=5000")
 DPI = 130
 LARGEST = 150_000
 """A picture on a web page may take so much. [bytes]"""
@@ -35,10 +44,14 @@ def telling_view(run):
 
 
 def write(path, figure, dpi=DPI):
-    """Write a figure as PNG with as many colours as LARGEST allows; returns the path."""
+    """Write a figure as PNG; returns the path."""
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=dpi)
-    picture = Image.open(data).convert("RGB")
+    return save(path, Image.open(data).convert("RGB"))
+
+
+def save(path, picture):
+    """Write an RGB image as PNG with as many colours as LARGEST allows; returns the path."""
     contents = (packed(quantized(picture, colors) if colors else picture) for colors in (None, 256, 128, 64, 32))
     with written_whole(path) as part:
         part.write_bytes(next(content for content in contents if len(content) < LARGEST))
@@ -56,6 +69,16 @@ def packed(picture):
     return data.getvalue()
 
 
+def compared(results, time):
+    """Picture of the player with the runs COMPARED side by side at a time [s], taken by Chromium."""
+    with tempfile.TemporaryDirectory() as folder:
+        page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
+        player.make([results / name / frames.NAME for name in COMPARED], page)
+        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
+                       env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True)
+        return Image.open(picture).convert("RGB")
+
+
 def make(results, out):
     """All pictures; returns their paths."""
     gallery = out / "gallery"
@@ -65,6 +88,8 @@ def make(results, out):
     written.append(write(gallery / "history.png", plots.page(runs[HISTORY])))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)))))
     written.append(write(gallery / "ground_motion.png", record_plot.page(default_motion(), corner=0.05)))
+    if shutil.which(CHROMIUM[0]):
+        written.append(save(gallery / "player.png", compared(results, runs[COMPARED[0]].summary["collapse_time_s"] + AFTER_COLLAPSE)))
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
     return written
 

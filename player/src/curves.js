@@ -133,10 +133,11 @@ function axes(pen, chart, x, y, width, height, span) {
     pen.fillText(text, LEFT - 5, Math.max(y(value), 6));
   }
   Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
-  const gap = [1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
-  for (let t = 0; t <= span; t += gap) {
+  const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
+  for (let k = 0; k * gap <= span; k++) {
+    const t = k * gap;
     stroke(pen, [[x(t), 0], [x(t), height - 14]], PALE, 1);
-    if (x(t) < width - 16) pen.fillText(t === 0 ? "0 s" : `${t}`, Math.max(x(t), LEFT + 8), height);
+    if (x(t) < width - 16) pen.fillText(k === 0 ? "0 s" : `${Number(t.toFixed(1))}`, Math.max(x(t), LEFT + 8), height);
   }
 }
 

@@ -10,6 +10,7 @@ import { Stage } from "./stage.js";
 import { View } from "./view.js";
 
 const BEFORE_SHAKING = 2; // where the page opens [s]
+const SHORTEST = 0.1; // time on the slider, for runs that never went a step [s]
 const NEAR = 6; // wreckage that is still in the picture [m]
 
 /** All that is shown, and when: draws only what has changed. */
@@ -17,7 +18,7 @@ class Player {
   constructor(runs) {
     this.runs = runs;
     this.options = { shaken: runs.some((run) => run.info.motion), joints: true };
-    this.clock = new Clock(Math.max(...runs.map((run) => run.end)));
+    this.clock = new Clock(Math.max(SHORTEST, ...runs.map((run) => run.end)));
     const start = corners(runs, 0);
     const box = new Box3().setFromPoints(start);
     this.view = new View(inPicture(start, runs), () => this.changed());

@@ -17,6 +17,7 @@ export class Panel {
     part("curves-title").textContent = run.info.title;
     this.view.setAttribute("aria-label", `${run.info.title}: the house in 3D. Drag to turn it, Shift and arrow keys turn it, too.`);
     this.section.setAttribute("aria-label", run.info.title);
+    part("happens").hidden = !run.info.events.length;
     this.events = run.info.events.map((event) => this.event(event, part("events"), seek));
   }
 
@@ -36,7 +37,8 @@ export class Panel {
     const down = info.collapse !== null && t >= info.collapse;
     const drift = info.drifts.length ? `storey drift ${ratio(driftAt(this.run, t))}, ` : "";
     const partly = this.run.count(STATE.partly);
-    say(this.now, `${down ? "collapsed, " : drift}${this.run.count(STATE.broken)} of ${joints} joints broken${partly ? `, ${partly} partly` : ""}`);
+    const over = t > this.run.end + 1e-6 ? `recorded up to ${this.run.end.toFixed(1)} s: ` : "";
+    say(this.now, `${over}${down ? "collapsed, " : drift}${this.run.count(STATE.broken)} of ${joints} joints broken${partly ? `, ${partly} partly` : ""}`);
     say(this.words, view.words);
     this.needle.style.transform = `rotate(${(view.azimuth + Math.PI / 2).toFixed(3)}rad)`;
     for (const { time, button } of this.events) button.classList.toggle("past", time <= t + 1e-6);

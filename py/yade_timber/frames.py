@@ -209,7 +209,7 @@ def _series(frames):
     return {name: np.asarray(getattr(frames, name), kind).reshape(count, *shape) for name, (kind, shape) in shapes.items()}
 
 
-def _starts(lists):
+def starts(lists):
     """[0, len of the first, len of the first two, ...]."""
     return np.cumsum([0, *map(len, lists)])
 
@@ -219,14 +219,14 @@ def _save_elements(group, elements):
     faces = [face for body in values.pop("faces") for face in body]
     vertices = values.pop("vertices")
     _save_group(group, values)
-    _save_group(group, {"vertices": np.concatenate(vertices), "vertex_start": _starts(vertices), "faces": np.concatenate(faces),
-                        "face_start": _starts(faces), "element_start": _starts(elements.faces)})
+    _save_group(group, {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
+                        "face_start": starts(faces), "element_start": starts(elements.faces)})
 
 
 def _save_contacts(group, contacts):
     shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
     flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)]) for name, (kind, width) in shapes.items()}
-    _save_group(group, {"time": np.asarray(contacts.time, float), "start": _starts(contacts.pair), **flat})
+    _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
 
 
 # --- reading ----------------------------------------------------------------------------------------------------------
@@ -270,9 +270,9 @@ def _split(flat, start):
 
 def _load_elements(group):
     values = _values(group)
-    starts = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
-    faces = [list(map(int, face)) for face in _split(values["faces"], starts["face_start"])]
-    values |= {"vertices": _split(values["vertices"], starts["vertex_start"]), "faces": _split(faces, starts["element_start"])}
+    begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
+    faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
+    values |= {"vertices": _split(values["vertices"], begins["vertex_start"]), "faces": _split(faces, begins["element_start"])}
     return Elements(**values)
 
 

@@ -117,11 +117,11 @@ def happenings(run):
     yield from passed_levels(run)
     summary = run.summary or {}
     if run.breaks is not None and len(run.breaks["time"]):
-        yield run.breaks["time"][0], f"first joint spring breaks: {place_of(run.joints, run.breaks['joint'][0])}"
+        yield run.breaks["time"][0], f"first spring breaks: {place_of(run.joints, run.breaks['joint'][0])}"
     if summary.get("tilt_time_s") is not None:
-        yield summary["tilt_time_s"], f"the house leans {direction_name(summary['tilt_direction'])}: a storey drift passes 1/10"
+        yield summary["tilt_time_s"], f"the house leans {direction_name(summary['tilt_direction'])}: drift passes 1/10"
     if summary.get("collapse_time_s") is not None:
-        yield summary["collapse_time_s"], "collapse: a floor has come down by half a storey"
+        yield summary["collapse_time_s"], "collapse: a floor is down by half a storey"
 
 
 def passed_levels(run):
@@ -133,7 +133,7 @@ def passed_levels(run):
     most = np.abs(rows[:, columns]).max(1)
     for value, text in DRIFT_LINES[:-1]:
         if (most > value).any():
-            yield rows[np.argmax(most > value), 0], f"a storey drift passes {text.replace(' ', ': ', 1)}"
+            yield rows[np.argmax(most > value), 0], f"drift passes {text.replace(' ', ': ', 1)}"
 
 
 def place_of(joints, number):
@@ -154,16 +154,11 @@ def shapes(elements):
     faces = [face for body in elements.faces for face in body]
     return {
         "vertices": (np.concatenate(elements.vertices), 1e-4),
-        "vertex_start": (starts(elements.vertices), 1),
+        "vertex_start": (frames.starts(elements.vertices), 1),
         "faces": (np.concatenate(faces), 1),
-        "face_start": (starts(faces), 1),
-        "element_start": (starts(elements.faces), 1),
+        "face_start": (frames.starts(faces), 1),
+        "element_start": (frames.starts(elements.faces), 1),
     }
-
-
-def starts(lists):
-    """[0, length of the first, length of the first two, ...]."""
-    return np.cumsum([0, *map(len, lists)])
 
 
 def joints(found):

@@ -2,6 +2,7 @@
 """A headless Chromium for tests of pages, with WebGL drawn by the processor; skips where something is missing."""
 import io
 import json
+import os
 import shutil
 import time
 from contextlib import contextmanager
@@ -14,8 +15,8 @@ FLAGS = ("--headless=new", "--no-sandbox", "--no-first-run", "--disable-backgrou
 
 
 @contextmanager
-def chromium():
-    """A selenium driver."""
+def chromium(folder):
+    """A selenium driver; its scratch files go to the folder."""
     webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is missing (package python3-selenium)")
     from selenium.webdriver.chrome.service import Service
 
@@ -27,7 +28,7 @@ def chromium():
     for flag in FLAGS:
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    opened = webdriver.Chrome(service=Service(driver), options=options)
+    opened = webdriver.Chrome(service=Service(driver, env={**os.environ, "TMPDIR": str(folder)}), options=options)
     try:
         yield opened
     finally:
@@ -40,7 +41,7 @@ def resize(driver, width, height, phone=False):
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
 
 
-def wait(condition, seconds=20):
+def wait(condition, seconds=60):
     """Wait until a condition holds; fails when it does not."""
     end = time.monotonic() + seconds
     while not (value := condition()):

@@ -8,14 +8,14 @@ import pytest
 from browser import errors, picture, resize, wait
 from yade_timber import frames, player
 
-WIDE, PHONE = (1000, 640), (360, 740)
-HEAD, FOOT = [0, 0, 1.1], [0, 0, -1.1]  # of a column, near its ends [m]
+WIDE, PHONE = (920, 600), (360, 740)
+MIDDLE, HEAD, FOOT = [0, 0, 0], [0, 0, 1.1], [0, 0, -1.1]  # of an element; of a column, near its ends [m]
 ROOF_IS_DARK = 0.5  # brightest channel of its pixels; sky and ground are above 0.7
 
 
 @pytest.fixture(scope="module")
-def driver():
-    with browser.chromium() as opened:
+def driver(tmp_path_factory):
+    with browser.chromium(tmp_path_factory.mktemp("chromium")) as opened:
         yield opened
 
 
@@ -47,10 +47,15 @@ def press(driver, *keys):
     ActionChains(driver).send_keys(*keys).perform()
 
 
-def pixel(driver, name, run=0, point=(0, 0, 0)):
-    """RGB where a point of an element is drawn."""
-    place = ask(driver, f"player.screen('{name}', {run}, {list(point)})")
-    return picture(driver)[round(place["y"]), round(place["x"])]
+def pixels(driver, *points):
+    """RGB where points are drawn; a point: (name of an element, number of the run, point in its body frame)."""
+    places = [ask(driver, f"player.screen('{name}', {run}, {list(point)})") for name, run, point in points]
+    seen = picture(driver)
+    return [seen[round(place["y"]), round(place["x"])] for place in places]
+
+
+def roof_is_drawn(driver, *runs):
+    return all(color.max() < ROOF_IS_DARK for color in pixels(driver, *(("roof", run, MIDDLE) for run in runs)))
 
 
 def is_wood(color):
@@ -100,14 +105,14 @@ def test_the_page_shows_what_the_data_say(still, pages):
 def test_the_house_is_drawn_where_the_data_say(still):
     ask(still, "player.seek(0)")
     where = ask(still, "player.screen('roof')")
-    assert pixel(still, "roof").max() < ROOF_IS_DARK
+    assert roof_is_drawn(still, 0)
     north, south = (ask(still, f"player.screen('column.{side}')") for side in ("NE", "SE"))
     assert north["x"] > where["x"] > south["x"] and where["y"] < north["y"]  # from the east
-    ask(still, "player.seek(4)")
-    assert pixel(still, "roof").max() < ROOF_IS_DARK
-    assert picture(still)[round(where["y"]), round(where["x"])].max() > 0.7  # it is there no more
     ask(still, "player.seek(2.65)")
-    assert is_wood(pixel(still, "column.NE", 0, HEAD)) and is_wood(pixel(still, "column.NE", 0, FOOT))  # turned as it should be
+    head, foot, roof = pixels(still, ("column.NE", 0, HEAD), ("column.NE", 0, FOOT), ("roof", 0, MIDDLE))
+    assert is_wood(head) and is_wood(foot) and roof.max() < ROOF_IS_DARK  # moved and turned as it should be
+    ask(still, "player.seek(4)")
+    assert picture(still)[round(where["y"]), round(where["x"])].max() > 0.7  # it is there no more
     press(still, "2")
     wait(lambda: ask(still, "player.screen('column.NE').x < player.screen('column.NW').x"))  # from the north
     assert errors(still) == []
@@ -217,7 +222,7 @@ def test_it_fits_a_phone(still):
     resize(still, *PHONE, phone=True)
     wait(lambda: ask(still, "innerWidth") == PHONE[0])
     check_fits(still)
-    wait(lambda: pixel(still, "roof").max() < ROOF_IS_DARK)
+    wait(lambda: roof_is_drawn(still, 0))
     small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.getBoundingClientRect().height < 36).length"
     assert ask(still, small) == 0
 
@@ -236,10 +241,11 @@ def test_two_runs_in_step(driver, pages):
         ask(driver, f"player.seek({time})")
         for k, run in enumerate(pages[2]):
             assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    assert [place.text.startswith("recorded up to 3.0 s: ") for place in driver.find_elements("class name", "now")] == [False, True]
     ask(driver, "player.seek(1)")
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
     assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
-    assert pixel(driver, "roof", 0).max() < ROOF_IS_DARK and pixel(driver, "roof", 1).max() < ROOF_IS_DARK
+    assert roof_is_drawn(driver, 0, 1)
 
     resize(driver, *PHONE, phone=True)
     wait(lambda: ask(driver, "innerWidth") == PHONE[0])
