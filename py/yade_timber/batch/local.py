@@ -67,11 +67,13 @@ def _yade_batch(rows, folder, jobs, script, program):
 
 
 def _watch(process, rows, folder):
-    """A bar of ended runs until the process ends."""
+    """A bar of ended runs, a line for each when nobody sits at a terminal, until the process ends."""
     with tqdm(total=len(rows), desc=str(folder), unit="run") as bar:
         while process.poll() is None:
             time.sleep(POLL)
-            bar.update(sum((folder / row.name / END).exists() for row in rows) - bar.n)
+            new = sum((folder / row.name / END).exists() for row in rows) - bar.n
+            if new:
+                bar.update(new)
     if process.returncode:
         print(f"yade-batch ended with status {process.returncode}; its words are in {folder / LOG}", file=sys.stderr)
 

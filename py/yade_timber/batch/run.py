@@ -104,7 +104,7 @@ def finish(row, folder):
     if (folder / END).exists():
         return int(json.loads((folder / END).read_text())["status"] != "done")
     try:
-        run = _begun(scenario(row, folder), Output(folder, views=False, quiet=True))
+        run = _begun(scenario(row, folder), Output(folder, views=False, frames=False, quiet=True))
         run.complete()
     except runner.Interrupted as stop:
         print(f"{row.name}: stopped by {signal.Signals(stop.args[0]).name}, goes on when the batch is run again", file=sys.stderr)
