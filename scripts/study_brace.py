@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where does one more brace help most? Each free bay of a house gets one in a run of its own; ranked by the largest storey drift.
+"""Where does one more brace help most? Each free bay of a house gets one in runs of its own; ranked by the largest storey drift, the mean of the motions.
 
-    scripts/study_brace.py [-j 2] [--house B] [--scale 0.6] [--snow 0] [--seed 1] [--only EW.y0,NS.x8] [--start 14 --end 34]
+    scripts/study_brace.py [-j 2] [--house B] [--scale 1] [--snow 0] [--seeds 1,2] [--only EW.y0,NS.x8] [--start 14 --end 34]
 
-The house as it is runs, too, and as often again out of plumb by 1/10 000: what differs by less than those runs do is chance.
+The house as it is runs, too, and leaning to each side by 1/10 000: what differs by less than those runs do is chance.
 Writes brace.csv (a row a bay) and brace.png (ranking, and a plan of each storey).
 """
 
 import sys
+from statistics import mean
 
 import matplotlib.pyplot as plt
 from study_common import BLUE, GREY, ORANGE, parser, peak_drift, run_all, save, write_table
@@ -24,32 +25,42 @@ SHOWN, NUMBERED = 24, 5
 def arguments():
     made = parser(__doc__, "study_brace")
     made.add_argument("--house", default="B", help="shipped house or house file (default %(default)s)")
-    made.add_argument("--scale", type=float, default=0.6, help="factor on the motion (default %(default)g)")
+    made.add_argument("--scale", type=float, default=1.0, help="factor on the motion (default %(default)g)")
     made.add_argument("--snow", type=float, default=0.0, help="depth of snow [m] (default %(default)g)")
-    made.add_argument("--seed", type=int, default=1, help="seed of the synthetic motion (default %(default)s)")
+    made.add_argument("--seeds", default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
     made.add_argument("--only", default="", metavar="WORDS", help="only bays whose names contain one of these words, separated by commas")
     return made.parse_args()
 
 
 def rows(options, bays):
-    """Rows of the batch: the house as it is, leaning a little to four sides, and with each brace."""
-    same = {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}", "seed": options.seed}
-    lean = [{**same, "description": f"plumb_{side}", "braces": "*", "set": f"plumb.drift=1e-4;plumb.towards={side}"} for side in PLUMB]
-    return [{**same, "description": AS_IS, "braces": "*", "set": "*"}, *lean, *({**same, "description": bay, "braces": bay, "set": "*"} for bay in bays)]
+    """Rows of the batch, for each motion: the house as it is, leaning a little to four sides, and with each brace."""
+    variants = [(AS_IS, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in PLUMB), *((bay, bay, "*") for bay in bays)]
+    return [
+        {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}", "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
+        for seed in options.seeds.split(",")
+        for name, brace, changes in variants
+    ]
 
 
 def ranking(found):
-    """(rows of brace.csv, best first; drifts of the runs without a brace). Runs that failed are left out; collapsed ones come last, latest first."""
-    done = [entry for entry in found if entry["status"] == "done"]
-    without = [entry for entry in done if not entry["braces"]]
-    base = peak_drift(without[0])
-    table = [
-        {"brace": entry["braces"], "peak_drift": peak_drift(entry), "change": peak_drift(entry) / base - 1, "broken_joints": entry["broken"], "collapsed": entry["collapsed"],
-         "collapse_time_s": entry["collapse_time_s"] if entry["collapsed"] else ""}
-        for entry in done if entry["braces"]
-    ]  # fmt: skip
-    table.sort(key=lambda row: (row["collapsed"], -(row["collapse_time_s"] or 0), row["peak_drift"]))
-    return table, [peak_drift(entry) for entry in without]
+    """(rows of brace.csv, best first; mean drifts of the house as it is and leaning). Variants with a run that failed are left out; those
+    that collapse under a motion come last, the fewer motions the better, then the later."""
+    variants = {}
+    for entry in found:
+        variants.setdefault((entry["braces"], entry["set"]), []).append(entry)
+    whole = {key: entries for key, entries in variants.items() if all(entry["status"] == "done" for entry in entries)}
+    without = [mean(map(peak_drift, entries)) for (brace, _), entries in whole.items() if not brace]
+    table = [_ranked(brace, entries, without[0]) for (brace, _), entries in whole.items() if brace]
+    table.sort(key=lambda row: (row["collapses"], -(row["collapse_time_s"] or 0), row["peak_drift"]))
+    return table, without
+
+
+def _ranked(brace, entries, base):
+    fallen = [entry["collapse_time_s"] for entry in entries if entry["collapsed"]]
+    drift = mean(map(peak_drift, entries))
+    broken = mean(entry["broken"] for entry in entries)
+    return {"brace": brace, "peak_drift": drift, "change": drift / base - 1, "broken_joints": broken, "motions": len(entries),
+            "collapses": len(fallen), "collapse_time_s": mean(fallen) if fallen else ""}  # fmt: skip
 
 
 def plot(table, without, options, path):
@@ -60,26 +71,26 @@ def plot(table, without, options, path):
     figure = plt.figure(figsize=(5.5 + 4.6 * len(storeys), 7.2), constrained_layout=True)
     axes = figure.subplots(1, 1 + len(storeys), width_ratios=[1.15, *[1] * len(storeys)])
     draw_ranking(axes[0], table[:SHOWN], without, model)
-    limit = max(0.05, max(abs(row["change"]) for row in table if not row["collapsed"]) if any(not row["collapsed"] for row in table) else 0.05)
+    limit = max(0.05, max(abs(row["change"]) for row in table if not row["collapses"]) if any(not row["collapses"] for row in table) else 0.05)
     colours = plt.cm.ScalarMappable(plt.Normalize(-100 * limit, 100 * limit), "PuOr_r")
     for axis, storey in zip(axes[1:], storeys):
         draw_plan(axis, model, main_house, storey, table, colours)
-    fallen = "; black: the house collapses" if any(row["collapsed"] for row in table) else ""
+    fallen = "; black: the house collapses" if any(row["collapses"] for row in table) else ""
     figure.colorbar(colours, ax=axes[1:], orientation="horizontal", shrink=0.6, label=f"change of the largest storey drift by one more brace there [%]{fallen}")
     snow = f", {options.snow:g} m of snow" if options.snow else ""
-    figure.suptitle(f"House {model.name}: one more brace, {options.scale:g} times the synthetic motion {options.seed}{snow}")
+    figure.suptitle(f"House {model.name}: one more brace, {options.scale:g} times the synthetic motions {options.seeds}{snow}")
     save(figure, path)
     plt.close(figure)
 
 
 def draw_ranking(axis, table, without, model):
     names = [f"{words(model, row['brace'])}   {rank}" for rank, row in enumerate(table, 1)]
-    axis.barh(names, [100 * row["peak_drift"] for row in table], color=[ORANGE if row["collapsed"] else BLUE for row in table], height=0.7)
+    axis.barh(names, [100 * row["peak_drift"] for row in table], color=[ORANGE if row["collapses"] else BLUE for row in table], height=0.7)
     axis.axvline(100 * without[0], color=GREY, lw=1.5, label="as it is")
     axis.axvspan(100 * min(without), 100 * max(without), color=GREY, alpha=0.25, label="the same, out of plumb by 1/10 000")
     axis.invert_yaxis()
     axis.tick_params(axis="y", labelsize=8)
-    axis.set(xlabel="largest storey drift [%]", title=f"the best {len(table)} of the bays")
+    axis.set(xlabel="largest storey drift, mean of the motions [%]", title=f"the best {len(table)} of the bays")
     axis.margins(y=0.01)
     axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=2, frameon=False)
 
@@ -109,7 +120,7 @@ def draw_plan(axis, model, main_house, storey, table, colours):
     for rank, row in enumerate(table, 1):
         if row["brace"].startswith(f"{main_house}.brace{storey}."):
             (xs, ys) = bay_ends(model, row["brace"])
-            colour = "black" if row["collapsed"] else colours.to_rgba(100 * row["change"])
+            colour = "black" if row["collapses"] else colours.to_rgba(100 * row["change"])
             axis.plot(xs, ys, color=GREY, lw=11, solid_capstyle="butt", zorder=1.8)
             axis.plot(xs, ys, color=colour, lw=9.5, solid_capstyle="butt", zorder=2)
             if rank <= NUMBERED:
@@ -137,7 +148,7 @@ def main():
     words = [word for word in options.only.split(",") if word] or [""]
     bays = [bay for bay in free_bays(description) if bay.startswith(main_house) and any(word in bay for word in words)]
     found = run_all(rows(options, bays), options)
-    if not bays or any(entry["status"] != "done" for entry in found[:1]):
+    if not bays or any(entry["status"] != "done" for entry in found if (entry["braces"], entry["set"]) == (None, None)):
         sys.exit("error: nothing to compare: no free bay, or the house as it is did not run")
     table, without = ranking(found)
     write_table(options.to / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A row of a table in YADE: the Scenario it becomes, its record when it ends well or badly, resuming, the lock; and yade-batch's own reader."""
-import fcntl
 import json
 
 import pytest
 from yade.utils import TableParamReader
-from yade_timber.batch import BatchError, read_table
+from yade_timber.batch import BatchError, lock, read_table
 from yade_timber.batch import run as batch_run
 from yade_timber.house import HouseError, load_house
 from yade_timber.motion import RecordError, pga
@@ -97,13 +96,13 @@ def test_an_unusable_checkpoint_is_no_failure(row, tmp_path):
     assert batch_run.finish(row(QUICK, "A 2e-4 0.004"), tmp_path) == 0
 
 
-def test_one_process_a_run(row, tmp_path):
-    with open(tmp_path / ".lock", "w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        with batch_run.locked(tmp_path) as free:
-            assert not free
-    with batch_run.locked(tmp_path) as free:
-        assert free
+def test_one_process_a_run(tmp_path):
+    assert not lock.held(tmp_path)
+    with lock.locked(tmp_path) as free:
+        assert free and lock.held(tmp_path)
+        with lock.locked(tmp_path) as again:
+            assert not again
+    assert not lock.held(tmp_path)
 
 
 def test_rows_by_line_and_name(row):

@@ -58,22 +58,27 @@ def test_fragility_picture(tmp_path):
 BRACES = ["main.brace1.EW.y0.3-4", "main.brace1.NS.x8.4-5", "main.brace2.NS.x4.1-3"]
 
 
-def braced(brace, drift, collapsed=False, time=None, status="done"):
-    return {**DRIFTS, "peak_drift_1_ns": drift, "braces": brace, "status": status, "collapsed": collapsed, "collapse_time_s": time, "broken": 0}
+def braced(brace, drift, time=None, status="done", changes=None):
+    """A finished run with a brace (None: without); time: when it collapsed."""
+    return {**DRIFTS, "peak_drift_1_ns": drift, "braces": brace, "set": changes, "status": status, "collapsed": time is not None, "collapse_time_s": time, "broken": 0}
 
 
 def test_ranking():
-    """Smallest drift first; collapses last, the later the better; what failed is left out."""
-    found = [braced(None, 0.10), braced(None, 0.11), braced("c", 2.0, True, 9.0), braced("a", 0.05), braced("d", 1.5, True, 8.0), braced("b", 0.12), braced("e", None, status="failed")]
+    """Smallest mean drift first; collapses last, the fewer and the later the better; what failed once is left out."""
+    drifts = {None: (0.10, 0.14), "c": (0.2, 2.0), "a": (0.05, 0.07), "d": (0.2, 2.0), "b": (0.12, 0.18), "f": (2.0, 2.0), "e": (0.05, None)}
+    times = {("c", 1): 9.0, ("d", 1): 8.0, ("f", 0): 9.5, ("f", 1): 9.5}
+    found = [braced(name, pair[k], times.get((name, k)), "failed" if pair[k] is None else "done") for k in (0, 1) for name, pair in drifts.items()]
+    found.insert(1, braced(None, 0.2, changes="plumb.drift=1e-4"))
     table, without = study_brace.ranking(found)
-    assert [row["brace"] for row in table] == ["a", "b", "c", "d"] and without == [0.10, 0.11]
-    assert [row["change"] for row in table[:2]] == pytest.approx([-0.5, 0.2])
+    assert [row["brace"] for row in table] == ["a", "b", "c", "d", "f"] and without == pytest.approx([0.12, 0.2])
+    assert [row["change"] for row in table[:2]] == pytest.approx([-0.5, 0.25])
+    assert [row["collapses"] for row in table] == [0, 0, 1, 1, 2]
 
 
 def test_brace_picture(tmp_path):
-    found = [braced(None, 0.10), braced(None, 0.11), *(braced(name, 0.08 + 0.02 * k) for k, name in enumerate(BRACES))]
+    found = [braced(None, 0.10), *(braced(name, 0.08 + 0.02 * k) for k, name in enumerate(BRACES))]
     table, without = study_brace.ranking(found)
-    options = SimpleNamespace(house="B", scale=0.6, snow=1.0, seed=1)
+    options = SimpleNamespace(house="B", scale=0.6, snow=1.0, seeds="1")
     study_brace.plot(table, without, options, tmp_path / "brace.png")
     assert (tmp_path / "brace.png").stat().st_size > 10000
 

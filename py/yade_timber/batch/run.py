@@ -5,13 +5,11 @@
 on from its checkpoint the next time. A lock keeps two processes from one run (yade-batch, killed, leaves its jobs alive).
 """
 
-import fcntl
 import json
 import os
 import signal
 import sys
 import warnings
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,9 +23,8 @@ from ..house import HouseError, changed_house
 from ..motion import MotionRequest, RecordError
 from ..scenario import DEFAULT_DT, MAX_DT, Scenario
 from .collect import END
+from .lock import locked
 from .table import MOTION, NO_EARTHQUAKE, BatchError, read_table
-
-LOCK = ".lock"
 
 
 def scenario(row, folder):
@@ -102,24 +99,12 @@ def row_at(place):
     return row
 
 
-@contextmanager
-def locked(folder):
-    """True while this process alone has the folder; the lock goes with the process, however it ends."""
-    with open(folder / LOCK, "w") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            yield False
-            return
-        yield True
-
-
 def finish(row, folder):
     """Bring the run of a row to its end, unless it is there already; returns the exit status."""
     if (folder / END).exists():
-        return json.loads((folder / END).read_text())["status"] != "done"
+        return int(json.loads((folder / END).read_text())["status"] != "done")
     try:
-        run = _begun(scenario(row, folder), Output(folder, views=False, quiet=True))
+        run = _begun(scenario(row, folder), Output(folder, views=False, frames=False, quiet=True))
         run.complete()
     except runner.Interrupted as stop:
         print(f"{row.name}: stopped by {signal.Signals(stop.args[0]).name}, goes on when the batch is run again", file=sys.stderr)
