@@ -29,7 +29,7 @@ from .record import GAL, GroundMotion, RecordError
 GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
-DEFAULT_SEED = 1
+DEFAULT_SEED = 3
 """Seed of the motion that the package ships. With it an unbraced house falls N-S, as in the paper; that depends on the seed, see docs/claims."""
 
 DT = 0.01
