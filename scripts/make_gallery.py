@@ -99,7 +99,7 @@ def make(results, out):
     runs = {name: ended(results / name) for name in {*SHEETS, *COMPARED, HISTORY, LEAD}}
     written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
     written.append(write(gallery / "history.png", plots.page(runs[HISTORY])))
-    written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)))))
+    written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(gallery / "ground_motion.png", record_plot.page(default_motion(), corner=0.05)))
     if shutil.which(CHROMIUM[0]):
         written.append(save(gallery / "player.png", compared(results, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
