@@ -79,17 +79,30 @@ def compared(results, time):
         return Image.open(picture).convert("RGB")
 
 
+def ended(folder):
+    """Frames of a run that is over. Raises RunError when it is not."""
+    run = frames.load(folder / frames.NAME)
+    if run.summary is None:
+        raise RunError(f"{folder}: this run is not over; finish it with --resume")
+    return run
+
+
+def fallen_at(run):
+    """When a run's house collapsed, or the end of the run. [s]"""
+    return run.summary["collapse_time_s"] or run.time[-1]
+
+
 def make(results, out):
     """All pictures; returns their paths."""
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
-    runs = {name: frames.load(results / name / frames.NAME) for name in {*SHEETS, HISTORY, LEAD}}
+    runs = {name: ended(results / name) for name in {*SHEETS, *COMPARED, HISTORY, LEAD}}
     written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
     written.append(write(gallery / "history.png", plots.page(runs[HISTORY])))
-    written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)))))
+    written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(gallery / "ground_motion.png", record_plot.page(default_motion(), corner=0.05)))
     if shutil.which(CHROMIUM[0]):
-        written.append(save(gallery / "player.png", compared(results, runs[COMPARED[0]].summary["collapse_time_s"] + AFTER_COLLAPSE)))
+        written.append(save(gallery / "player.png", compared(results, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
     return written
 

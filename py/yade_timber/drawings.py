@@ -25,18 +25,18 @@ THICK = 0.11
 
 def write(stem, model):
     """Write `stem`.png and `stem`.pdf: the drawings of a HouseModel. Returns the paths. Raises OSError."""
-    return save(page(model), stem, ("png", "pdf"), PRINT.dpi)
+    return save(page(model, PRINT.dpi), stem, ("png", "pdf"), PRINT.dpi)
 
 
-def page(model):
-    """Figure with the drawings of a HouseModel."""
+def page(model, dpi):
+    """Figure with the drawings of a HouseModel. dpi: of the shaded parts [1/inch]"""
     figure = Figure(figsize=(PRINT.width, PRINT.height), facecolor="white")
     FigureCanvasAgg(figure)
     solids = [solid(e) for e in model.elements]
     space, front, side, plan = (figure.add_axes(place) for place in CELLS)
-    draw_space(space, solids)
+    draw_space(space, solids, dpi)
     for ax, view in ((front, FRONT), (side, SIDE)):
-        draw_elevation(ax, view, solids, model)
+        draw_elevation(ax, view, solids, model, dpi)
     draw_plan(plan, model)
     figure.text(0.03, 0.963, f"House {model.name}", fontsize=14, fontweight="bold", va="center")
     figure.text(0.03, 0.944, describe(model), fontsize=9, va="top", linespacing=1.4)
@@ -65,28 +65,28 @@ def cell(ax):
     return place.width * PRINT.width, place.height * PRINT.height
 
 
-def density(ax, box):
+def density(ax, box, dpi):
     """Pixels per metre, a multiple of 2, with which a box fills axes."""
     width, height = cell(ax)
-    return int(PRINT.dpi * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 2 * 2
+    return int(dpi * min(width / (box[1] - box[0]), height / (box[3] - box[2]))) // 2 * 2
 
 
-def draw_space(ax, solids):
+def draw_space(ax, solids, dpi):
     """All elements in an oblique parallel view, the roof see-through."""
     shown = np.vstack([s.vertices for s in solids if s.kind != "ground"])
     across, up = shown @ OBLIQUE.right, shown @ OBLIQUE.up
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
-    pixels = density(ax, box)
+    pixels = density(ax, box, dpi)
     whole, frame = (shade([s for s in solids if s.kind not in hidden], OBLIQUE, box, pixels, sky=1.0)[0] for hidden in (("ground",), ("ground", *SEE_THROUGH)))
     ax.imshow(ROOF_SHARE * whole + (1 - ROOF_SHARE) * frame, extent=box, interpolation="antialiased", aspect="equal")
     ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
     ax.axis("off")
 
 
-def draw_elevation(ax, view, solids, model):
+def draw_elevation(ax, view, solids, model, dpi):
     """Front or side view with the heights of floors and ridge."""
     box = window(view, solids, [])
-    draw_view(ax, view, box, density(ax, box), solids, None, [])
+    draw_view(ax, view, box, density(ax, box, dpi), solids, None, [])
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
     heights = sorted({0.0, *(z for levels in model.storey_levels.values() for pair in levels.values() for z in pair), max(e.vertices[:, 2].max() for e in model.elements)})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Scripts that make pictures of finished runs: gallery and pictures again; one line for what cannot be read. Need no YADE."""
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -13,18 +14,29 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
 def run(script, *words):
-    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, words)], capture_output=True, text=True)
+    """CompletedProcess of a script; it finds no Chromium, whose picture of the player has a test of its own."""
+    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, words)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
+
+
+def save_runs(folder, ended):
+    for name in ("modelA_snow", "modelA_quake", "modelC2_snow"):
+        (folder / name).mkdir()
+        recorded.save(folder / name / recorded.NAME, frames(ended))
 
 
 def test_gallery(tmp_path):
-    for name in ("modelA_snow", "modelA_quake", "modelC2_snow"):
-        (tmp_path / name).mkdir()
-        recorded.save(tmp_path / name / recorded.NAME, frames())
+    save_runs(tmp_path, ended=True)
     done = run("make_gallery.py", tmp_path, "--out", tmp_path / "docs")
     assert done.returncode == 0, done.stderr
     made = {path.name: path for path in (tmp_path / "docs").rglob("*.png")}
     assert set(made) == {"modelA_snow.png", "modelA_quake.png", "modelC2_snow.png", "history.png", "houseC2.png", "ground_motion.png"}
     assert all(5_000 < path.stat().st_size < 150_000 for path in made.values())
+
+
+def test_gallery_of_runs_that_are_not_over(tmp_path):
+    save_runs(tmp_path, ended=False)
+    done = run("make_gallery.py", tmp_path, "--out", tmp_path / "docs")
+    assert done.returncode == 1 and "not over" in done.stderr and done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("script", ["show_run.py", "make_gallery.py"])
