@@ -19,6 +19,11 @@ if(TIMBER_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+if(TIMBER_FUZZ) # vectors check their indices
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+endif()
+
 find_program(TIMBER_CCACHE ccache)
 if(TIMBER_CCACHE)
   # Precompiled headers defeat ccache unless their time stamps may be ignored.

@@ -9,7 +9,18 @@ import time
 from pathlib import Path
 
 import yade.wrapper as yw
-from yade_timber.files import write_text, written_whole
+
+
+def resident_memory():
+    """Memory of this process that is in RAM [MB]."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+BARE_MEMORY = resident_memory()
+"""Before the package is imported, if this module is the first to do it: bare YADE [MB]."""
+
+from yade_timber.files import write_text, written_whole  # noqa: E402
 
 O = yw.Omega()
 
@@ -48,12 +59,6 @@ def machine():
     """One line: processor, cores, threads of this YADE, load, versions."""
     cpu = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
     return f"{cpu.group(1) if cpu else platform.processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; {O.numThreads} thread(s)"
-
-
-def resident_memory():
-    """Memory of this process that is in RAM [MB]."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def markdown_table(heads, rows):

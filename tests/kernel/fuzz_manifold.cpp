@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// libFuzzer target, not part of the normal build: bytes become two polyhedra and their placement.
-///   clang++ -std=c++17 -g -O1 -fsanitize=fuzzer,address,undefined -DEIGEN_DONT_VECTORIZE -DEIGEN_DONT_ALIGN -Ipkg \
-///           -isystem /usr/include/eigen3 tests/kernel/fuzz_manifold.cpp pkg/kernel/*.cpp -o fuzz && ./fuzz -max_total_time=60
+/// libFuzzer target, not part of the normal build: bytes become two polyhedra and their placements.
+///   cmake --preset fuzz && cmake --build --preset fuzz && build/fuzz/fuzz_manifold -max_len=128 -runs=10000000 CORPUS_FOLDER
 /// A refused polyhedron is a valid outcome; anything not finite, unbounded, unsorted or dependent on the cache is not.
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// One pair as a step of the package handles it: manifold, elastic law, dashpots, limits.
+#pragma once
+#include "configurations.hpp"
+#include <kernel/contact_law.hpp>
+#include <kernel/dashpots.hpp>
+
+namespace timber::bench {
+
+class TimberPair {
+	RoundedPolyhedron a, b;
+	Pose poseA, poseB;
+	Vec3 place;
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	std::vector<PointState> states;
+	std::vector<DashpotBody> bodies;
+	std::vector<DashpotPoint> dashpots;
+	DashpotSolver solver;
+	HertzLaw law { 0, 0.1 }; ///< such that the points carry the body
+	PairProperties properties;
+	static constexpr double h = 1e-4, gravity = 9.81;
+	long passes = 0, steps = 0;
+
+	void elastic()
+	{
+		if (states.size() != points.size()) states.assign(points.size(), {});
+		for (size_t k = 0; k < points.size(); ++k) {
+			states[k].id = points[k].id;
+			elasticStep(law, properties, points[k], { Vec3::Zero(), Vec3::Zero() }, h, NormalForm::Closed, states[k]);
+		}
+	}
+	void damped()
+	{
+		dashpots.resize(points.size());
+		for (size_t k = 0; k < points.size(); ++k) {
+			const PointState& s = states[k];
+			DashpotPoint& p = dashpots[k];
+			p.bodyA = 0;
+			p.bodyB = 1;
+			p.armA = points[k].position - poseA.position;
+			p.armB = points[k].position - poseB.position;
+			p.normal = points[k].normal;
+			p.elasticNormal = s.normal;
+			p.elasticShear = s.shear;
+			p.normalDamping = 2 * std::sqrt(properties.mass * s.stiffness);
+			p.shearDamping = p.normalDamping * std::sqrt(properties.shearRatio);
+			p.friction = properties.friction;
+			p.impulse = h * (s.normal * p.normal + s.shear + s.dashpot);
+		}
+		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
+		bodies[1].newSpin = bodies[1].spin;
+		passes += solver.solve(bodies, dashpots, h, 50, 1e-3);
+		++steps;
+		for (size_t k = 0; k < points.size(); ++k)
+			states[k].dashpot = dashpots[k].impulse / h - states[k].normal * points[k].normal - states[k].shear;
+	}
+
+public:
+	const Configuration& wanted;
+
+	explicit TimberPair(const Configuration& c)
+	        : a(shapes::rounded(c.a))
+	        , b(shapes::rounded(c.b))
+	        , wanted(c)
+	{
+		poseA.orientation = c.turnA;
+		poseB.orientation = c.turnB;
+		place = placeOfB(c, a.core.vertices, b.core.vertices, a.radius + b.radius);
+		const MassProperties m = massProperties(b.sharp);
+		bodies.assign(2, DashpotBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
+		bodies[1].inverseMass = 1 / (340 * m.volume);
+		bodies[1].inverseInertia = (340 * m.inertia).inverse();
+		properties = { 2 * 340 * m.volume, 0.5, 1 / 2.8, a.radius + b.radius };
+		if (c.points > 0) law.modulus = gravity * 340 * m.volume / (c.points * HertzLaw { 1, law.radius }.force(c.overlap));
+		geometry(0);
+	}
+	/// Passes of the dashpot solver per step.
+	double passesPerStep() const { return steps > 0 ? double(passes) / double(steps) : 0; }
+	void forget() { cache = {}; }
+	/// Only the contact points of step k.
+	void geometry(int k)
+	{
+		poseB.position = place + trembling(k);
+		updateManifold(a, b, poseA, poseB, {}, cache, points);
+	}
+	void step(int k)
+	{
+		geometry(k);
+		if (points.empty()) return;
+		elastic();
+		damped();
+	}
+	Found found()
+	{
+		Found f;
+		poseB.position = place;
+		updateManifold(a, b, poseA, poseB, {}, cache, points);
+		for (const ContactPoint& p : points)
+			f.add(wanted, p.normal, p.overlap);
+		return f;
+	}
+};
+
+} // namespace timber::bench
