@@ -23,7 +23,6 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import yade_timber as yt  # noqa: E402
 from bench_tools import cpu_per_step, interleaved, machine, markdown_table, write_csv, write_section  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
-from yade_timber import scene  # noqa: E402
 
 O = yw.Omega()
 
@@ -91,7 +90,7 @@ def timber_body(extents, centre, fixed):
 def polyhedra_engines():
     return [
         yw.ForceResetter(),
-        yw.InsertionSortCollider([yw.Bo1_Polyhedra_Aabb()], verletDist=scene.BOUND_MARGIN),
+        yw.InsertionSortCollider([yw.Bo1_Polyhedra_Aabb()], verletDist=0),
         yw.InteractionLoop(
             [yw.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
             [yw.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],

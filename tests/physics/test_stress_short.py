@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Short forms of the stress tests (tests/stress, label `stress`): each kind of hardship once."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
+
+import limits  # noqa: E402
+import pytest  # noqa: E402
+from hardships import RESIDUAL, rough_record, shaken, single_precision, speed_bound  # noqa: E402
+from random_pairs import expect_sound, impacts  # noqa: E402
+from yade import O  # noqa: E402
+
+
+def test_random_impacts():
+    found = impacts(150, seed=2, batch=25)
+    expect_sound(found)
+    assert sum(o.met for o in found) > 70
+
+
+@pytest.mark.parametrize("build", [limits.hung_block, limits.stack])
+def test_stable_below_the_predicted_limit(build):
+    assert limits.is_stable(build, 0.9 * limits.settled(build), damped=False)
+
+
+def test_above_it_the_run_is_stopped():
+    """Joints: the limit is sharp, and the health check says what to do."""
+    predicted = limits.settled(limits.hung_block)
+    limits.disturb()
+    O.dt = 1.2 * predicted
+    with pytest.raises(RuntimeError, match="time step .* is probably too large"):
+        for _ in range(1000):
+            O.step()
+
+
+def test_spikes_and_steps():
+    record = rough_record(0.3)
+    fastest, left_over = shaken("B", record, 0.3)
+    assert fastest < speed_bound(record, 0.3) and left_over < RESIDUAL
+
+
+def test_single_precision():
+    assert single_precision("C", 1.0) == []

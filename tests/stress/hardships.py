@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Houses under hardship: records with spikes and steps, joints of extreme stiffness, vertices in single precision, long shaking."""
+import numpy as np
+import yade.wrapper as yw
+import yade_timber as yt
+from yade_timber import scenario, scene
+from yade_timber.house import build_house, load_house
+from yade_timber.motion import GroundMotion, default_motion
+
+O = yw.Omega()
+
+RESIDUAL = 1e-3
+"""Energy that the balance may leave over, of all that went in [-]: 2.5e-4 is seen in a whole C2 run with sliding snow."""
+SPIKE = 100.0
+"""[m/s2]: 10 g in one sample of 10 ms."""
+STEP = 8.0
+"""[m/s2]: a ground acceleration that sets in from one sample to the next, and back."""
+
+
+def rough_record(duration):
+    """GroundMotion of 10 ms: steps of STEP that change direction each 0.2 s, and a spike in a new direction each 0.1 s."""
+    count = round(duration / 0.01)
+    acceleration = np.zeros((count, 3))
+    for k in range(count):
+        acceleration[k, k // 20 % 2] = STEP * (-1) ** (k // 40)
+        if k % 10 == 5:
+            acceleration[k, k // 10 % 3] += SPIKE * (-1) ** (k // 30)
+    return GroundMotion(0.01, acceleration, "spikes and steps")
+
+
+def strong_part(duration):
+    """The strongest part of the synthetic motion, again and again."""
+    motion = default_motion()
+    strong = motion.acceleration[round(17.6 / motion.dt) : round(27.6 / motion.dt)]
+    return GroundMotion(motion.dt, np.tile(strong, (int(np.ceil(duration / 10.0)), 1)), "strong part, repeated")
+
+
+def shaken(house, motion, duration, scale=1.0, snow_depth=0.0):
+    """Run a house; returns (largest speed in a look each 0.05 s [m/s], share of the energy input that the balance leaves over)."""
+    scenario.build(scenario.Scenario("hardship", house, motion, snow_depth, scale=scale))
+    fastest = 0.0
+    for _ in range(round(duration / 0.05)):
+        for _ in range(round(0.05 / O.dt)):
+            O.step()
+        fastest = max(fastest, max(b.state.vel.norm() for b in O.bodies))
+    terms = yt.energy()
+    put_in = abs(terms["ground_motion"]) + max(0.0, -terms["gravity"])
+    return fastest, abs(yt.energy_residual(terms)) / put_in
+
+
+def speed_bound(motion, duration, scale=1.0):
+    """What free fall over the height of the house and the ground's own velocity can add up to [m/s]: nothing is flung out."""
+    ground = scale * np.linalg.norm(np.cumsum(motion.acceleration, axis=0) * motion.dt, axis=1).max()
+    return ground + np.sqrt(2 * 9.81 * 8.0)
+
+
+def single_precision(house, snow_depth):
+    """Names of the elements that float32 vertices change: refused, another number of faces, another volume."""
+    model = build_house(load_house(house), snow_depth=snow_depth)
+    changed = []
+    for element in model.elements:
+        exact = yt.polyhedron(element.vertices)
+        try:
+            rounded = yt.polyhedron(np.asarray(element.vertices, np.float32))
+        except ValueError as refusal:
+            changed.append(f"{element.name}: {refusal}")
+            continue
+        faces = len(rounded.shape.faces()) == len(exact.shape.faces())
+        if not faces or abs(rounded.state.mass / exact.state.mass - 1) > 1e-4:
+            changed.append(element.name)
+    return changed
+
+
+def float32_house(house):
+    """The house in YADE with all vertices and joint points rounded to single precision, under its own weight."""
+    model = build_house(load_house(house), snow_depth=0.0)
+    for element in model.elements:
+        element.vertices = np.asarray(element.vertices, np.float32)
+    for joint in model.joints:
+        joint.points = np.asarray(joint.points, np.float32)
+    O.reset()
+    joints = scenario.add_joints(model, scenario.add_elements(model))
+    O.engines = scene.engines(joints=joints, **scenario.law_options(model.law))
+    O.dt = scenario.DEFAULT_DT
+
+
+def drift_of_all():
+    """Largest displacement of a body from its place of reference [m]."""
+    return max(b.state.displ().norm() for b in O.bodies)

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""10 s on one and two threads (item 8 of the accuracy list)."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics"))
+
+from invariance_cases import one_thread_or_two  # noqa: E402
+from rows import check  # noqa: E402
+
+
+def test_threads():
+    check(one_thread_or_two(duration=10.0))
