@@ -111,7 +111,7 @@ def build_house(house, strength=None):
     def build(dt, options):
         motion = default_motion()
         cut = GroundMotion(motion.dt, motion.acceleration[round(STRONG / motion.dt) :], "strong part")
-        scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options=options))
+        scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options={"skip_rest": 0, **options}))
         for joint in scene.find_engine(yw.JointEngine).joints if strength else []:
             joint.strength = strength
 
