@@ -17,7 +17,10 @@ class BulletPair {
 	Vec3 place;
 
 	static btVector3 vector(const Vec3& v) { return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z())); }
-	static btTransform pose(const Quat& q, const Vec3& x) { return btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())), vector(x)); }
+	static btTransform pose(const Quat& q, const Vec3& x)
+	{
+		return btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())), vector(x));
+	}
 	static std::unique_ptr<btConvexShape> shape(const std::vector<Vec3>& points, const Vec3& box)
 	{
 		if (box.x() > 0) return std::make_unique<btBoxShape>(vector(box / 2));

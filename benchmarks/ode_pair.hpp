@@ -31,7 +31,8 @@ class OdePair {
 			convex.polygons.push_back(unsigned(f.corners.size()));
 			convex.polygons.insert(convex.polygons.end(), f.corners.begin(), f.corners.end());
 		}
-		return dCreateConvex(nullptr, convex.planes.data(), unsigned(body.faces.size()), convex.points.data(), unsigned(points.size()), convex.polygons.data());
+		return dCreateConvex(
+		        nullptr, convex.planes.data(), unsigned(body.faces.size()), convex.points.data(), unsigned(points.size()), convex.polygons.data());
 	}
 	static void turn(dGeomID geom, const Quat& q)
 	{

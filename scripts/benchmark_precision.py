@@ -111,7 +111,7 @@ def build_house(house, strength=None):
     def build(dt, options):
         motion = default_motion()
         cut = GroundMotion(motion.dt, motion.acceleration[round(STRONG / motion.dt) :], "strong part")
-        scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options=options))
+        scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options={"skip_rest": 0, **options}))
         for joint in scene.find_engine(yw.JointEngine).joints if strength else []:
             joint.strength = strength
 
@@ -153,14 +153,18 @@ def run(case, dt, options):
     """({quantity: values}, CPU time of the steps [s]); None for values when the run failed."""
     build, curves, duration, _, with_joints = CASES[case]
     build(dt, options)
-    rows, spent = [], 0.0
+
+    def sample():
+        return {**curves(), **({"joint forces": joint_forces()} if with_joints else {})}
+
+    rows, spent = [sample()], 0.0
     try:
         for _ in range(round(duration / SAMPLE)):
             since = time.process_time()
             for _ in range(round(SAMPLE / dt)):
                 O.step()
             spent += time.process_time() - since
-            rows.append({**curves(), **({"joint forces": joint_forces()} if with_joints else {})})
+            rows.append(sample())
     except RuntimeError:  # the health check
         return None, spent
     found = {name: np.array([row[name] for row in rows]) for name in rows[0]}

@@ -20,7 +20,7 @@ from yade_timber.motion import default_motion  # noqa: E402
 
 O = yw.Omega()
 
-SETTLING = 0.3
+SETTLING = 1.0
 """Simulated time before the measurement [s]."""
 STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """Where in the ground motion the run begins [s]."""
@@ -42,7 +42,7 @@ def arguments():
 
 def build_house(options, start):
     """The house in the current scene, `start` seconds into the ground motion, settled."""
-    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt))
+    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt, options={"skip_rest": 0}))
     scene.find_engine(yw.GroundMotionEngine).start = -start
     O.step()
     cpu_per_step(round(SETTLING / options.dt))

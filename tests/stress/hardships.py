@@ -39,8 +39,9 @@ def shaken(house, motion, duration, scale=1.0, snow_depth=0.0):
     """Run a house; returns (largest speed in a look each 0.05 s [m/s], share of the energy input that the balance leaves over)."""
     scenario.build(scenario.Scenario("hardship", house, motion, snow_depth, scale=scale))
     fastest = 0.0
-    for _ in range(round(duration / 0.05)):
-        for _ in range(round(0.05 / O.dt)):
+    while O.time < duration - O.dt / 2:
+        look = min(O.time + 0.05, duration)
+        while O.time < look - O.dt / 2:
             O.step()
         fastest = max(fastest, max(b.state.vel.norm() for b in O.bodies))
     terms = yt.energy()

@@ -39,7 +39,7 @@ def stack(dt):
 
 def house(dt):
     """House B under its own weight."""
-    scenario.build(scenario.Scenario("limit", "B", dt=dt))
+    scenario.build(scenario.Scenario("limit", "B", dt=dt, options={"skip_rest": 0}))
 
 
 def stiff_house(dt):
