@@ -35,8 +35,9 @@ def arguments():
 def rows(options, bays):
     """Rows of the batch, for each motion: the house as it is, leaning a little to four sides, and with each brace."""
     variants = [(AS_IS, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in PLUMB), *((bay, bay, "*") for bay in bays)]
+    same = {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}"}
     return [
-        {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}", "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
+        {**same, "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
         for seed in options.seeds.split(",")
         for name, brace, changes in variants
     ]
