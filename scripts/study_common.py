@@ -74,8 +74,3 @@ def save(figure, path):
     with written_whole(path) as part:
         figure.savefig(part, dpi=130)
     print(f"written: {path}")
-
-
-def peak_drift(entry):
-    """Largest storey drift of a run, over storeys and directions."""
-    return max(entry[f"peak_drift_{storey}_{way}"] for storey in (1, 2) for way in ("ns", "ew"))
