@@ -109,7 +109,7 @@ PartitionName=test Nodes={host} Default=YES State=UP
 
 @pytest.fixture
 def slurm(tmp_path_factory):
-    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test."""
+    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test, and end with it."""
     if missing:
         pytest.skip(f"{', '.join(missing)} not installed (scripts/setup --with-cluster)")
     folder = tmp_path_factory.mktemp("slurm")
@@ -127,7 +127,7 @@ def slurm(tmp_path_factory):
     try:
         for start in starts:
             log = open(folder / f"{start[0]}.log", "w")
-            daemons.append(subprocess.Popen(start, stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+            daemons.append(subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL, stdout=log, stderr=log))
         wait_for_node(conf, folder)
         yield conf
     finally:
