@@ -12,7 +12,7 @@ import sys
 from statistics import mean
 
 import matplotlib.pyplot as plt
-from study_common import BLUE, GREY, ORANGE, parser, peak_drift, run_all, save, write_table
+from study_common import BLUE, GREY, ORANGE, parser, run_all, save, write_table
 
 from yade_timber.house import HouseError, brace_parts, build_house, free_bays, load_house
 
@@ -35,8 +35,9 @@ def arguments():
 def rows(options, bays):
     """Rows of the batch, for each motion: the house as it is, leaning a little to four sides, and with each brace."""
     variants = [(AS_IS, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in PLUMB), *((bay, bay, "*") for bay in bays)]
+    same = {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}"}
     return [
-        {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}", "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
+        {**same, "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
         for seed in options.seeds.split(",")
         for name, brace, changes in variants
     ]
@@ -49,7 +50,7 @@ def ranking(found):
     for entry in found:
         variants.setdefault((entry["braces"], entry["set"]), []).append(entry)
     whole = {key: entries for key, entries in variants.items() if all(entry["status"] == "done" for entry in entries)}
-    without = [mean(map(peak_drift, entries)) for (brace, _), entries in whole.items() if not brace]
+    without = [mean(entry["peak_drift"] for entry in entries) for (brace, _), entries in whole.items() if not brace]
     table = [_ranked(brace, entries, without[0]) for (brace, _), entries in whole.items() if brace]
     table.sort(key=lambda row: (row["collapses"], -(row["collapse_time_s"] or 0), row["peak_drift"]))
     return table, without
@@ -57,7 +58,7 @@ def ranking(found):
 
 def _ranked(brace, entries, base):
     fallen = [entry["collapse_time_s"] for entry in entries if entry["collapsed"]]
-    drift = mean(map(peak_drift, entries))
+    drift = mean(entry["peak_drift"] for entry in entries)
     broken = mean(entry["broken"] for entry in entries)
     return {"brace": brace, "peak_drift": drift, "change": drift / base - 1, "broken_joints": broken, "motions": len(entries),
             "collapses": len(fallen), "collapse_time_s": mean(fallen) if fallen else ""}  # fmt: skip

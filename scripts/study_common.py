@@ -31,7 +31,8 @@ def parser(about, name):
     made.add_argument("--end", type=float, default=END, metavar="S", help="the motion up to here [s] (default %(default)g)")
     made.add_argument("--dt", metavar="S", default="*", help="time step [s] (default: that of the runs)")
     made.add_argument("--out", type=Path, default=Path("results") / name, metavar="DIR", help="folder of the runs (default %(default)s)")
-    made.add_argument("--to", type=Path, default=HERE.parent / "docs" / "studies", metavar="DIR", help="folder of the study's CSV and PNG (default docs/studies)")
+    to = HERE.parent / "docs" / "studies"
+    made.add_argument("--to", type=Path, default=to, metavar="DIR", help="folder of the study's CSV and PNG (default docs/studies)")
     return made
 
 
@@ -73,8 +74,3 @@ def save(figure, path):
     with written_whole(path) as part:
         figure.savefig(part, dpi=130)
     print(f"written: {path}")
-
-
-def peak_drift(entry):
-    """Largest storey drift of a run, over storeys and directions."""
-    return max(entry[f"peak_drift_{storey}_{way}"] for storey in (1, 2) for way in ("ns", "ew"))

@@ -35,7 +35,7 @@ def arguments():
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
     return [
-        {"house": house, "description": f"{house.split('/')[-1]}_snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
+        {"house": house, "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
         for house in options.houses.split(",")
         for snow in options.snow
         for scale in options.scales or SCALES.get(house, SCALES["B"])
@@ -84,14 +84,17 @@ def plot(table, snows, path):
         for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
             draw(axis, house, curve, 1 + 0.025 * (number - 1))
-        axis.set(title=f"{snow:g} m of snow" if snow else "no snow", xlabel="factor on the Ojiya-like motion (PGA 1501 gal, JMA intensity 6.7 at 1)", xscale="log", ylim=(-0.04, 1.04))
+        axis.set(title=f"{snow:g} m of snow" if snow else "no snow", xscale="log", ylim=(-0.04, 1.04))
+        axis.set_xlabel("factor on the Ojiya-like motion (PGA 1501 gal, JMA intensity 6.7 at 1)")
         ticks = sorted({point["scale"] for point in table})
         axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks], rotation=60, fontsize=8)
         axis.set_xticks([], minor=True)
         axis.grid(alpha=0.3)
         axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8, frameon=False)
     axes[0, 0].set_ylabel("part of the runs in which the house collapses")
-    figure.suptitle(f"Points: {max(point['runs'] for point in table)} motions each, bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, largest likelihood", fontsize=9)
+    runs = max(point["runs"] for point in table)
+    words = f"Points: {runs} motions each, bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, largest likelihood"
+    figure.suptitle(words, fontsize=9)
     save(figure, path)
     plt.close(figure)
 
@@ -116,7 +119,8 @@ def main():
     for house in options.houses.split(","):
         for snow in options.snow:
             fitted = fit([point for point in table if point["house"] == house and point["snow_m"] == snow])
-            print(f"house {house}, {snow:g} m of snow: " + (f"half collapse at {fitted[0]:.2f} times the motion, spread {fitted[1]:.2f}" if fitted else "no curve"))
+            words = f"half of the runs collapse at {fitted[0]:.2f} times the motion, spread {fitted[1]:.2f}" if fitted else "no curve"
+            print(f"house {house}, {snow:g} m of snow: {words}")
     sys.exit(any(point["failed"] for point in table))
 
 

@@ -6,6 +6,7 @@ import csv
 import os
 import secrets
 import shutil
+import signal
 import socket
 import subprocess
 import time
@@ -22,9 +23,12 @@ missing = [program for program in DAEMONS if shutil.which(program) is None]
 pytestmark = pytest.mark.skipif(shutil.which("snakemake") is None, reason="snakemake is not installed (scripts/setup --with-cluster)")
 
 
+def command(profile):
+    return ["snakemake", "--snakefile", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / profile), "--config", "table=runs.txt"]
+
+
 def snakemake(folder, profile, **environment):
-    command = ["snakemake", "--snakefile", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / profile), "--config", "table=runs.txt"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=170, env={**os.environ, **environment})
+    done = subprocess.run(command(profile), cwd=folder, capture_output=True, text=True, timeout=170, env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stderr
 
@@ -35,16 +39,33 @@ def states(folder):
 
 
 def test_local_cores(tmp_path):
-    """A failure is a result; a row that is new runs alone, and rows that moved do not run again."""
+    """Killed once the first run is done, it goes on; a failure is a result; a new row runs alone, and rows that moved do not run again."""
     (tmp_path / "runs.txt").write_text(TABLE)
+    kill_after_first(tmp_path)
+    early = ends(tmp_path)
     snakemake(tmp_path, "local")
     assert states(tmp_path) == {"good": "done", "wrong": "failed"}
-    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("run.json")}
+    before = ends(tmp_path)
+    assert early and early.items() <= before.items()
     head, *rows = TABLE.splitlines()
     (tmp_path / "runs.txt").write_text("\n".join([head, "A new 2e-4 0.002", *rows]) + "\n")
     said = snakemake(tmp_path, "local")
     assert said.count("\nrule run:") == 1 and states(tmp_path) == {"new": "done", "good": "done", "wrong": "failed"}
-    assert {path: path.stat().st_mtime_ns for path in before} == before
+    assert before.items() <= ends(tmp_path).items()
+
+
+def ends(folder):
+    """{run.json: when it was written}."""
+    return {path: path.stat().st_mtime_ns for path in folder.rglob("run.json")}
+
+
+def kill_after_first(folder):
+    victim = subprocess.Popen(command("local"), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    end = time.monotonic() + 120
+    while not ends(folder) and victim.poll() is None and time.monotonic() < end:
+        time.sleep(0.05)
+    os.killpg(victim.pid, signal.SIGKILL)
+    victim.wait()
 
 
 # --- Slurm ------------------------------------------------------------------------------------------------------------
@@ -88,7 +109,7 @@ PartitionName=test Nodes={host} Default=YES State=UP
 
 @pytest.fixture
 def slurm(tmp_path_factory):
-    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test."""
+    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test, and end with it."""
     if missing:
         pytest.skip(f"{', '.join(missing)} not installed (scripts/setup --with-cluster)")
     folder = tmp_path_factory.mktemp("slurm")
@@ -101,12 +122,12 @@ def slurm(tmp_path_factory):
     user = subprocess.run(["id", "-un"], capture_output=True, text=True).stdout.strip()
     conf.write_text(slurm_conf(folder, user, socket.gethostname().split(".")[0]))
     munge = [f"--{option}={folder}/munge/{option}" for option in ("socket", "pid-file", "log-file", "seed-file")]
-    commands = [["munged", "--foreground", "--force", f"--key-file={key}", *munge], ["slurmctld", "-D", "-c", "-f", str(conf)], ["slurmd", "-D", "-f", str(conf)]]
+    starts = [["munged", "--foreground", "--force", f"--key-file={key}", *munge], ["slurmctld", "-D", "-c", "-f", str(conf)], ["slurmd", "-D", "-f", str(conf)]]
     daemons = []
     try:
-        for command in commands:
-            log = open(folder / f"{command[0]}.log", "w")
-            daemons.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+        for start in starts:
+            log = open(folder / f"{start[0]}.log", "w")
+            daemons.append(subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL, stdout=log, stderr=log))
         wait_for_node(conf, folder)
         yield conf
     finally:
@@ -141,9 +162,9 @@ def test_slurm_s_states(slurm):
         return subprocess.run(command, capture_output=True, text=True, env=environment).stdout.strip()
 
     told = {}
-    for command in ("true", "false", "sleep 60"):
-        job = run("sbatch", "--parsable", "--mem=10", "--output=/dev/null", f"--wrap={command}")
-        told[command] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if command != "sleep 60" else 0)
+    for task in ("true", "false", "sleep 60"):
+        job = run("sbatch", "--parsable", "--mem=10", "--output=/dev/null", f"--wrap={task}")
+        told[task] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if task != "sleep 60" else 0)
     run("scancel", job)
     assert told == {"true": "success", "false": "failed", "sleep 60": "running"}
     assert wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30) == "failed"

@@ -114,5 +114,5 @@ def test_one_row_of_results_a_run(table, tmp_path):
         done, failed, unfinished = csv.DictReader(file)
     assert [r["status"] for r in (done, failed, unfinished)] == ["done", "failed", "unfinished"]
     assert (done["house"], done["scale"], done["snow"], done["description"]) == ("B", "0.5", "", "calm")
-    assert (done["collapsed"], done["collapse_time_s"], done["peak_drift_1_ns"], done["peak_drift_1_ew"], done["broken"]) == ("True", "21.5", "0.25", "", "7")
+    assert done["peak_drift"] == "0.25" and (done["collapsed"], done["collapse_time_s"], done["peak_drift_1_ns"], done["peak_drift_1_ew"], done["broken"]) == ("True", "21.5", "0.25", "", "7")
     assert failed["error"] == "runs.txt:5: it broke" and not any(failed[column] for column in RESULTS)

@@ -20,6 +20,7 @@ RESULTS = {
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
     "broken_brace_beam": "broken.brace_beam",
+    "columns_fallen": "columns.fallen",
     "snow_mass_kg": "snow_mass_kg",
     **{f"pga_{axis}_gal": f"record.pga_gal.{axis}" for axis in ("ns", "ew", "ud")},
     "energy_residual": "energy.residual_fraction",
@@ -32,7 +33,7 @@ RESULTS = {
 
 
 def collect(rows, folder):
-    """[{'run', 'line', 'status', 'error', every column of the table, every one of RESULTS}] in the order of the table; None: nothing to say."""
+    """[{'run', 'line', 'status', 'error', every column of the table, 'peak_drift', every one of RESULTS}] in the order of the table; None: nothing to say."""
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
     return [_collected(row, folder / row.name, columns) for row in rows]
 
@@ -47,6 +48,7 @@ def _collected(row, folder, columns):
         "status": end["status"],
         "error": end["error"],
         **{column: row.cells.get(column) for column in columns},
+        "peak_drift": _largest(_at(found, "peak_drift")),
         **{column: _at(found, path) for column, path in RESULTS.items()},
     }
 
@@ -56,6 +58,11 @@ def _json(path):
         return json.loads(path.read_text())
     except FileNotFoundError:
         return None
+
+
+def _largest(drifts):
+    """Largest of {storey: {direction: drift}}, None where there is none."""
+    return max((drift for ways in (drifts or {}).values() for drift in ways.values() if drift is not None), default=None)
 
 
 def _at(found, path):

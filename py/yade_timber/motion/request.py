@@ -9,7 +9,7 @@ from .record import RecordError
 from .synthetic import DEFAULT_SEED, synthetic_motion
 
 
-def _option(kind, metavar, low, high, text):
+def _option(kind, metavar, text, low=None, high=None):
     """Field of MotionRequest, None unless given; low, high: admissible range of a number, both included."""
     return field(default=None, metadata={"kind": kind, "metavar": metavar, "low": low, "high": high, "help": text})
 
@@ -21,19 +21,21 @@ class MotionRequest:
     `scale` is left to the run, which records it beside the motion.
     """
 
-    record: str = _option(str, "FILE_OR_PREFIX", None, None, "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
-    seed: int = _option(int, "N", 0, 2**31, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})")
-    component: str = _option(str, "WORDS", None, None, "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, separated by commas")
-    units: str = _option(str, "UNIT", None, None, "gal, m/s2 or g, where the record does not say")
-    azimuth: float = _option(float, "DEG", -360, 360, "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes the house along +x (default 0)")
-    start: float = _option(float, "S", 0, 1e5, "leave out what comes before this time of the record [s]")
-    end: float = _option(float, "S", 0, 1e5, "leave out what comes after this time of the record [s]")
-    detrend: int = _option(int, "ORDER", 0, 8, "baseline: subtract a polynomial of this order from the accelerations (0: the mean)")
-    highpass: float = _option(float, "HZ", 1e-3, 100, "baseline: zero-phase high-pass at this frequency [Hz]")
-    pga: float = _option(float, "GAL", 1e-3, 1e5, "scale all components so that the larger horizontal one peaks here [gal]")
-    intensity: float = _option(float, "I", 0, 8, "scale all components to this JMA intensity (not rounded)")
-    scale: float = _option(float, "X", 0, 1e6, "factor on the ground motion (default 1)")
-    resample: bool = _option(bool, None, None, None, "band-limited samples at the run's time step, instead of straight lines between the record's samples")
+    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
+    seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
+    component: str = _option(str, "WORDS", "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, with commas between")
+    units: str = _option(str, "UNIT", "gal, m/s2 or g, where the record does not say")
+    azimuth: float = _option(
+        float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes along +x (default 0)", -360, 360
+    )
+    start: float = _option(float, "S", "leave out what comes before this time of the record [s]", 0, 1e5)
+    end: float = _option(float, "S", "leave out what comes after this time of the record [s]", 0, 1e5)
+    detrend: int = _option(int, "ORDER", "baseline: subtract a polynomial of this order from the accelerations (0: the mean)", 0, 8)
+    highpass: float = _option(float, "HZ", "baseline: zero-phase high-pass at this frequency [Hz]", 1e-3, 100)
+    pga: float = _option(float, "GAL", "scale all components so that the larger horizontal one peaks here [gal]", 1e-3, 1e5)
+    intensity: float = _option(float, "I", "scale all components to this JMA intensity (not rounded)", 0, 8)
+    scale: float = _option(float, "X", "factor on the ground motion (default 1)", 0, 1e6)
+    resample: bool = _option(bool, None, "band-limited samples at the run's time step, instead of straight lines between the record's samples")
 
     def given(self):
         """Names of what was asked for."""
