@@ -14,6 +14,8 @@ namespace {
 
 void HouseMonitor::postLoad(HouseMonitor&)
 {
+	for (Real height : heights)
+		if (!(height > 0)) throw std::invalid_argument("HouseMonitor: heights must be > 0");
 	if (levels.size() != bodies.size()) throw std::invalid_argument("HouseMonitor: bodies and levels must have the same length");
 }
 
@@ -86,7 +88,7 @@ boost::python::list HouseMonitor::pyColumns() const
 {
 	boost::python::list names;
 	names.append("time [s]");
-	for (int level = 1; level <= storeys; ++level)
+	for (size_t level = 1; level <= heights.size(); ++level)
 		for (const char* what : { "drift_ns", "drift_ew", "drop" })
 			names.append(string(what) + std::to_string(level) + (what[1] == 'r' && what[2] == 'o' ? " [m]" : " [-]"));
 	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
@@ -100,17 +102,18 @@ void HouseMonitor::record()
 {
 	rows.push_back(scene->time);
 	Vector3r below = Vector3r::Zero();
-	peak.resize(2 * storeys, 0);
-	for (int level = 1; level <= storeys; ++level) {
-		const Vector3r above = meanDisplacement(level);
-		const Real     ns = (above - below).y() / storeyHeight, ew = (above - below).x() / storeyHeight;
+	peak.resize(2 * heights.size(), 0);
+	for (size_t level = 1; level <= heights.size(); ++level) {
+		const Vector3r above  = meanDisplacement(level);
+		const Real     height = heights[level - 1];
+		const Real     ns = (above - below).y() / height, ew = (above - below).x() / height;
 		peak[2 * level - 2] = math::max(peak[2 * level - 2], math::abs(ns));
 		peak[2 * level - 1] = math::max(peak[2 * level - 1], math::abs(ew));
 		if (!(tiltTime >= 0) && math::max(math::abs(ns), math::abs(ew)) > tiltDrift) {
 			tiltTime      = scene->time;
 			tiltDirection = math::abs(ns) > math::abs(ew) ? "ns" : "ew";
 		}
-		if (!(collapseTime >= 0) && above.z() < -storeyHeight / 2) collapseTime = scene->time;
+		if (!(collapseTime >= 0) && above.z() < -height / 2) collapseTime = scene->time;
 		rows.insert(rows.end(), { ns, ew, -above.z() });
 		below = above;
 	}

@@ -29,14 +29,13 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
-		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean horizontal displacement of the bodies of the level above it minus that of the level below, over the storey's height. "
+		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean horizontal displacement of the bodies of the level above it minus that of the level below, over the storey's height. A level that has come down by half the height of its storey counts as collapsed. "
 		"Stands behind the integrator. Energies are those at the half step to which the velocities belong: elastic energies of the last placement are carried there with their rate.",
 		((Real, interval, 0.01, , "Simulated time between samples. [s]"))
-		((Real, storeyHeight, 2.73, , "Height that drifts refer to. [m] (paper, section 3.4)"))
+		((vector<Real>, heights, , Attr::triggerPostLoad, "Height of each storey, which its drift refers to. [m]"))
 		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Gravity, for its potential energy. [m/s2]"))
 		((vector<int>, bodies, , , "Ids of the bodies that mark levels. [-]"))
 		((vector<int>, levels, , Attr::triggerPostLoad, "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
-		((int, storeys, 0, , "Number of levels. [-]"))
 		((Real, tiltDrift, 0.1, , "Drift at which a storey counts as tilted. [-]"))
 		((Real, tiltTime, NaN, , "When the first storey drift passed tiltDrift. [s]"))
 		((string, tiltDirection, , , "ns or ew: direction of the drift that passed tiltDrift first. [-]"))

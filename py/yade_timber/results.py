@@ -16,6 +16,7 @@ from yade.minieigenHP import Vector3
 from . import _plugin, host, scene
 from .files import write_text
 from .motion import interpolation_error, onset
+from .scenario import level_marks
 
 SIDES = ("north", "south", "east", "west", "inside")
 RESIDUAL_WINDOW = 1.0
@@ -139,6 +140,20 @@ def leans_from(monitor):
     return next((row[0] for row in reversed(before) if row[place] * before[-1][place] <= 0), 0.0)
 
 
+def fallen_structures(model):
+    """Names of the structures of which a level lies lower than at the start by half its storey, as the scene is now."""
+    bodies = {body.shape.name: body for body in O.bodies}
+    fallen = []
+    for structure, storeys in model.storey_levels.items():
+        drops = {}
+        for element, level in level_marks(model, structure):
+            state = bodies[element.name].state
+            drops.setdefault(level, []).append(state.refPos[2] - state.pos[2])
+        if any(sum(d) / len(d) > (storeys[level][1] - storeys[level][0]) / 2 for level, d in drops.items()):
+            fallen.append(structure)
+    return fallen
+
+
 def energy_balance(terms):
     """The part `energy` of the summary [J] from the terms of `scene.energy`.
 
@@ -217,6 +232,7 @@ def summary(scenario, model, wall_s):
         "tilt_direction": monitor.tiltDirection or None,
         "collapsed": collapse is not None,
         "collapse_time_s": collapse,
+        "fallen_structures": fallen_structures(model),
         "peak_drift": by_storey(monitor.peak),
         "residual_drift": by_storey(residual_drift(monitor)),
         "energy": energy_balance(scene.energy()),

@@ -102,29 +102,26 @@ def add_joints(model, ids):
     ]
 
 
-def level_marks(model):
-    """Bodies that mark the levels of the main structure: [(element, level)]; level k is the top of storey k.
+def level_marks(model, structure):
+    """Bodies that mark the levels of a structure: [(element, level)]; level k is the top of storey k.
 
-    The floor where there is one, else the beams under the roof; in a house without floors the roof itself, which moves as one.
+    The floor where there is one, else the beams under the roof; in a structure without floors the roof itself, which moves as one.
     """
-    main = next(iter(model.storey_levels))
-    kinds = ("floor", "beam") if model.of_kind("floor", group=main) else ("roof", "beam")
+    kinds = ("floor", "beam") if model.of_kind("floor", group=structure) else ("roof", "beam")
     marks = []
-    for storey in sorted(model.storey_levels[main]):
-        levels = [[e for e in model.of_kind(kind, group=main) if e.storey == storey] for kind in kinds]
+    for storey in sorted(model.storey_levels[structure]):
+        levels = [[e for e in model.of_kind(kind, group=structure) if e.storey == storey] for kind in kinds]
         marks += [(e, storey) for e in next(filter(None, levels), [])]
     return marks
 
 
 def house_monitor(model, ids):
-    """HouseMonitor of the model's storeys; their height is that of the columns."""
-    marks = level_marks(model)
-    main = next(iter(model.storey_levels))
-    foot, head = model.storey_levels[main][1]
+    """HouseMonitor of the main structure's storeys; their height is that of the columns."""
+    main, storeys = next(iter(model.storey_levels.items()))
+    marks = level_marks(model, main)
     return yw.HouseMonitor(
         bodies=[ids[e.name] for e, _ in marks],
         levels=[level for _, level in marks],
-        storeys=len(model.storey_levels[main]),
-        storeyHeight=head - foot,
+        heights=[head - foot for _, (foot, head) in sorted(storeys.items())],
         gravity=Vector3(*scene.GRAVITY),
     )

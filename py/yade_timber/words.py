@@ -18,7 +18,9 @@ def sentence(found):
         broken += f" ({found['broken']['damaged_at_start']['total']} more from the start)"
     if found["snow"]:
         broken += f", snow {found['snow_mass_kg'] / 1000:.1f} t"
-    return f"House {found['model']} {fate(found)}, {broken}"
+    fallen = [] if found["collapsed"] else found.get("fallen_structures", [])
+    fallen = f", {' and '.join(fallen)} down" if fallen else ""
+    return f"House {found['model']} {fate(found)}{fallen}, {broken}"
 
 
 def fate(found):

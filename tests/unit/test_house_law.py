@@ -3,13 +3,12 @@
 import pytest
 from yade import O
 from yade_timber import checkpoint, scenario
-from yade_timber.house.reading import SHIPPED
 
 
 def built(tmp_path, law):
-    """(contact functor, contact law, contact points after a step) of house A with these entries of `law`."""
+    """(contact functor, contact law, contact points after a step) of the storehouse with these entries of `law`."""
     path = tmp_path / "house.yaml"
-    path.write_text(f"extends: {SHIPPED / 'base.yaml'}\nname: mine\nlaw: {law}\n")
+    path.write_text(f"extends: storehouse\nname: mine\nlaw: {law}\n")
     built = scenario.Scenario("law", str(path))
     model = scenario.build(built)
     loop = next(e for e in O.engines if type(e).__name__ == "InteractionLoop")

@@ -5,7 +5,7 @@ import math
 import pytest
 import yade_timber as yt
 from yade import O
-from yade_timber import scenario, scene
+from yade_timber import results, scenario, scene
 from yade_timber.house.reading import SHIPPED
 
 STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
@@ -66,3 +66,36 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     path.write_text(text)
     monitor = stand(path, 0.4, snow=1.0)
     assert max(monitor.peak) < 2e-3 and broken() == 0
+
+
+def test_drift_refers_to_the_height_of_its_own_storey():
+    """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; a level that comes down by half its storey has collapsed."""
+    O.reset()
+    ids = [O.bodies.append(yt.box((1, 1, 1), (0, 0, 5 * k), fixed=True)) for k in (1, 2)]
+    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 2], heights=[2.0, 4.0])
+    O.engines = [monitor]
+    for body, shift in zip(ids, ((0.1, 0, -0.9), (0, 0.3, -2.1))):
+        O.bodies[body].state.pos += shift
+    O.dt = 1e-3
+    O.step()
+    assert list(monitor.peak) == pytest.approx([0, 0.05, 0.075, 0.025])
+    assert monitor.collapseTime == 0 and monitor.columns()[:4] == ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]"]
+    with pytest.raises(ValueError, match="heights must be > 0"):
+        yt.HouseMonitor(heights=[2.0, 0.0])
+
+
+def test_each_storey_has_its_height(tmp_path):
+    path = tmp_path / "low.yaml"
+    path.write_text((SHIPPED / "l_house.yaml").read_text().replace("{layer: columns, height: 2.73}", "{layer: columns, height: 2.4}", 1))
+    model = scenario.build(scenario.Scenario("heights", str(path)))
+    assert list(scene.find_engine(yt.HouseMonitor).heights) == pytest.approx([2.4, 2.73])
+    assert model.storey_levels["side"][2][0] == pytest.approx(0.42 + 2.4 + 0.32)
+
+
+def test_fallen_structures_are_named():
+    """A wing that comes down alone; the entrance's roof marks its only level."""
+    model = scenario.build(scenario.Scenario("fallen", "A"))
+    assert results.fallen_structures(model) == []
+    roof = next(b for b in O.bodies if b.shape.name == "entrance.roof")
+    roof.state.pos -= (0, 0, 1.4)
+    assert results.fallen_structures(model) == ["entrance"]
