@@ -21,5 +21,5 @@ def check_friction(data):
     own = {name: own_coefficient(name, material["law"], pairs) for name, material in data["materials"].items()}
     for entry, (a, b, wanted) in zip(data["friction"], pairs):
         if wanted != min(own[a], own[b]):
-            raise HouseError(f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}, but a pair has the smaller one of {a}'s own ({own[a]:g}) "
-                             f"and {b}'s own ({own[b]:g}); give the pairs [{a}, {a}] and [{b}, {b}] so that this comes out")
+            raise HouseError(f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}, but comes out as {min(own[a], own[b]):g}: a pair has the smaller "
+                             f"one of {a}'s own ({own[a]:g}) and {b}'s own ({own[b]:g}); change the pairs [{a}, {a}] and [{b}, {b}], too")
