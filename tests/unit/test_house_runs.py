@@ -36,7 +36,7 @@ def test_the_examples_stand_still(house, snow):
 def test_snow_slides_where_the_roof_is_steeper_than_friction(tmp_path, pitch):
     """Friction 0.5: at a pitch of 0.9 snow runs down with g (sin - 0.5 cos); both clods start from rest."""
     path = tmp_path / "steep.yaml"
-    path.write_text(STOREHOUSE.replace(ROOF, f"type: gable, pitch: {pitch}, thickness: 0.2"))
+    path.write_text(STOREHOUSE.replace(ROOF, f"type: gable, pitch: {pitch}, thickness: 0.2, material: tiles"))
     seconds = 0.2
     stand(path, seconds, snow=0.5)
     angle = math.atan(pitch)
@@ -58,7 +58,7 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
       - {{layer: sill, height: 0.12, width: 0.12}}
       - {{layer: columns, height: 2.4}}
       - {{layer: beams, height: 0.12, width: 0.12}}
-      - {{layer: roof, type: hip, pitch: 0.4, thickness: 0.12, corner_cut: 0.1}}
+      - {{layer: roof, type: hip, pitch: 0.4, thickness: 0.12, corner_cut: 0.1, material: tiles}}
     columns: [{{section: 0.12, lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last}}}]}}]
     braces: {{lines: [{{along: y, at: [0, {last}], runs: [[0, 1]]}}, {{along: x, at: [0, {last}], runs: [[1, 0]]}}]}}
 """ + STOREHOUSE[end:]
