@@ -31,9 +31,9 @@ def test_unchanged_is_the_same_house(tmp_path):
 
 
 def test_keys_and_list_items(tmp_path):
-    settings = ["materials.timber.density=400", "friction[2].coefficient=0.3", "friction[3].coefficient=0.3", "plumb.drift=1e-3", "structures.main.stack[3].height=2.5"]
+    settings = ["materials.timber.density=400", "friction[1].coefficient=0.25", "friction[2].coefficient=0.25", "plumb.drift=1e-3", "structures.main.stack[3].height=2.5"]
     data, model = built(tmp_path, settings=settings)
-    assert model.materials["timber"]["density"] == 400 and model.friction[1][2] == 0.3
+    assert model.materials["timber"]["density"] == 400 and model.friction[0][2] == 0.25
     assert model.options["plumb"]["drift"] == 1e-3 and data["structures"]["main"]["stack"][2]["height"] == 2.5
 
 
@@ -57,7 +57,7 @@ def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
         ({"settings": ["materials.timber.densty=400"]}, "column set: materials.timber: unknown key 'densty', did you mean 'density'?"),
         ({"settings": ["materials.timber.density=-1"]}, "column set: materials.timber.density: must be a number in [20, 30000] kg/m3, got -1"),
         ({"settings": ["materials.timber.density"]}, "column set: 'materials.timber.density': write key=value"),
-        ({"settings": ["friction[4].coefficient=1"]}, "column set: friction[4].coefficient: there is no item [4]; the list has 3"),
+        ({"settings": ["friction[9].coefficient=1"]}, "column set: friction[9].coefficient: there is no item [9]; the list has 5"),
         ({"settings": ["name.first=x"]}, "column set: name.first: there is no table or list at 'first'"),
         ({"settings": ["snow.depth=[1"]}, "column set: '[1' is no value"),
         ({"settings": ["a b=1"]}, "column set: 'a b' is no key"),
