@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Readings of what the paper leaves open, each as a change to the shipped houses. Needs no YADE."""
 import copy
+import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import yaml
 
 from .claims import loads
 from .files import write_text
+from .house.reading import read_table
 
 HOUSES = Path(__file__).resolve().parent / "data" / "houses"
 
@@ -53,13 +55,21 @@ def write_house(reading, run, folder):
 # --- changes ------------------------------------------------------------------------------------------------------------
 
 
-def shipped():
-    """base.yaml as plain tables."""
-    return yaml.safe_load((HOUSES / "base.yaml").read_text(encoding="utf-8"))
+def shipped(name="base"):
+    """A shipped house file, with what it extends, as plain tables."""
+    return json.loads(json.dumps(read_table(HOUSES / f"{name}.yaml")))
 
 
-def friction(timber=0.3, snow=2.0):
-    """Coefficients of timber on timber and of snow on its roof."""
+def differs(reading):
+    """Whether a reading changes any of the houses A, B, C as they are shipped."""
+    houses = {name: shipped(f"model{name}") for name in "ABC"}
+    return any(merged(table, reading.entries(name)) != table for name, table in houses.items())
+
+
+def friction(timber=None, snow=None):
+    """Coefficients of timber on timber and of snow on its roof; None: as shipped."""
+    now = {tuple(entry["between"]): entry["coefficient"] for entry in shipped()["friction"]}
+    timber, snow = timber or now["timber", "timber"], snow or now["snow", "snow"]
     pairs = {("timber", "timber"): timber, ("roofing", "timber"): min(timber, snow), ("roofing", "roofing"): snow, ("snow", "roofing"): snow, ("snow", "snow"): snow}
     return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs.items()]}
 
@@ -77,10 +87,9 @@ def beam_width(width):
     return layers(("sill", "beams"), width=width)
 
 
-def as_corner_fitting(*types):
-    """These joint types with the corner fitting's stiffness and strength."""
-    fitting = {key: float(shipped()["joint_types"]["corner_fitting"][key]) for key in ("kn", "ks", "strength")}
-    return {"joint_types": {name: dict(fitting) for name in types}}
+def joint_values(kn, strength, *types):
+    """These joint types with stiffness kn = ks [N/m] and strength [N]."""
+    return {"joint_types": {name: {"kn": kn, "ks": kn, "strength": strength} for name in types}}
 
 
 def more_joints(*rules):
@@ -102,30 +111,32 @@ def braced(main=None, entrance=None):
 
 def turned(name):
     """Braces of a house leaning the other way: [foot, head] -> [head, foot]."""
-    table = yaml.safe_load((HOUSES / f"model{name}.yaml").read_text(encoding="utf-8"))["structures"]
-    for structure in table.values():
-        for line in structure["braces"]["lines"]:
-            line["runs"] = [run[::-1] for run in line["runs"]]
-    return {"structures": table}
+    lines = {part: structure["braces"].get("lines", []) for part, structure in shipped(f"model{name}")["structures"].items()}
+    return braced(**{part: [{**line, "runs": [run[::-1] for run in line["runs"]]} for line in some] for part, some in lines.items()})
 
 
-READINGS = {
+_ALL = {
     "shipped": Reading("the houses as shipped"),
     "joint-each": Reading("stiffness and P_max belong to each of a joint's springs", {"law": {"joint_reading": "spring"}}),
+    "joint-whole": Reading("stiffness and P_max belong to the joint", {"law": {"joint_reading": "joint"}}),
     "flush-off": Reading("a vertex exactly over a border is not supported", {"law": {"flush_supports": False}}),
     "vertex-edge": Reading("vertex-edge and vertex-vertex contacts, too", {"law": {"vertex_edge_contacts": True}}),
     "increment": Reading("Hertz force in increments (Eq 38)", {"law": {"hertz": "increment"}}),
+    "timber-0.3": Reading("friction timber-timber 0.3", friction(timber=0.3)),
     "timber-0.4": Reading("friction timber-timber 0.4", friction(timber=0.4)),
     "timber-0.5": Reading("friction timber-timber 0.5", friction(timber=0.5)),
     "snow-0.1": Reading("friction snow-roof 0.1: it slides off by itself", friction(snow=0.1)),
     "snow-0.3": Reading("friction snow-roof 0.3", friction(snow=0.3)),
     "snow-0.5": Reading("friction snow-roof 0.5", friction(snow=0.5)),
     "snow-1": Reading("friction snow-roof 1", friction(snow=1.0)),
+    "snow-2": Reading("friction snow-roof 2: snow guards", friction(snow=2.0)),
+    "plumb-0": Reading("perfectly plumb", {"plumb": {"drift": 0}}),
     "plumb-1e-3": Reading("out of plumb by 1/1000 to the north", {"plumb": {"drift": 1e-3, "towards": "north"}}),
     "plumb-1e-2": Reading("out of plumb by 1/100 to the north", {"plumb": {"drift": 1e-2, "towards": "north"}}),
     "beam-0.12": Reading("sills and beams 12 cm wide", beam_width(0.12)),
-    "floor-roof-soft": Reading("floors and roof on their beams with the corner fitting's values", as_corner_fitting("floor_bolt", "roof_plate")),
-    "tie-corner": Reading("roof slabs tied with the corner fitting's values", as_corner_fitting("roof_tie")),
+    "floor-roof-stiff": Reading("floors and roof do not come off their beams", joint_values(1e7, float("inf"), "floor_bolt", "roof_plate")),
+    "floor-roof-soft": Reading("floors and roof on their beams with the corner fitting's values", joint_values(58800, 5880, "floor_bolt", "roof_plate")),
+    "tie-corner": Reading("roof slabs tied with the corner fitting's values", joint_values(58800, 5880, "roof_tie")),
     "beams-joined": Reading("beams joined where they butt", more_joints({"between": ["beam", "beam"], "type": "corner_fitting", "kind": "beam_beam"})),
     "braces-turned": Reading("braces leaning the other way", {}, {"B": turned("B"), "C": turned("C")}),
     "braces-inwards": Reading("B's braces one bay away from the corners", {}, {"B": braced([
@@ -135,4 +146,5 @@ READINGS = {
     "inner-columns": Reading("inner columns of A and B at other nodes", {}, dict.fromkeys("AB", inner_columns((4, 2), (4, 3), (4, 5), (4, 6), (4, 7), (2, 4), (6, 4)))),
     "damage-top": Reading("damaged joints at the columns' heads", {"damage": {"end": "top"}}),
 }
-"""Name -> Reading; each differs from the shipped houses in one thing."""
+READINGS = {name: reading for name, reading in _ALL.items() if name == "shipped" or differs(reading)}
+"""Name -> Reading; each but 'shipped' differs from the shipped houses in one thing."""

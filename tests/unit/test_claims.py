@@ -7,7 +7,7 @@ import json
 import sys
 
 import pytest
-from yade_timber import campaign, claims, claims_table
+from yade_timber import campaign, claims, claims_table, readings
 from yade_timber.house import build_house, load_house
 from yade_timber.readings import READINGS, Reading, merged, write_house
 
@@ -108,7 +108,7 @@ def test_tables(tmp_path):
 def test_readings_are_valid_house_files(name, tmp_path):
     """Every reading is accepted by the house files' schema and differs from the shipped house, but for the shipped one."""
     described = load_house(write_house(READINGS[name], "modelB1_quake", tmp_path))
-    assert described.name == "B1" and (described.data == load_house("B1").data) is (name == "shipped")
+    assert described.name == "B1" and readings.differs(READINGS[name]) is (name != "shipped")
 
 
 def test_a_reading_is_built(tmp_path):
