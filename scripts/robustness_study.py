@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 from yade_timber import campaign, claims_table  # noqa: E402
 from yade_timber.claims import RUNS, loads  # noqa: E402
 
-SEEDS = (0, 2, 3, 4, 5)
+SEEDS = (0, 1, 2, 4, 5)
 SCALES = (0.5, 0.75, 1.25, 1.5)
 STEPS = (1e-4, 4e-4)  # [s]; the default lies between
 
