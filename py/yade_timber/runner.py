@@ -192,7 +192,7 @@ class Run:
         threading.Thread(target=self._watch, daemon=True).start()
 
     def _record_live(self):
-        """An engine at the end of the chain that records each frame, in the step that leads to it."""
+        """An engine at the end of the chain that records each frame, in the step that leads to it: behind RestSkipper, whose step may."""
         global live
         live = self
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame

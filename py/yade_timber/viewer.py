@@ -7,7 +7,7 @@ import yade.wrapper as yw
 BACKGROUND = (0.80, 0.87, 0.93)
 DIRECTION = (0.72, 0.64, 0.30)
 """From the house to the camera: to the north-east, above. [-]"""
-DISTANCE = 1.5
+DISTANCE = 1.15
 """Of the camera, in diagonals of the house. [-]"""
 
 O = yw.Omega()
@@ -22,7 +22,7 @@ def show():
 
     renderer = qt.Renderer()
     renderer.bgColor = Vector3(*BACKGROUND)
-    renderer.extraDrawers = [yw.GlTimberJoints()]
+    renderer.extraDrawers = [yw.GlTimberJoints(cross=0.1)]
     view = qt.View()
     places = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
     low, high = places.min(0), places.max(0)
