@@ -118,10 +118,9 @@ def build_house(house, strength=None):
     return build
 
 
-def motion_of_last_body():
-    """Position and velocity of the body that was added last [m, m/s]."""
-    state = O.bodies[len(O.bodies) - 1].state
-    return {"path": [*state.pos], "velocity": [*state.vel]}
+def path():
+    """Position of the body that was added last [m]. Its velocity jumps in impacts: a small shift in time would pass for a large error."""
+    return {"path": [*O.bodies[len(O.bodies) - 1].state.pos]}
 
 
 def drifts():
@@ -140,8 +139,8 @@ def joint_forces():
 
 
 CASES = {  # build, curves, duration [s], smallest step [s], whether joint forces count
-    "impact": (build_impact, motion_of_last_body, 0.03, 1e-6, False),
-    "rocking block": (build_rocking, motion_of_last_body, 1.0, 1e-6, False),
+    "impact": (build_impact, path, 0.03, 1e-6, False),
+    "rocking block": (build_rocking, path, 1.0, 1e-6, False),
     "jointed frame": (build_frame, drifts, 1.0, 1e-6, True),
     "standing house C": (build_house("C", UNBREAKABLE), drifts, 0.5, 1e-5, True),
     "collapsing house A": (build_house("A"), drifts, 2.0, 1e-5, False),
@@ -206,7 +205,7 @@ def limit_rows():
 
 
 # --- page --------------------------------------------------------------------------------------------------------------
-def draw(rows, path):
+def draw(rows, file):
     """Error against run time, a panel for each case: the worst quantity of each run."""
     cases = list(dict.fromkeys(r[0] for r in rows))
     figure, axes = plt.subplots(len(cases), 1, figsize=(9, 3.6 * len(cases)), squeeze=False, layout="constrained")
@@ -223,7 +222,7 @@ def draw(rows, path):
         axis.set(title=case, xlabel="run time [s]", ylabel="error [-]")
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
-    with written_whole(path) as part:
+    with written_whole(file) as part:
         figure.savefig(part, dpi=110, format="png")
     plt.close(figure)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy import signal
+import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
 
 from .record import RecordError
 
@@ -23,5 +23,5 @@ def highpass_with_ends(acceleration, dt, corner, order):
         raise RecordError(f"high-pass corner {corner:g} Hz; it must lie between 0 and {0.5 / dt:g} Hz")
     pad = math.ceil(1.5 / (corner * dt))
     padded = np.pad(acceleration, ((pad, pad), (0, 0)))
-    sos = signal.butter(order, corner, "highpass", fs=1.0 / dt, output="sos")
-    return signal.sosfiltfilt(sos, padded, axis=0, padtype=None), pad
+    sos = scipy.signal.butter(order, corner, "highpass", fs=1.0 / dt, output="sos")
+    return scipy.signal.sosfiltfilt(sos, padded, axis=0, padtype=None), pad

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import integrate, signal
+import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
 
 from .filters import highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError
@@ -78,7 +78,7 @@ def _integral(motion, corner, times):
     if corner is not None:
         values, pad = highpass_with_ends(values, motion.dt, corner, 2)
     for _ in range(times):
-        values = integrate.cumulative_trapezoid(values, dx=motion.dt, axis=0, initial=0.0)
+        values = scipy.integrate.cumulative_trapezoid(values, dx=motion.dt, axis=0, initial=0.0)
     return values[pad : len(values) - pad]
 
 
@@ -179,7 +179,7 @@ def oscillator(acceleration, dt, period, damping=0.05):
     early = (growth - 1.0) / s - late
     forcing = np.zeros(acceleration.shape, dtype=complex)
     forcing[1:] = -(early * acceleration[:-1] + late * acceleration[1:])
-    y = signal.lfilter([1.0], [1.0, -growth], forcing, axis=0)
+    y = scipy.signal.lfilter([1.0], [1.0, -growth], forcing, axis=0)
     displacement_, velocity_ = y.imag / s.imag, (s * y).imag / s.imag
     return displacement_, -(2.0 * damping * omega * velocity_ + omega**2 * displacement_)
 
@@ -234,4 +234,4 @@ def onset(motion, share=0.05):
 
 def _energy(motion):
     """Running integral of the squared acceleration. (n, 3) [m2/s3]"""
-    return integrate.cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)
+    return scipy.integrate.cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)

