@@ -15,7 +15,7 @@ import numpy as np
 from scipy import optimize, stats
 from study_common import BLUE, GREEN, ORANGE, numbers, parser, run_all, save, write_table
 
-SCALES = {"A": [0.3, 0.45, 0.6, 0.8, 1.0], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
+SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
 """Factors on the motion that show each house's curve; others by --scales."""
 CONFIDENCE = 0.95
 SPREAD = (0.05, 1.0)
