@@ -25,7 +25,7 @@ def broken():
 
 @pytest.mark.parametrize("house, snow", [("storehouse", 0.0), ("storehouse", 1.0), ("l_house", 0.0)])
 def test_the_examples_stand_still(house, snow):
-    """A longer stand of 3 s: largest drift 6e-5 (storehouse), 1e-4 (l_house)."""
+    """A stand of 3 s: largest drift 2e-8 (storehouse), 5e-5 (l_house)."""
     monitor = stand(house, 0.4, snow)
     assert len(monitor.rows) > 30 * len(monitor.columns())
     assert max(monitor.peak) < 1e-3 and broken() == 0
