@@ -8,7 +8,7 @@ from yade.minieigenHP import Vector3
 
 from . import elements, palette, scene
 from .frames import steps_between
-from .house import build_house, load_house
+from .house import HouseError, build_house, load_house
 from .house.friction import own_coefficient
 
 O = yw.Omega()
@@ -18,6 +18,8 @@ DEFAULT_DT = 2e-4
 MAX_DT = 4e-4
 """Largest time step that a house scenario takes [s]: at 4e-4 house C2 under snow and strong shaking keeps its energy balance to 0.2 %,
 at 5e-4 its contacts create energy. `stable_dt(1)`, which counts no dashpots, is 1.8e-4."""
+JOINT_SAFETY = 0.9
+"""Largest time step over the joints' stability limit. [-]"""
 
 
 @dataclass
@@ -59,7 +61,15 @@ def build(scenario):
     options = {**law_options(model.law), "skip_rest": steps_between(scenario.dt), **scenario.options}
     O.engines = scene.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
     O.dt = scenario.dt
+    check_step(model)
     return model
+
+
+def check_step(model):
+    """Raise HouseError when the joints, which have no dashpots, are too stiff for the time step: those of light members are."""
+    limit = scene.stable_dt(JOINT_SAFETY)
+    if O.dt > limit:
+        raise HouseError(f"{model.name}: a time step of {O.dt:g} s is too large for the joints between the lightest members: take at most {limit:.2g} s (--dt), or less stiff joints")
 
 
 def law_options(law):
