@@ -12,9 +12,9 @@ STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
 ROOF = "type: gable, ridge: y, pitch: 0.45, eaves: 0.30, thickness: 0.20, material: tiles"
 
 
-def stand(house, seconds, snow=0.0):
+def stand(house, seconds, snow=0.0, dt=2e-4):
     """Build a house in YADE and let it stand under its weight; returns its monitor."""
-    scenario.build(scenario.Scenario("stand", str(house), snow_depth=snow, dt=2e-4))
+    scenario.build(scenario.Scenario("stand", str(house), snow_depth=snow, dt=dt))
     O.run(round(seconds / O.dt), True)
     return scene.find_engine(yt.HouseMonitor)
 
@@ -64,7 +64,7 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
 """ + STOREHOUSE[end:]
     path = tmp_path / "small.yaml"
     path.write_text(text)
-    monitor = stand(path, 0.4, snow=1.0)
+    monitor = stand(path, 0.3, snow=1.0, dt=5e-5)  # light members with nailed roofs: 2e-4 is refused by the health check
     assert max(monitor.peak) < 2e-3 and broken() == 0
 
 
