@@ -65,7 +65,7 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
 """ + STOREHOUSE[end:]
     path = tmp_path / "small.yaml"
     path.write_text(text)
-    monitor = stand(path, 0.4, snow=1.0, dt=5e-5)
+    monitor = stand(path, 0.3, snow=1.0, dt=5e-5)
     assert max(monitor.peak) < 2e-3 and broken() == 0
     if last == 1:
         with pytest.raises(HouseError, match="a time step of 0.0002 s is too large for the joints between the lightest members: take at most"):
