@@ -52,11 +52,14 @@ def test_velocity_and_displacement_of_a_smooth_pulse():
 
 
 def test_motion_cut_within_its_shaking_does_not_drift():
-    """What is left moves at its first sample; the high-pass takes that away before it, too (without: 5 times the displacement). Left at the end: 3 %."""
-    whole = gm.default_motion()
-    cut = gm.trim(whole, 18.5)
-    assert gm.pgd(cut, "h", 0.1) == pytest.approx(gm.pgd(whole, "h", 0.1), rel=0.1)
-    assert np.abs(gm.displacement(cut, 0.1)[-1]).max() < 0.05 * gm.pgd(whole, "h", 0.1) / 100
+    """A burst that is cut while it moves: the rest has a velocity at its first sample, which the high-pass takes away before that sample, too.
+
+    The last 20 s are at rest to 2.2 mm, as observed; integrated from the first sample instead, the displacement runs away by 1.8 m.
+    """
+    t = np.arange(6000) * 0.01 - 10.0
+    burst = one_component(np.exp(-((t / 2.0) ** 2)) * np.cos(2 * np.pi * 1.0 * t + 0.5), 0.01)
+    cut = gm.trim(burst, 10.0)
+    assert np.abs(gm.displacement(cut, 0.1)[-2000:]).max() < 5e-3
 
 
 def test_highpass_of_velocity_takes_an_offset_away():
