@@ -22,7 +22,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 ROOT = Path(sys.argv[0]).resolve().parent.parent  # YADE runs a script without setting __file__
-sys.path.insert(0, str(ROOT / "tests" / "physics"))
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "physics")]
 
 from cases import all_cases  # noqa: E402
 from rows import Row  # noqa: E402

@@ -5,11 +5,6 @@
 namespace timber {
 namespace {
 
-	/// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; they are judged by distance alone.
-	constexpr double steadySine = 0.2;
-	/// Least region, in skins: keeps the turn that is allowed small (0.04), so that crossings shift to first order.
-	constexpr double leastRegion = 25;
-
 	/// Feature pairs that can touch before the cache no longer holds. Its centre, region and margin are given.
 	class Search {
 	public:

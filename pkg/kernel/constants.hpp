@@ -33,6 +33,14 @@ constexpr double parallelSine = 5e-3;
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
 constexpr double candidateSkin = 4e-3;
 
+/// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; as candidates they are judged by distance alone. [-]
+/// Larger: more candidates; smaller: crossings shift by more than the first order that the search allows for. Results do not depend on it.
+constexpr double steadySine = 0.2;
+
+/// Least size of the place at which a pair's motion is judged, in skins: it keeps the turn that is allowed small (0.04 rad). [-]
+/// Larger: searches after smaller turns. Results do not depend on it.
+constexpr double leastRegion = 25;
+
 /// Overlapping cores: points whose normal makes a larger angle with the axis of least overlap do not count. [-]
 /// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.
 constexpr double outwardCosine = 0.5;

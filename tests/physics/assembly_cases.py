@@ -8,9 +8,10 @@ import yade.wrapper as yw
 import yade_timber as yt
 from cases import G
 from planar_frame import Frame, LinearFrame, Part, Tie, Timber, rectangle
-from planar_scene import advance, append_parts, build_frame, places, recorded, start_in_mode, undamp
+from planar_scene import advance, append_parts, build_frame, places, recorded, start_in_mode
 from rows import Registry, Row
 from scipy.optimize import brentq
+from undamped import undamp
 from yade.minieigenHP import Vector3
 from yade_timber import scenario, scene
 

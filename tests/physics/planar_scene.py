@@ -55,17 +55,6 @@ def places():
     return np.array([b.state.pos for b in O.bodies])
 
 
-def undamp():
-    """Switch all dashpots off."""
-    for engine in O.engines:
-        if isinstance(engine, yw.InteractionLoop):
-            for functor in engine.physDispatcher.functors:
-                functor.dampingRatio = 0
-    for interaction in O.interactions:
-        if interaction.phys is not None:
-            interaction.phys.dampingRatio = 0
-
-
 def start_in_mode(frame, bodies, shape):
     """Give the free parts the velocities of a mode shape: (x, z, angle) for each, [m/s], [rad/s]."""
     for k, (x, z, angle) in zip(bodies, shape.reshape(-1, 3)):

@@ -3,6 +3,7 @@
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
+from undamped import undamp
 from yade_timber import scenario, scene
 
 O = yw.Omega()
@@ -55,17 +56,6 @@ def settled(build):
     for _ in range(SETTLING):
         O.step()
     return yt.stable_dt(1.0)
-
-
-def undamp():
-    """Switch the dashpots of all contacts off, present and future."""
-    for engine in O.engines:
-        if isinstance(engine, yw.InteractionLoop):
-            for functor in engine.physDispatcher.functors:
-                functor.dampingRatio = 0
-    for interaction in O.interactions:
-        if interaction.phys is not None:
-            interaction.phys.dampingRatio = 0
 
 
 def disturb(seed=0):
