@@ -15,7 +15,6 @@ class TimberPair {
 	std::vector<ContactPoint> points;
 	std::vector<PointState> states;
 	std::vector<DashpotBody> bodies;
-	std::vector<DashpotPoint> dashpots;
 	DashpotSolver solver;
 	HertzLaw law { 0, 0.1 }; ///< such that the points carry the body
 	PairProperties properties;
@@ -32,10 +31,13 @@ class TimberPair {
 	}
 	void damped()
 	{
-		dashpots.resize(points.size());
+		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
+		bodies[1].newSpin = bodies[1].spin;
+		solver.clear();
+		solver.addPair(0, 1, points.size());
 		for (size_t k = 0; k < points.size(); ++k) {
-			const PointState& s = states[k];
-			DashpotPoint& p = dashpots[k];
+			PointState& s = states[k];
+			DashpotPoint p;
 			p.bodyA = 0;
 			p.bodyB = 1;
 			p.armA = points[k].position - poseA.position;
@@ -47,13 +49,14 @@ class TimberPair {
 			p.shearDamping = p.normalDamping * std::sqrt(properties.shearRatio);
 			p.friction = properties.friction;
 			p.impulse = h * (s.normal * p.normal + s.shear + s.dashpot);
+			p.response = s.response;
+			solver.set(k, bodies, p, h, false);
+			s.response = p.response;
 		}
-		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
-		bodies[1].newSpin = bodies[1].spin;
-		passes += solver.solve(bodies, dashpots, h, 50, 1e-3);
+		passes += solver.solve(bodies, 50, 1e-3);
 		++steps;
 		for (size_t k = 0; k < points.size(); ++k)
-			states[k].dashpot = dashpots[k].impulse / h - states[k].normal * points[k].normal - states[k].shear;
+			states[k].dashpot = solver.row(k).impulse / h - states[k].normal * points[k].normal - states[k].shear;
 	}
 
 public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactForces.hpp>
+#include <threads.hpp>
 
 namespace yade {
 
@@ -42,93 +43,141 @@ void ContactForces::collectPairs()
 	}
 }
 
+void ContactForces::collectBody(Body::id_t id)
+{
+	const shared_ptr<Body>& b = (*scene->bodies)[id];
+	if (!b) return;
+	const State&         s   = *b->state;
+	timber::DashpotBody& own = bodies[id];
+	own.velocity = own.newVelocity = s.vel;
+	own.spin = own.newSpin = s.angVel;
+	own.inverseMass        = 0;
+	own.inverseInertia.setZero();
+	if (s.blockedDOFs == State::DOF_ALL) return;
+	const Matrix3r axes = s.ori.toRotationMatrix();
+	own.inverseMass     = 1 / s.mass;
+	own.inverseInertia  = axes * s.inertia.cwiseInverse().asDiagonal() * axes.transpose();
+	own.newVelocity += scene->dt * own.inverseMass * scene->forces.getForce(id);
+	own.newSpin += scene->dt * own.inverseInertia * scene->forces.getTorque(id);
+}
+
 void ContactForces::collectBodies()
 {
-	const size_t count = scene->bodies->size();
+	const int count = int(scene->bodies->size());
 	bodies.resize(count);
 	force.assign(count, Vector3r::Zero());
 	torque.assign(count, Vector3r::Zero());
 	scene->forces.sync();
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b) continue;
-		const State&         s   = *b->state;
-		timber::DashpotBody& own = bodies[b->getId()];
-		own.velocity = own.newVelocity = s.vel;
-		own.spin = own.newSpin = s.angVel;
-		own.inverseMass        = 0;
-		own.inverseInertia.setZero();
-		if (s.blockedDOFs == State::DOF_ALL) continue;
-		const Matrix3r axes = s.ori.toRotationMatrix();
-		own.inverseMass     = 1 / s.mass;
-		own.inverseInertia  = axes * s.inertia.cwiseInverse().asDiagonal() * axes.transpose();
-		own.newVelocity += scene->dt * own.inverseMass * scene->forces.getForce(b->getId());
-		own.newSpin += scene->dt * own.inverseInertia * scene->forces.getTorque(b->getId());
+#pragma omp parallel for schedule(static) if (count > smallLoop)
+	for (int id = 0; id < count; ++id)
+		collectBody(id);
+}
+
+void ContactForces::collectPoints(size_t k)
+{
+	const Pair&    pair = pairs[k];
+	const int      id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
+	const Vector3r x1 = Body::byId(id1, scene)->state->pos, x2 = Body::byId(id2, scene)->state->pos;
+	const Real     rootShear = math::sqrt(pair.phys->shearRatio);
+	const bool     refresh   = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
+	size_t         row       = solver.pair(k).first;
+	for (size_t i = 0; i < pair.phys->states.size(); ++i, ++row) {
+		const timber::ContactPoint& at = pair.geom->contactPoints[i];
+		timber::PointState&         s  = pair.phys->states[i];
+		timber::DashpotPoint        p;
+		p.bodyA         = id1;
+		p.bodyB         = id2;
+		p.armA          = at.position - x1;
+		p.armB          = at.position - x2;
+		p.normal        = at.normal;
+		p.elasticNormal = s.normal;
+		p.elasticShear  = s.shear;
+		p.normalDamping = 2 * pair.phys->dampingRatio * math::sqrt(pair.phys->mass * s.stiffness);
+		p.shearDamping  = p.normalDamping * rootShear;
+		p.friction      = pair.phys->friction;
+		p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
+		p.response      = refresh ? timber::PointResponse() : s.response;
+		solver.set(row, bodies, p, scene->dt, sweeps == 0);
+		s.response = p.response;
 	}
 }
 
 void ContactForces::collectPoints()
 {
-	size_t count = 0;
-	for (const Pair& pair : pairs) {
-		const int      id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
-		const Vector3r x1 = Body::byId(id1, scene)->state->pos, x2 = Body::byId(id2, scene)->state->pos;
-		const Real     rootShear = math::sqrt(pair.phys->shearRatio);
-		const bool     refresh   = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-		if (points.size() < count + pair.phys->states.size()) points.resize(count + pair.phys->states.size());
-		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
-			const timber::ContactPoint& at = pair.geom->contactPoints[k];
-			const timber::PointState&   s  = pair.phys->states[k];
-			timber::DashpotPoint&       p  = points[count++];
-			p.bodyA         = id1;
-			p.bodyB         = id2;
-			p.armA          = at.position - x1;
-			p.armB          = at.position - x2;
-			p.normal        = at.normal;
-			p.elasticNormal = s.normal;
-			p.elasticShear  = s.shear;
-			p.normalDamping = 2 * pair.phys->dampingRatio * math::sqrt(pair.phys->mass * s.stiffness);
-			p.shearDamping  = p.normalDamping * rootShear;
-			p.friction      = pair.phys->friction;
-			p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
-			p.response      = refresh ? timber::PointResponse() : s.response;
-		}
-	}
-	points.resize(count);
+	solver.clear();
+	for (const Pair& pair : pairs)
+		solver.addPair(pair.interaction->getId1(), pair.interaction->getId2(), pair.phys->states.size());
+	const int count = int(pairs.size());
+#pragma omp parallel for schedule(static) if (count > smallLoop)
+	for (int k = 0; k < count; ++k)
+		collectPoints(k);
 }
 
-void ContactForces::bookEnergy(const timber::DashpotPoint& p, timber::PointState& s, const ManifoldPhys& phys)
+void ContactForces::bookEnergy(
+        const timber::DashpotSolver::Row& row, const timber::DashpotBody& a, const timber::DashpotBody& b, timber::PointState& s, const ManifoldPhys& phys, Books& own) const
 {
-	const timber::DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-	const Vector3r             mean    = (p.before + timber::relativeVelocity(p, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)) / 2;
-	const Real                 normal  = s.dashpot.dot(p.normal);
-	const Real                 energy  = timber::shearEnergy(s, phys.properties());
-	dashpotNormal -= scene->dt * normal * mean.dot(p.normal);
-	dashpotShear -= scene->dt * (s.dashpot - normal * p.normal).dot(mean);
-	friction -= s.slide.dot(s.shearBefore + s.shear) / 2 + energy - s.shearEnergyBefore;
-	elasticShear += energy;
+	const Vector3r before = timber::relativeVelocity(row, a.velocity, a.spin, b.velocity, b.spin);
+	const Vector3r after  = timber::relativeVelocity(row, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+	const Vector3r mean   = (before + after) / 2;
+	const Real     normal = s.dashpot.dot(row.normal);
+	const Real     energy = timber::shearEnergy(s, phys.properties());
+	own.dashpotNormal -= scene->dt * normal * mean.dot(row.normal);
+	own.dashpotShear -= scene->dt * (s.dashpot - normal * row.normal).dot(mean);
+	own.friction -= s.slide.dot(s.shearBefore + s.shear) / 2 + energy - s.shearEnergyBefore;
+	own.elasticNormal += s.energy;
+	own.elasticShear += energy;
+	own.elasticPower -= (s.normal * row.normal + s.shear).dot(after);
+}
+
+void ContactForces::storePoints(size_t k, Books& own)
+{
+	const Pair&                        pair = pairs[k];
+	const timber::DashpotSolver::Pair& rows = solver.pair(k);
+	const timber::DashpotBody &        a = bodies[rows.bodyA], &b = bodies[rows.bodyB];
+	Vector3r                           sum = Vector3r::Zero(), torqueA = Vector3r::Zero(), torqueB = Vector3r::Zero();
+	for (size_t i = 0; i < rows.count; ++i) {
+		const timber::DashpotSolver::Row& row = solver.row(rows.first + i);
+		timber::PointState&               s   = pair.phys->states[i];
+		const Vector3r                    f   = row.impulse / scene->dt;
+		s.shear   = timber::limitedShear(s.shear, row.friction, f.dot(row.normal));
+		s.dashpot = f - s.normal * row.normal - s.shear;
+		sum += f;
+		torqueA -= row.armA.cross(f);
+		torqueB += row.armB.cross(f);
+		if (trackEnergy) bookEnergy(row, a, b, s, *pair.phys, own);
+	}
+	if (a.inverseMass > 0) { // fixed bodies belong to several islands
+		force[rows.bodyA] -= sum;
+		torque[rows.bodyA] += torqueA;
+	}
+	if (b.inverseMass > 0) {
+		force[rows.bodyB] += sum;
+		torque[rows.bodyB] += torqueB;
+	}
 }
 
 void ContactForces::storePoints()
 {
-	size_t k = 0;
-	for (const Pair& pair : pairs) {
-		for (size_t i = 0; i < pair.phys->states.size(); ++i, ++k) {
-			timber::PointState&         s = pair.phys->states[i];
-			timber::DashpotPoint&       p = points[k];
-			const Vector3r              f = p.impulse / scene->dt;
-			s.shear   = timber::limitedShear(s.shear, p.friction, f.dot(p.normal));
-			s.dashpot = f - s.normal * p.normal - s.shear;
-			s.response     = p.response;
-			p.elasticShear = s.shear;
-			force[p.bodyA] -= f;
-			torque[p.bodyA] -= p.armA.cross(f);
-			force[p.bodyB] += f;
-			torque[p.bodyB] += p.armB.cross(f);
-			if (!trackEnergy) continue;
-			bookEnergy(p, s, *pair.phys);
-			elasticNormal += s.energy;
-		}
+	const int count = int(solver.islandCount());
+	books.assign(count, Books());
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+	for (int island = 0; island < count; ++island)
+		for (const int pair : solver.island(island))
+			storePoints(pair, books[island]);
+}
+
+void ContactForces::sumBooks()
+{
+	elasticNormal = elasticShear = elasticPower = 0;
+	for (const Pair& pair : pairs)
 		lost += pair.phys->lostEnergy;
+	for (const Books& own : books) {
+		dashpotNormal += own.dashpotNormal;
+		dashpotShear += own.dashpotShear;
+		friction += own.friction;
+		elasticNormal += own.elasticNormal;
+		elasticShear += own.elasticShear;
+		elasticPower += own.elasticPower;
 	}
 }
 
@@ -141,25 +190,14 @@ void ContactForces::applyForces()
 	}
 }
 
-Real ContactForces::elasticPower() const
-{
-	Real power = 0;
-	for (const timber::DashpotPoint& p : points) {
-		const shared_ptr<Body>&a = Body::byId(p.bodyA, scene), &b = Body::byId(p.bodyB, scene);
-		if (!a || !b) continue; // taken out since the step
-		power -= (p.elasticNormal * p.normal + p.elasticShear).dot(timber::relativeVelocity(p, a->state->vel, a->state->angVel, b->state->vel, b->state->angVel));
-	}
-	return power;
-}
-
 void ContactForces::action()
 {
-	elasticNormal = elasticShear = 0;
 	collectPairs();
 	collectBodies();
 	collectPoints();
-	sweepsDone += solver.solve(bodies, points, scene->dt, sweeps, tolerance);
+	sweepsDone += solver.solve(bodies, sweeps, tolerance);
 	storePoints();
+	sumBooks();
 	applyForces();
 }
 

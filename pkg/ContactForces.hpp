@@ -19,15 +19,24 @@ class ContactForces : public GlobalEngine {
 	std::vector<shared_ptr<Interaction>> seen; ///< the interactions that `pairs` was sorted for, in the container's order
 	timber::DashpotSolver             solver;
 	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
-	std::vector<timber::DashpotPoint> points; ///< of all pairs, in their order
 	std::vector<Vector3r>             force, torque; ///< contact sums, indexed by body id
+
+	/// Energies of an island in this step.
+	struct Books {
+		Real dashpotNormal = 0, dashpotShear = 0, friction = 0, elasticNormal = 0, elasticShear = 0, elasticPower = 0;
+	};
+	std::vector<Books> books; ///< of each island: summed in their order, whoever did them
 
 	void sortPairs();
 	void collectPairs();
+	void collectBody(Body::id_t);
 	void collectBodies();
+	void collectPoints(size_t pair);
 	void collectPoints();
+	void storePoints(size_t pair, Books&);
 	void storePoints();
-	void bookEnergy(const timber::DashpotPoint&, timber::PointState&, const ManifoldPhys&);
+	void bookEnergy(const timber::DashpotSolver::Row&, const timber::DashpotBody&, const timber::DashpotBody&, timber::PointState&, const ManifoldPhys&, Books&) const;
+	void sumBooks();
 	void applyForces();
 
 public:
@@ -35,8 +44,6 @@ public:
 	/// Largest eigenvalue of M^-1 K of the contacts as they are now and the given springs, by power iteration. [1/s2]
 	/// springs: list of (id1, id2, point in the world frame [m], stiffness [N/m]).
 	Real largestEigenvalue(const boost::python::list& springs);
-	/// Rate at which the contacts' elastic energy grows with the bodies' present velocities. [W]
-	Real elasticPower() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
@@ -51,7 +58,8 @@ public:
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
 		((Real, lost, 0, , "Elastic energy of loaded points that ceased to exist, minus that of points born under load. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
-		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]")),
+		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))
+		((Real, elasticPower, 0, , "Rate at which the springs' energy grows with the velocities at the end of the last step. [W]")),
 		,
 		.def("largestEigenvalue", &ContactForces::largestEigenvalue, (boost::python::arg("springs")), "Largest eigenvalue of M^-1 K of all contacts as they are now, plus springs given as (id1, id2, point, stiffness). [1/s2]")
 	);

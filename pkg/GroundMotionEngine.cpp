@@ -3,7 +3,18 @@
 
 namespace yade {
 
-YADE_PLUGIN((GroundMotionEngine));
+YADE_PLUGIN((UniformGravity)(GroundMotionEngine));
+
+namespace {
+	/// Adds mass times acceleration [m/s2] to every free body.
+	void accelerate(Scene& scene, const Vector3r& acceleration)
+	{
+		for (const shared_ptr<Body>& b : *scene.bodies)
+			if (b && b->state->blockedDOFs != State::DOF_ALL) scene.forces.addForce(b->getId(), b->state->mass * acceleration);
+	}
+}
+
+void UniformGravity::action() { accelerate(*scene, gravity); }
 
 void GroundMotionEngine::postLoad(GroundMotionEngine&)
 {
@@ -38,8 +49,7 @@ void GroundMotionEngine::action()
 	work             = workNow();
 	lastMomentum     = freeMomentum();
 	lastAcceleration = at(scene->time);
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && b->state->blockedDOFs != State::DOF_ALL) scene->forces.addForce(b->getId(), -b->state->mass * lastAcceleration);
+	accelerate(*scene, -lastAcceleration);
 }
 
 } // namespace yade

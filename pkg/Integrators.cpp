@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <Integrators.hpp>
 #include <RoundedPolyhedron.hpp>
+#include <threads.hpp>
 #include <kernel/rotation.hpp>
 
 namespace yade {
@@ -17,22 +18,27 @@ namespace {
 	}
 }
 
-void SymplecticIntegrator::action()
+void SymplecticIntegrator::move(Body& b) const
 {
 	const Real dt = scene->dt;
-	scene->forces.sync();
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b) continue;
-		State& s = *b->state;
-		if (s.blockedDOFs == State::DOF_ALL) {
-			s.pos += dt * s.vel;
-			continue;
-		}
-		s.vel += dt / s.mass * unblocked(scene->forces.getForce(b->getId()), s.blockedDOFs, State::DOF_X);
+	State&     s  = *b.state;
+	if (s.blockedDOFs == State::DOF_ALL) {
 		s.pos += dt * s.vel;
-		s.angMom += dt * unblocked(scene->forces.getTorque(b->getId()), s.blockedDOFs, State::DOF_RX);
-		s.angVel = timber::freeRotation(s.ori, s.angMom, s.inertia, dt);
+		return;
 	}
+	s.vel += dt / s.mass * unblocked(scene->forces.getForce(b.getId()), s.blockedDOFs, State::DOF_X);
+	s.pos += dt * s.vel;
+	s.angMom += dt * unblocked(scene->forces.getTorque(b.getId()), s.blockedDOFs, State::DOF_RX);
+	s.angVel = timber::freeRotation(s.ori, s.angMom, s.inertia, dt);
+}
+
+void SymplecticIntegrator::action()
+{
+	scene->forces.sync();
+	const int count = int(scene->bodies->size());
+#pragma omp parallel for schedule(static) if (count > smallLoop)
+	for (int id = 0; id < count; ++id)
+		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) move(*b);
 }
 
 Real CollisionTrigger::largestMotion() const
@@ -43,7 +49,7 @@ Real CollisionTrigger::largestMotion() const
 		const size_t id     = b->getId();
 		const auto   shape  = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
 		const Real   turned = 2 * (turns[id].conjugate() * b->state->ori).vec().norm();
-		largest             = math::max(largest, (b->state->pos - places[id]).norm() + (shape ? turned * shape->geometry.reach : 0));
+		largest             = math::max(largest, (b->state->pos - places[id]).norm() + (shape ? turned * shape->geometry->reach : 0));
 	}
 	return largest;
 }

@@ -6,6 +6,8 @@
 namespace yade {
 
 class SymplecticIntegrator : public GlobalEngine {
+	void move(Body&) const;
+
 public:
 	void action() override;
 	// clang-format off

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <JointEngine.hpp>
+#include <threads.hpp>
 
 namespace yade {
 
@@ -98,61 +99,84 @@ void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, cons
 	breaks.push_back(entry);
 	const Vector3r end2 = s2.pos + axes[joint.id2] * joint.anchors2[spring];
 	released += f.energy - scene->dt / 2 * force.dot(partingVelocity(s1, s2, end2));
-	elastic -= f.energy;
 	joint.broken[spring] = 1;
 	force                = Vector3r::Zero();
 	stretch              = Vector3r::Zero();
 }
 
-/// All springs of the joint, or those that are overloaded.
-void JointEngine::breakSprings(size_t index, const State& s1, const State& s2)
+JointEngine::Pull JointEngine::stretch(TimberJoint& joint) const
 {
-	const TimberJoint& joint = *joints[index];
-	for (size_t k = 0; k < joint.broken.size(); ++k)
-		if (!joint.broken[k] && (joint.perJoint || joint.forces[k].squaredNorm() > joint.strength * joint.strength)) breakSpring(index, k, s1, s2);
-}
-
-/// Applies the forces of the springs that are left.
-void JointEngine::pull(TimberJoint& joint, const State& s1, const State& s2)
-{
-	Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
-	for (size_t k = 0; k < joint.broken.size(); ++k) {
-		if (joint.broken[k]) continue;
-		const Vector3r& f    = joint.forces[k];
-		const Vector3r  arm2 = axes[joint.id2] * joint.anchors2[k];
-		force += f;
-		torque1 += (s2.pos - s1.pos + arm2).cross(f); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
-		torque2 -= arm2.cross(f);
-	}
-	scene->forces.addForce(joint.id1, force);
-	scene->forces.addTorque(joint.id1, torque1);
-	scene->forces.addForce(joint.id2, -force);
-	scene->forces.addTorque(joint.id2, torque2);
-}
-
-void JointEngine::act(size_t index)
-{
-	TimberJoint& joint = *joints[index];
+	Pull pull;
 	const shared_ptr<Body>&b1 = Body::byId(joint.id1, scene), &b2 = Body::byId(joint.id2, scene);
 	if (!b1 || !b2) { // taken out of the scene, and its joints with it
 		joint.broken.assign(joint.broken.size(), 1);
-		return;
+		return pull;
 	}
-	const State &                s1 = *b1->state, &s2 = *b2->state;
 	const timber::JointStiffness stiffness = joint.stiffness();
-	const Vector3r               normal = axes[joint.id1] * joint.normal, apart = s2.pos - s1.pos;
+	const Vector3r               normal = axes[joint.id1] * joint.normal, apart = b2->state->pos - b1->state->pos;
 	Real                         sum = 0, largest = 0;
 	for (size_t k = 0; k < joint.broken.size(); ++k) {
 		if (joint.broken[k]) continue;
-		joint.stretches[k]         = apart + axes[joint.id2] * joint.anchors2[k] - axes[joint.id1] * joint.anchors1[k];
+		const Vector3r arm2        = axes[joint.id2] * joint.anchors2[k];
+		joint.stretches[k]         = apart + arm2 - axes[joint.id1] * joint.anchors1[k];
 		const timber::SpringForce f = timber::springForce(stiffness, joint.stretches[k], normal);
 		joint.forces[k]            = f.force;
-		elastic += f.energy;
+		pull.energy += f.energy;
+		pull.force += f.force;
+		pull.torque1 += (apart + arm2).cross(f.force); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
+		pull.torque2 -= arm2.cross(f.force);
 		largest = math::max(largest, f.force.squaredNorm());
 		if (joint.perJoint) sum += f.force.norm();
 	}
-	if (joint.perJoint ? sum > joint.strength : largest > joint.strength * joint.strength) breakSprings(index, s1, s2);
-	pull(joint, s1, s2);
+	pull.overloaded = joint.perJoint ? sum > joint.strength : largest > joint.strength * joint.strength;
+	return pull;
+}
+
+/// Breaks what is overloaded; what is left pulls on.
+void JointEngine::breakSprings(size_t index)
+{
+	TimberJoint& joint = *joints[index];
+	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	for (size_t k = 0; k < joint.broken.size(); ++k)
+		if (!joint.broken[k] && (joint.perJoint || joint.forces[k].squaredNorm() > joint.strength * joint.strength)) breakSpring(index, k, s1, s2);
+	pulls[index] = stretch(joint);
+}
+
+void JointEngine::stretchAll()
+{
+	const int count = int(joints.size());
+	pulls.assign(count, Pull());
+#pragma omp parallel for schedule(static) if (count > smallLoop)
+	for (int k = 0; k < count; ++k)
+		if (!joints[k]->isFinished()) pulls[k] = stretch(*joints[k]);
+}
+
+/// Breaks and sums in the order of the joints, so that threads change nothing.
+void JointEngine::sumPulls()
+{
+	elastic = 0;
+	force.assign(axes.size(), Vector3r::Zero());
+	torque.assign(axes.size(), Vector3r::Zero());
+	for (size_t k = 0; k < joints.size(); ++k) {
+		if (pulls[k].overloaded) breakSprings(k);
+		const Pull& pull = pulls[k];
+		if (pull.energy == 0) continue; // finished, or not stretched at all
+		const TimberJoint& joint = *joints[k];
+		elastic += pull.energy;
+		force[joint.id1] += pull.force;
+		torque[joint.id1] += pull.torque1;
+		force[joint.id2] -= pull.force;
+		torque[joint.id2] += pull.torque2;
+	}
+}
+
+void JointEngine::applyForces()
+{
+	for (size_t id = 0; id < force.size(); ++id) {
+		if (force[id].isZero(0) && torque[id].isZero(0)) continue;
+		scene->forces.addForce(id, force[id]);
+		scene->forces.addTorque(id, torque[id]);
+	}
 }
 
 Real JointEngine::elasticPower() const
@@ -168,10 +192,10 @@ Real JointEngine::elasticPower() const
 
 void JointEngine::action()
 {
-	elastic = 0;
 	collectAxes();
-	for (size_t k = 0; k < joints.size(); ++k)
-		if (!joints[k]->isFinished()) act(k);
+	stretchAll();
+	sumPulls();
+	applyForces();
 }
 
 } // namespace yade

@@ -55,13 +55,23 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
+	/// What a joint does in this step, by its springs that are left; forces on body 1, torques about the bodies' centres.
+	struct Pull {
+		Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
+		Real     energy     = 0;
+		bool     overloaded = false;
+	};
 	std::vector<Matrix3r> axes; ///< of the bodies, by id
+	std::vector<Pull>     pulls; ///< of the joints
+	std::vector<Vector3r> force, torque; ///< sums on the bodies, by id
 
 	void collectAxes();
-	void act(size_t joint);
-	void pull(TimberJoint&, const State&, const State&);
-	void breakSprings(size_t joint, const State&, const State&);
+	Pull stretch(TimberJoint&) const;
+	void stretchAll();
+	void breakSprings(size_t joint);
 	void breakSpring(size_t joint, size_t spring, const State&, const State&);
+	void sumPulls();
+	void applyForces();
 
 public:
 	void                action() override;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <RoundedPolyhedron.hpp>
+#include <map>
+#include <mutex>
 
 namespace yade {
 
@@ -14,27 +16,64 @@ namespace {
 	{
 		if (!(value >= 0) || !std::isfinite(value)) throw std::invalid_argument("friction = " + std::to_string(value) + ": it must be finite and >= 0");
 	}
+
+	/// The numbers that make a geometry.
+	std::vector<Real> key(const vector<Vector3r>& vertices, Real radius)
+	{
+		std::vector<Real> numbers { radius };
+		for (const Vector3r& v : vertices)
+			numbers.insert(numbers.end(), v.data(), v.data() + 3);
+		return numbers;
+	}
+
+	/// Geometries by what makes them; those that no element has any more are dropped now and then.
+	class SharedGeometries {
+		using Geometry = const timber::RoundedPolyhedron;
+		std::mutex                                           guard;
+		std::map<std::vector<Real>, boost::weak_ptr<Geometry>> known;
+		size_t                                               crowded = 1000;
+
+		void tidy()
+		{
+			if (known.size() < crowded) return;
+			for (auto k = known.begin(); k != known.end();)
+				k = k->second.expired() ? known.erase(k) : std::next(k);
+			crowded = 2 * known.size() + 1000;
+		}
+
+	public:
+		shared_ptr<Geometry> find(const vector<Vector3r>& vertices, Real radius)
+		{
+			const std::lock_guard<std::mutex> lock(guard);
+			tidy();
+			boost::weak_ptr<Geometry>& place = known[key(vertices, radius)];
+			shared_ptr<Geometry>       found = place.lock();
+			if (!found) place = found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			return found;
+		}
+	};
+	SharedGeometries geometries;
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
 {
 	if (vertices.empty()) return; // default-constructed
 	if (!(radius >= 0)) throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius) + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
-	geometry = timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius);
-	radius   = geometry.radius;
-	volume   = timber::massProperties(geometry.sharp).volume;
+	geometry = geometries.find(vertices, radius);
+	radius   = geometry->radius;
+	volume   = timber::massProperties(geometry->sharp).volume;
 }
 
 boost::python::tuple RoundedPolyhedron::massProperties() const
 {
-	const timber::MassProperties p = timber::massProperties(geometry.sharp);
+	const timber::MassProperties p = timber::massProperties(geometry->sharp);
 	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia), Quaternionr(timber::principalAxes(p.inertia)));
 }
 
 boost::python::list RoundedPolyhedron::faces() const
 {
 	boost::python::list all;
-	for (const timber::Face& face : geometry.sharp.faces) {
+	for (const timber::Face& face : geometry->sharp.faces) {
 		boost::python::list corners;
 		for (const int k : face.corners)
 			corners.append(k);
@@ -45,7 +84,7 @@ boost::python::list RoundedPolyhedron::faces() const
 
 void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
 {
-	const timber::RoundedPolyhedron& body = static_cast<RoundedPolyhedron*>(shape.get())->geometry;
+	const timber::RoundedPolyhedron& body = *static_cast<RoundedPolyhedron*>(shape.get())->geometry;
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
 	const Matrix3r turn = se3.orientation.toRotationMatrix();
 	Vector3r       low  = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;

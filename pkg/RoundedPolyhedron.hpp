@@ -8,7 +8,8 @@ namespace yade {
 
 class RoundedPolyhedron : public Shape {
 public:
-	timber::RoundedPolyhedron geometry; ///< from the attributes, made by postLoad
+	/// From the attributes, made by postLoad. Equal elements share it: what a step reads of a house's shapes stays small.
+	shared_ptr<const timber::RoundedPolyhedron> geometry { new timber::RoundedPolyhedron };
 	Real                      volume = 0; ///< of the sharp polyhedron [m3]
 
 	void postLoad(RoundedPolyhedron&);

@@ -2,6 +2,7 @@
 #include "dashpots.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace timber {
 namespace {
@@ -39,14 +40,6 @@ namespace {
 		gain = 1 / (1 + theta * x);
 	}
 
-	void apply(DashpotBody& a, DashpotBody& b, const Vec3& armA, const Vec3& armB, const Vec3& impulse)
-	{
-		a.newVelocity -= a.inverseMass * impulse;
-		a.newSpin -= a.inverseInertia * armA.cross(impulse);
-		b.newVelocity += b.inverseMass * impulse;
-		b.newSpin += b.inverseInertia * armB.cross(impulse);
-	}
-
 	Vec3 clipped(const Vec3& v, double length)
 	{
 		const double square = v.squaredNorm();
@@ -60,52 +53,125 @@ namespace {
 		return elasticNorm > limit ? Vec3(elastic * (limit / elasticNorm)) : clipped(withDashpot, limit);
 	}
 
-	void explicitImpulse(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
-	{
-		const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-		p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
-		const double vn = p.before.dot(p.normal);
-		const double normal = std::max(0., h * (p.elasticNormal - p.normalDamping * vn));
-		const Vec3 withDashpot = h * (p.elasticShear - p.shearDamping * (p.before - vn * p.normal));
-		p.impulse = normal * p.normal + limitedTangential(h * p.elasticShear, h * p.elasticShear.norm(), withDashpot, p.friction * normal);
-	}
+	/// Velocities of a pair while its points are worked on.
+	struct Motion {
+		Vec3 velocityA, spinA, velocityB, spinB;
+
+		Motion(const DashpotBody& a, const DashpotBody& b)
+		        : velocityA(a.newVelocity)
+		        , spinA(a.newSpin)
+		        , velocityB(b.newVelocity)
+		        , spinB(b.newSpin)
+		{
+		}
+		Vec3 at(const DashpotSolver::Row& row) const { return relativeVelocity(row, velocityA, spinA, velocityB, spinB); }
+		void push(const DashpotBody& a, const DashpotBody& b, const DashpotSolver::Row& row, const Vec3& impulse)
+		{
+			velocityA -= a.inverseMass * impulse;
+			spinA -= a.inverseInertia * row.armA.cross(impulse);
+			velocityB += b.inverseMass * impulse;
+			spinB += b.inverseInertia * row.armB.cross(impulse);
+		}
+		/// Fixed bodies belong to several islands and are never written to.
+		void store(DashpotBody& a, DashpotBody& b) const
+		{
+			if (a.inverseMass > 0) a.newVelocity = velocityA, a.newSpin = spinA;
+			if (b.inverseMass > 0) b.newVelocity = velocityB, b.newSpin = spinB;
+		}
+	};
 
 } // namespace
 
 Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce) { return clipped(elasticShear, friction * normalForce); }
 
-DashpotSolver::Row DashpotSolver::prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
+void DashpotSolver::clear()
+{
+	rows.clear();
+	pairs.clear();
+}
+
+void DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
+{
+	pairs.push_back({ bodyA, bodyB, rows.size(), count, 0 });
+	rows.resize(rows.size() + count);
+}
+
+void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h, bool isExplicit)
 {
 	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-	p.before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
-	const double vn = p.before.dot(p.normal);
-	if (p.response.shear < 0) p.response = responseAt(a, b, p);
-	Row row;
+	const Vec3 before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
+	const double vn = before.dot(p.normal);
+	double normalTheta = 0, shearTheta = 0;
+	Row& row = rows[k];
 	row.armA = p.armA;
 	row.armB = p.armB;
 	row.normal = p.normal;
 	row.impulse = p.impulse;
-	row.normalResponse = p.response.normal;
-	double normalTheta, shearTheta;
-	setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
-	setDashpot(h * p.shearDamping, p.response.shear, shearTheta, row.shearGain);
+	row.friction = p.friction;
+	if (!isExplicit) {
+		if (p.response.shear < 0) p.response = responseAt(a, b, p);
+		row.normalResponse = p.response.normal;
+		setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
+		setDashpot(h * p.shearDamping, p.response.shear, shearTheta, row.shearGain);
+	}
 	row.normalRate = h * p.normalDamping * normalTheta;
 	row.shearRate = h * p.shearDamping * shearTheta;
 	row.elasticShear = h * p.elasticShear;
 	row.elasticShearNorm = row.elasticShear.norm();
 	row.normalTarget = h * p.elasticNormal - h * p.normalDamping * (1 - normalTheta) * vn;
-	row.shearTarget = row.elasticShear - h * p.shearDamping * (1 - shearTheta) * (p.before - vn * p.normal);
-	row.friction = p.friction;
-	return row;
+	row.shearTarget = row.elasticShear - h * p.shearDamping * (1 - shearTheta) * (before - vn * p.normal);
+	if (!isExplicit) return;
+	const double normal = std::max(0., row.normalTarget);
+	row.impulse = normal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
 }
 
-void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Block& block, bool forwards)
+// --- islands ------------------------------------------------------------------------------------------------------------
+
+int DashpotSolver::root(int body)
 {
-	DashpotBody &a = bodies[block.bodyA], &b = bodies[block.bodyB];
-	block.change = 0;
-	for (size_t k = 0; k < block.count; ++k) {
-		Row& row = rows[block.first + (forwards ? k : block.count - 1 - k)];
-		Vec3 v = b.newVelocity + b.newSpin.cross(row.armB) - a.newVelocity - a.newSpin.cross(row.armA);
+	while (parent[body] != body)
+		body = parent[body] = parent[parent[body]];
+	return body;
+}
+
+/// The body that tells which island a pair belongs to.
+int DashpotSolver::islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair) { return root(bodies[pair.bodyA].inverseMass > 0 ? pair.bodyA : pair.bodyB); }
+
+/// Islands in the order of their first pairs. Fixed bodies join nothing.
+void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
+{
+	parent.resize(bodies.size());
+	std::iota(parent.begin(), parent.end(), 0);
+	for (const Pair& p : pairs)
+		if (p.count > 0 && bodies[p.bodyA].inverseMass > 0 && bodies[p.bodyB].inverseMass > 0) parent[root(p.bodyB)] = root(p.bodyA);
+	islandOf.assign(bodies.size(), -1);
+	islandStarts.assign(1, 0);
+	for (const Pair& p : pairs) {
+		if (p.count == 0) continue;
+		int& island = islandOf[islandBody(bodies, p)];
+		if (island < 0) {
+			island = int(islandStarts.size()) - 1;
+			islandStarts.push_back(0);
+		}
+		++islandStarts[island + 1];
+	}
+	std::partial_sum(islandStarts.begin(), islandStarts.end(), islandStarts.begin());
+	order.resize(islandStarts.back());
+	std::vector<size_t> next = islandStarts;
+	for (size_t k = 0; k < pairs.size(); ++k)
+		if (pairs[k].count > 0) order[next[islandOf[islandBody(bodies, pairs[k])]]++] = int(k);
+}
+
+// --- sweeps -------------------------------------------------------------------------------------------------------------
+
+void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards)
+{
+	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
+	Motion motion(a, b);
+	pair.change = 0;
+	for (size_t k = 0; k < pair.count; ++k) {
+		Row& row = rows[pair.first + (forwards ? k : pair.count - 1 - k)];
+		Vec3 v = motion.at(row);
 		const double normal = row.impulse.dot(row.normal);
 		const double normalError = normal - row.normalTarget + row.normalRate * v.dot(row.normal);
 		const double newNormal = std::max(0., normal - row.normalGain * normalError);
@@ -115,87 +181,105 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Block& block, bool f
 		const Vec3 shearError = tangential - row.shearTarget + row.shearRate * (v - v.dot(row.normal) * row.normal);
 		const Vec3 impulse = newNormal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, row.friction * newNormal);
 		const Vec3 change = impulse - row.impulse;
-		apply(a, b, row.armA, row.armB, change);
+		motion.push(a, b, row, change);
 		row.impulse = impulse;
-		block.change += change.squaredNorm();
+		pair.change += change.squaredNorm();
 	}
-}
-
-void DashpotSolver::collectBlocks(const std::vector<DashpotPoint>& points)
-{
-	blocks.clear();
-	for (size_t k = 0; k < points.size(); ++k) {
-		const DashpotPoint& p = points[k];
-		if (blocks.empty() || blocks.back().bodyA != p.bodyA || blocks.back().bodyB != p.bodyB) blocks.push_back({ p.bodyA, p.bodyB, k, 0, 0 });
-		++blocks.back().count;
-	}
+	motion.store(a, b);
 }
 
 /// Squared change of a point's impulse that counts as none. [N2 s2]
-double DashpotSolver::threshold(double tolerance) const
+double DashpotSolver::threshold(Island island, double tolerance) const
 {
 	double size = 0;
-	for (const Row& row : rows)
-		size += row.impulse.squaredNorm();
-	return tolerance * tolerance * size / double(rows.size());
+	size_t count = 0;
+	for (const int k : island) {
+		for (size_t row = pairs[k].first; row < pairs[k].first + pairs[k].count; ++row)
+			size += rows[row].impulse.squaredNorm();
+		count += pairs[k].count;
+	}
+	return tolerance * tolerance * size / double(count);
 }
 
 /// Has the neighbours of a pair looked at in this sweep (if their turn is still to come) and in the next one, if the pair
 /// has changed by more than `allowed` per point.
-bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Block& block, double allowed, int sweep)
+bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep)
 {
-	if (block.change <= allowed * double(block.count)) return false;
-	for (const int body : { block.bodyA, block.bodyB })
+	if (pair.change <= allowed * double(pair.count)) return false;
+	for (const int body : { pair.bodyA, pair.bodyB })
 		if (bodies[body].inverseMass > 0) awake[body] = sweep + 1;
 	return true;
 }
 
 /// Returns whether another sweep is needed.
-bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, double allowed, int sweep)
+bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep)
 {
 	const bool forwards = sweep % 2 == 0;
+	const size_t count = size_t(island.last - island.first);
 	bool changed = false;
-	for (size_t k = 0; k < blocks.size(); ++k) {
-		Block& block = blocks[forwards ? k : blocks.size() - 1 - k];
-		if (awake[block.bodyA] < sweep && awake[block.bodyB] < sweep) continue;
-		relax(bodies, block, forwards);
-		changed = wake(bodies, block, allowed, sweep) || changed;
+	for (size_t k = 0; k < count; ++k) {
+		Pair& pair = pairs[island.first[forwards ? k : count - 1 - k]];
+		if (awake[pair.bodyA] < sweep && awake[pair.bodyB] < sweep) continue;
+		relax(bodies, pair, forwards);
+		changed = wake(bodies, pair, allowed, sweep) || changed;
 	}
 	return changed;
 }
 
 /// Returns the number of sweeps.
-int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, int sweeps, double tolerance)
+int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance)
 {
-	awake.assign(bodies.size(), 0);
-	for (Block& block : blocks)
-		relax(bodies, block, true);
-	const double allowed = threshold(tolerance);
+	for (const int k : island)
+		relax(bodies, pairs[k], true);
+	const double allowed = threshold(island, tolerance);
 	bool changed = false;
-	for (const Block& block : blocks)
-		changed = wake(bodies, block, allowed, 0) || changed;
+	for (const int k : island)
+		changed = wake(bodies, pairs[k], allowed, 0) || changed;
 	int done = 1;
 	while (changed && done < sweeps)
-		changed = sweepOn(bodies, allowed, done++);
+		changed = sweepOn(bodies, island, allowed, done++);
 	return done;
 }
 
-int DashpotSolver::solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance)
+int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance)
 {
-	if (points.empty()) return 0;
-	if (sweeps == 0)
-		for (DashpotPoint& p : points)
-			explicitImpulse(bodies, p, h);
-	for (const DashpotPoint& p : points)
-		apply(bodies[p.bodyA], bodies[p.bodyB], p.armA, p.armB, p.impulse);
-	if (sweeps == 0) return 0;
-	rows.resize(points.size());
+	for (const int k : island) {
+		const Pair& pair = pairs[k];
+		DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
+		Motion motion(a, b);
+		for (size_t row = pair.first; row < pair.first + pair.count; ++row)
+			motion.push(a, b, rows[row], rows[row].impulse);
+		motion.store(a, b);
+	}
+	return sweeps == 0 ? 0 : sweepAll(bodies, island, sweeps, tolerance);
+}
+
+int DashpotSolver::solve(std::vector<DashpotBody>& bodies, int sweeps, double tolerance)
+{
+	findIslands(bodies);
+	awake.assign(bodies.size(), 0);
+	int done = 0;
+	const int count = int(islandCount());
+#pragma omp parallel for schedule(dynamic) reduction(max : done) if (count > 1)
+	for (int k = 0; k < count; ++k)
+		done = std::max(done, solveIsland(bodies, island(k), sweeps, tolerance));
+	return done;
+}
+
+int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance)
+{
+	const auto meets = [](const DashpotPoint& p) { return [&p](const DashpotPoint& q) { return p.bodyA == q.bodyA && p.bodyB == q.bodyB; }; };
+	DashpotSolver solver;
+	for (auto p = points.begin(); p != points.end();) {
+		const auto end = std::find_if_not(p, points.end(), meets(*p));
+		solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
+		p = end;
+	}
 	for (size_t k = 0; k < points.size(); ++k)
-		rows[k] = prepare(bodies, points[k], h);
-	collectBlocks(points);
-	const int done = sweepAll(bodies, sweeps, tolerance);
+		solver.set(k, bodies, points[k], h, sweeps == 0);
+	const int done = solver.solve(bodies, sweeps, tolerance);
 	for (size_t k = 0; k < points.size(); ++k)
-		points[k].impulse = rows[k].impulse;
+		points[k].impulse = solver.row(k).impulse;
 	return done;
 }
 

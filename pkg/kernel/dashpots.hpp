@@ -8,6 +8,8 @@
 /// which is second order for slow dashpots (theta -> 1/2) and strongly damped for fast ones (theta -> 1; the exact decay
 /// exp(-x) gives this theta to 1 %). The coupled equations are solved by projected Gauss-Seidel sweeps over the points,
 /// started from the last step's dashpots, until they change little. No sweeps: explicit dashpots, as the paper has them.
+/// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
+/// not influence each other, not even by rounding, and threads may share the work.
 #pragma once
 #include "types.hpp"
 #include <cstddef>
@@ -39,32 +41,18 @@ struct DashpotPoint {
 	double friction; ///< [-]
 	Vec3 impulse; ///< in: guess; out: total contact impulse on B [N s]
 	PointResponse response; ///< in-out: found when not known
-	Vec3 before; ///< out: relative velocity before the step [m/s]
 };
-
-/// Relative velocity of B against A at the point. [m/s]
-inline Vec3 relativeVelocity(const DashpotPoint& p, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
-{
-	return vB + wB.cross(p.armB) - vA - wA.cross(p.armA);
-}
 
 /// e_s after sliding: at most friction times the normal force. [N]
 Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce);
 
-/// Finds the impulses of all points of a step. Keeps its working memory between calls, and nothing else.
+/// Finds the impulses of all points of a step: clear(), addPair() for each pair, set() for each of their points, solve().
 class DashpotSolver {
 public:
-	/// h: length of the step [s]; sweeps: most passes over the points, alternating in direction. After the first, a pass looks
-	/// only at pairs of which a body has just been changed; a pair whose impulses change by less than `tolerance` of the points'
-	/// root mean square [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light
-	/// members in an impact they are far from the solution, and what is left of the start would create energy.
-	/// Points of a pair stand next to each other. Returns the number of passes.
-	int solve(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0);
-
-private:
 	/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
 	struct Row {
-		Vec3 armA, armB, normal, impulse;
+		Vec3 armA, armB, normal;
+		Vec3 impulse; ///< total contact impulse on B [N s]
 		Vec3 normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
 		double normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
 		double shearRate, shearGain;
@@ -73,26 +61,63 @@ private:
 		Vec3 elasticShear; ///< h e_s
 		double elasticShearNorm, friction;
 	};
-	/// Neighbouring points of the same two bodies.
-	struct Block {
+	/// Two bodies and their rows.
+	struct Pair {
 		int bodyA, bodyB;
 		size_t first, count;
-		double change; ///< squared change of its impulses in the last sweep [N2 s2]
+		double change; ///< squared change of the impulses in the last sweep [N2 s2]
 	};
-	std::vector<Row> rows;
-	std::vector<Block> blocks;
-	std::vector<int> awake; ///< last sweep for which a body's velocity may have changed enough to look again
+	/// Indices of the pairs of an island, ascending.
+	struct Island {
+		const int *first, *last;
+		const int* begin() const { return first; }
+		const int* end() const { return last; }
+	};
 
-	void collectBlocks(const std::vector<DashpotPoint>& points);
-	double threshold(double tolerance) const;
-	bool wake(const std::vector<DashpotBody>& bodies, const Block& block, double allowed, int sweep);
-	bool sweepOn(std::vector<DashpotBody>& bodies, double allowed, int sweep);
-	int sweepAll(std::vector<DashpotBody>& bodies, int sweeps, double tolerance);
-	void relax(std::vector<DashpotBody>& bodies, Block& block, bool forwards);
-	static Row prepare(const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h);
+	void clear();
+	/// Makes room for the points of two bodies.
+	void addPair(int bodyA, int bodyB, size_t count);
+	/// Row k from a point of a step of length h [s]. May be called by several threads, each with rows of its own.
+	void set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& point, double h, bool isExplicit);
+	/// Impulses of all rows, and the bodies' velocities with them. sweeps: most passes over the points, alternating in
+	/// direction; 0 for explicit rows. After the first, a pass looks only at pairs of which a body has just been changed; a pair
+	/// whose impulses change by less than `tolerance` of the root mean square of the island's points [-] changes nobody. Few
+	/// fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
+	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
+	int solve(std::vector<DashpotBody>& bodies, int sweeps, double tolerance = 0);
+
+	const Pair& pair(size_t k) const { return pairs[k]; }
+	const Row& row(size_t k) const { return rows[k]; }
+	size_t rowCount() const { return rows.size(); }
+	size_t islandCount() const { return islandStarts.empty() ? 0 : islandStarts.size() - 1; }
+	Island island(size_t k) const { return { order.data() + islandStarts[k], order.data() + islandStarts[k + 1] }; }
+
+private:
+	std::vector<Row> rows;
+	std::vector<Pair> pairs;
+	std::vector<int> order; ///< pairs by island
+	std::vector<size_t> islandStarts; ///< in `order`, and its end
+	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
+	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
+
+	int root(int body);
+	int islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair);
+	void findIslands(const std::vector<DashpotBody>& bodies);
+	double threshold(Island island, double tolerance) const;
+	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
+	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
+	int sweepAll(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance);
+	int solveIsland(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance);
+	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };
 
-/// One step without memory kept.
-inline void solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps) { DashpotSolver().solve(bodies, points, h, sweeps); }
+/// Relative velocity of B against A at the point. [m/s]
+template <class Point> Vec3 relativeVelocity(const Point& p, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+{
+	return vB + wB.cross(p.armB) - vA - wA.cross(p.armA);
+}
+
+/// One step of points whose pairs stand next to each other; no memory kept.
+int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0);
 
 } // namespace timber

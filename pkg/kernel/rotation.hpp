@@ -16,17 +16,20 @@ inline std::pair<double, double> sineCosine(double x)
 }
 
 /// Turns the orientation about its own principal axis by `angle` [rad].
-inline void turnAbout(Quat& orientation, Vec3& bodyMomentum, int axis, double angle)
+template <int axis> void turnAbout(Quat& orientation, Vec3& bodyMomentum, double angle)
 {
+	constexpr int j = (axis + 1) % 3, k = (axis + 2) % 3;
 	const auto [halfS, halfC] = sineCosine(angle / 2);
 	const double c = halfC * halfC - halfS * halfS, s = 2 * halfS * halfC;
-	const int j = (axis + 1) % 3, k = (axis + 2) % 3;
 	const double mj = bodyMomentum[j], mk = bodyMomentum[k];
 	bodyMomentum[j] = c * mj + s * mk;
 	bodyMomentum[k] = c * mk - s * mj;
-	Quat turn(halfC, 0, 0, 0);
-	turn.vec()[axis] = halfS;
-	orientation = orientation * turn;
+	auto& q = orientation.coeffs(); // x, y, z, w; from the right by (halfC, halfS along the axis)
+	const double qw = q[3], qi = q[axis], qj = q[j], qk = q[k];
+	q[3] = qw * halfC - qi * halfS;
+	q[axis] = qi * halfC + qw * halfS;
+	q[j] = qj * halfC + qk * halfS;
+	q[k] = qk * halfC - qj * halfS;
 }
 
 /// One step of free rotation, the symmetric composition R1(h/2) R2(h/2) R3(h) R2(h/2) R1(h/2) of exact rotations
@@ -36,12 +39,11 @@ inline void turnAbout(Quat& orientation, Vec3& bodyMomentum, int axis, double an
 inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& inertia, double h)
 {
 	Vec3 body = orientation.conjugate() * momentum;
-	const auto turn = [&](int axis, double time) { turnAbout(orientation, body, axis, time * body[axis] / inertia[axis]); };
-	turn(0, h / 2);
-	turn(1, h / 2);
-	turn(2, h);
-	turn(1, h / 2);
-	turn(0, h / 2);
+	turnAbout<0>(orientation, body, h / 2 * body[0] / inertia[0]);
+	turnAbout<1>(orientation, body, h / 2 * body[1] / inertia[1]);
+	turnAbout<2>(orientation, body, h * body[2] / inertia[2]);
+	turnAbout<1>(orientation, body, h / 2 * body[1] / inertia[1]);
+	turnAbout<0>(orientation, body, h / 2 * body[0] / inertia[0]);
 	orientation.normalize();
 	return orientation * (orientation.conjugate() * momentum).cwiseQuotient(inertia).eval();
 }

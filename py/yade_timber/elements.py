@@ -23,6 +23,12 @@ def snow(density=90.0, stiffness_per_kg=3.948e4, friction=0.5, label=""):
     return yw.SnowMat(density=density, stiffnessPerMass=stiffness_per_kg, friction=friction, label=label)
 
 
+def rounded(corners):
+    """Corners to 14 digits of their extent: equal elements in different places get equal numbers and share their geometry. [m]"""
+    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 13)
+    return np.round(corners / digit) * digit
+
+
 def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind="", color=None):
     """Body of any convex shape; append it to `O.bodies`.
 
@@ -44,7 +50,8 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius or 0)
     volume, centroid, inertia, axes = raw.massProperties()
     axes = Quaternion(axes)
-    local = [axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices]
+    corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
+    local = [Vector3(*v) for v in rounded(corners)]
     turned = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()

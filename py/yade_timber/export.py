@@ -23,14 +23,13 @@ def export_scene(path):
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
             raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
-    gravity = scene.find_engine(yw.GravityEngine)
     engine = scene.find_engine(yw.JointEngine)
     known = {}
     elements = [describe_element(body, known) for body in O.bodies]
     content = {
         "format": "yade-timber scene 1",
         "units": "SI; world frame x east, y north, z up",
-        "gravity": list(gravity.gravity) if gravity else [0.0, 0.0, 0.0],
+        "gravity": list(scene.gravity_now()),
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,

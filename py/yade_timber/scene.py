@@ -62,7 +62,7 @@ def engines(
     if kept is not None:
         chain.append(kept)
     if np.any(gravity):
-        chain.append(yw.GravityEngine(gravity=Vector3(*gravity), warnOnce=False))
+        chain.append(yw.UniformGravity(gravity=Vector3(*gravity)))
     if ground_motion is not None:
         chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion))
     chain.append(yw.ContactForces(sweeps=sweeps, tolerance=tolerance, trackEnergy=track_energy))
@@ -90,8 +90,14 @@ def joint_engine(joints):
 
 
 def find_engine(kind):
-    """The engine of that class in `O.engines`, or None."""
+    """The engine of that class, or of one of a tuple of them, in `O.engines`, or None."""
     return next((e for e in O.engines if isinstance(e, kind)), None)
+
+
+def gravity_now():
+    """Acceleration of gravity in the scene, this package's or YADE's engine. [m/s2]"""
+    engine = find_engine((yw.UniformGravity, yw.GravityEngine))
+    return engine.gravity if engine else Vector3.Zero
 
 
 def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name=""):
@@ -184,8 +190,7 @@ def energy():
     """
     monitor = find_engine(yw.HouseMonitor)
     if monitor is None:
-        gravity = find_engine(yw.GravityEngine)
-        monitor = yw.HouseMonitor(gravity=gravity.gravity if gravity else Vector3.Zero)
+        monitor = yw.HouseMonitor(gravity=gravity_now())
     return dict(monitor.energy())
 
 

@@ -151,6 +151,31 @@ TEST(Coupled, FaceWithFourPointsNeedsFewSweeps)
 	EXPECT_LT(errorOf(heap, dense, 1e-4, 60), 1e-4); // linear convergence of the sweeps
 }
 
+/// Two heaps on the same fixed body, solved together, as they are one by one: bit for bit, although one needs more sweeps.
+TEST(Islands, DoNotInfluenceEachOther)
+{
+	for (unsigned seed = 0; seed < 20; ++seed) {
+		Heap one(seed, 5, 8, 1e2, 0.5, 10), other(seed + 100, 4, 12, 1e6, 0.3, 1e3);
+		Heap both = one;
+		const int shift = int(one.bodies.size()) - 1; // body 0 is the ground of both
+		both.bodies.insert(both.bodies.end(), other.bodies.begin() + 1, other.bodies.end());
+		for (size_t k = 0; k < other.points.size(); ++k) {
+			DashpotPoint p = other.points[k];
+			for (int* body : { &p.bodyA, &p.bodyB })
+				if (*body > 0) *body += shift;
+			both.points.insert(both.points.begin() + long(k), p);
+		}
+		both.bodies[0] = other.bodies[0] = one.bodies[0];
+		for (Heap* heap : { &one, &other, &both })
+			solveDashpots(heap->bodies, heap->points, 1e-4, 100, 1e-6);
+		for (size_t k = 1; k < both.bodies.size(); ++k) {
+			const DashpotBody& alone = int(k) <= shift ? one.bodies[k] : other.bodies[k - size_t(shift)];
+			EXPECT_EQ(both.bodies[k].newVelocity, alone.newVelocity) << seed;
+			EXPECT_EQ(both.bodies[k].newSpin, alone.newSpin) << seed;
+		}
+	}
+}
+
 /// h C / m = 1e4 on every point, hundreds of steps, without and with the last step's impulses as a guess.
 TEST(Stiff, HeapComesToRest)
 {

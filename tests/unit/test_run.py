@@ -21,7 +21,7 @@ from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-YADE = [shutil.which("yade") or "yade", "-n", "-x", "-j1"]
+YADE = [shutil.which("yade") or "yade", "-n", "-x"]
 SHORT = ["--dt", "2e-4", "--no-views", "--quiet"]
 PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
     **{f"model{house}_quake": (house, True, False) for house in ("A", "B", "C", "B1", "B2", "C1", "C2")},
@@ -32,12 +32,12 @@ KEYS = (
     "scenario model earthquake snow record dt duration_s steps wall_s real_time_factor threads elements joints broken tilt_time_s collapsed "
     "collapse_time_s peak_drift residual_drift energy versions"
 ).split()
-RUN_TIME = {"wall_s", "real_time_factor"}
+RUN_TIME = {"wall_s", "real_time_factor", "threads"}
 
 
-def run(script, *options, **changes):
+def run(script, *options, threads=1, **changes):
     """CompletedProcess of a script."""
-    command = [*YADE, str(SCRIPTS / f"{script}.py"), *map(str, options)]
+    command = [*YADE, f"-j{threads}", str(SCRIPTS / f"{script}.py"), *map(str, options)]
     return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, **changes)
 
 
@@ -128,7 +128,7 @@ def test_energy_is_accounted_for(straight):
 
 
 def assert_same_results(one, other):
-    """Byte for byte, but for the wall time."""
+    """Byte for byte, but for the wall time and the number of threads."""
     for name in ("history.csv", "breaks.csv"):
         assert digest(one / name) == digest(other / name), name
     first, second = ({k: v for k, v in summary(folder).items() if k not in RUN_TIME} for folder in (one, other))
@@ -173,10 +173,16 @@ def test_frames_of_the_start_are_the_house(straight):
         assert (corners.min(0) - 0.02 < place).all() and (place < corners.max(0) + 0.02).all()
 
 
+def test_two_threads_do_what_one_does(tmp_path, shove, straight):
+    done = run("modelB1_quake", *SHORT, "--duration", 0.6, "--record", shove, "--out", tmp_path, threads=2)
+    assert done.returncode == 0 and summary(tmp_path)["threads"] == 2, done.stderr
+    assert_same_results(straight, tmp_path)
+
+
 def test_killed_and_resumed(tmp_path, shove, straight):
     """SIGKILL right after a checkpoint and again later: the end is the same to the last bit."""
     options = [*SHORT, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05, "--duration"]
-    victim = subprocess.Popen([*YADE, str(SCRIPTS / "modelB1_quake.py"), *map(str, options), "0.6"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options), "0.6"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
     victim.kill()
     victim.wait()
@@ -196,7 +202,7 @@ def wait_for(condition, process, seconds=60):
 
 def test_interrupted(tmp_path):
     """SIGTERM: a checkpoint, one line, status 128 + 15; a checkpoint of another scenario is refused."""
-    victim = subprocess.Popen([*YADE, str(SCRIPTS / "modelA_quake.py"), *SHORT, "--checkpoint", "0.02", "--out", str(tmp_path)], stdin=subprocess.DEVNULL,
+    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelA_quake.py"), *SHORT, "--checkpoint", "0.02", "--out", str(tmp_path)], stdin=subprocess.DEVNULL,
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
     victim.terminate()
