@@ -12,7 +12,7 @@ namespace {
 	/// Zeroes the components of blocked directions; `first` is the flag of the x component.
 	Vector3r unblocked(Vector3r v, unsigned blocked, unsigned first)
 	{
-		for (int axis = 0; axis < 3; ++axis)
+		for (int axis = 0; blocked && axis < 3; ++axis)
 			if (blocked & (first << axis)) v[axis] = 0;
 		return v;
 	}

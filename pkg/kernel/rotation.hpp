@@ -38,14 +38,15 @@ template <int axis> void turnAbout(Quat& orientation, Vec3& bodyMomentum, double
 /// velocity after the step, world [rad/s].
 inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& inertia, double h)
 {
+	const Vec3 inverse = inertia.cwiseInverse();
 	Vec3 body = orientation.conjugate() * momentum;
-	turnAbout<0>(orientation, body, h / 2 * body[0] / inertia[0]);
-	turnAbout<1>(orientation, body, h / 2 * body[1] / inertia[1]);
-	turnAbout<2>(orientation, body, h * body[2] / inertia[2]);
-	turnAbout<1>(orientation, body, h / 2 * body[1] / inertia[1]);
-	turnAbout<0>(orientation, body, h / 2 * body[0] / inertia[0]);
+	turnAbout<0>(orientation, body, h / 2 * body[0] * inverse[0]);
+	turnAbout<1>(orientation, body, h / 2 * body[1] * inverse[1]);
+	turnAbout<2>(orientation, body, h * body[2] * inverse[2]);
+	turnAbout<1>(orientation, body, h / 2 * body[1] * inverse[1]);
+	turnAbout<0>(orientation, body, h / 2 * body[0] * inverse[0]);
 	orientation.normalize();
-	return orientation * (orientation.conjugate() * momentum).cwiseQuotient(inertia).eval();
+	return orientation * body.cwiseProduct(inverse).eval();
 }
 
 } // namespace timber
