@@ -41,16 +41,22 @@ void SymplecticIntegrator::action()
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) move(*b);
 }
 
+/// Bound of the way of the body's points since the collider ran. [m]
+Real CollisionTrigger::motionOf(const Body& b) const
+{
+	const size_t id     = b.getId();
+	const auto   shape  = dynamic_cast<RoundedPolyhedron*>(b.shape.get());
+	const Real   turned = 2 * (turns[id].conjugate() * b.state->ori).vec().norm();
+	return (b.state->pos - places[id]).norm() + (shape ? turned * shape->geometry->reach : 0);
+}
+
 Real CollisionTrigger::largestMotion() const
 {
-	Real largest = 0;
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b) continue;
-		const size_t id     = b->getId();
-		const auto   shape  = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-		const Real   turned = 2 * (turns[id].conjugate() * b->state->ori).vec().norm();
-		largest             = math::max(largest, (b->state->pos - places[id]).norm() + (shape ? turned * shape->geometry->reach : 0));
-	}
+	Real      largest = 0;
+	const int count   = int(scene->bodies->size());
+#pragma omp parallel for schedule(static) reduction(max : largest) if (count > smallLoop)
+	for (int id = 0; id < count; ++id)
+		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) largest = math::max(largest, motionOf(*b));
 	return largest;
 }
 

@@ -22,6 +22,7 @@ REGISTER_SERIALIZABLE(SymplecticIntegrator);
 class CollisionTrigger : public GlobalEngine {
 	std::vector<Vector3r>    places; ///< of the bodies when the collider ran, by id
 	std::vector<Quaternionr> turns;
+	Real motionOf(const Body&) const;
 	Real largestMotion() const;
 	void remember();
 
