@@ -51,10 +51,12 @@ def markdown(results, summaries):
 
 
 def compare(words, results):
-    """Cases against claims as Markdown. words: {case: what it is}; results: {case: list of Result}."""
+    """Cases against claims as Markdown, and in how many of them each claim holds. words: {case: what it is}; results: {case: list of Result}."""
     signs = {True: "x", False: "-", None: ""}
     names = [r.name for r in next(iter(results.values()))]
     rows = [(case, words[case], sum(r.holds is True for r in found), *(signs[r.holds] for r in found)) for case, found in results.items()]
+    known = [[r.holds for r in same if r.holds is not None] for same in zip(*results.values())]
+    rows.append(("all", "cases in which it holds, of those that ran", "", *(f"{sum(holds)}/{len(holds)}" for holds in known)))
     return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *table(("case", "what", "hold", *names), rows)]) + "\n"
 
 

@@ -101,7 +101,10 @@ def test_tables(tmp_path):
     text = (tmp_path / "claims.md").read_text()
     assert "14 of 14 claims hold" in text and all(f"| {name} |" in text for name in [*claims.CLAIMS, *claims.RUNS])
     assert len(json.loads((tmp_path / "claims.json").read_text())) == 14
-    assert "| shipped |" in claims_table.compare({"shipped": "as shipped"}, {"shipped": results})
+    lines = claims_table.compare({"shipped": "as shipped", "again": "once more"}, {"shipped": results, "again": results}).splitlines()
+    assert any(line.startswith("| shipped |") for line in lines)
+    counts = dict(zip([r.name for r in results], [cell.strip() for cell in lines[-1].split("|")][4:-1]))
+    assert counts == {r.name: "0/0" if r.holds is None else f"{2 * r.holds}/2" for r in results}
 
 
 @pytest.mark.parametrize("name", READINGS)
