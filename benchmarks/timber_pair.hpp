@@ -33,7 +33,7 @@ class TimberPair {
 	{
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
 		bodies[1].newSpin = bodies[1].spin;
-		solver.clear();
+		solver.clear(50);
 		solver.addPair(0, 1, points.size());
 		for (size_t k = 0; k < points.size(); ++k) {
 			PointState& s = states[k];
@@ -50,10 +50,10 @@ class TimberPair {
 			p.friction = properties.friction;
 			p.impulse = h * (s.normal * p.normal + s.shear + s.dashpot);
 			p.response = s.response;
-			solver.set(k, bodies, p, h, false);
+			solver.set(k, bodies, p, h);
 			s.response = p.response;
 		}
-		passes += solver.solve(bodies, 50, 1e-3);
+		passes += solver.solve(bodies, 1e-3);
 		++steps;
 		for (size_t k = 0; k < points.size(); ++k)
 			states[k].dashpot = solver.row(k).impulse / h - states[k].normal * points[k].normal - states[k].shear;

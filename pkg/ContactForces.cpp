@@ -53,7 +53,7 @@ void ContactForces::collectBody(Body::id_t id)
 	own.spin = own.newSpin = s.angVel;
 	own.inverseMass        = 0;
 	own.inverseInertia.setZero();
-	if (s.blockedDOFs == State::DOF_ALL) return;
+	if (!isFree(s)) return;
 	const Matrix3r axes = s.ori.toRotationMatrix();
 	own.inverseMass     = 1 / s.mass;
 	own.inverseInertia  = axes * s.inertia.cwiseInverse().asDiagonal() * axes.transpose();
@@ -65,8 +65,7 @@ void ContactForces::collectBodies()
 {
 	const int count = int(scene->bodies->size());
 	bodies.resize(count);
-	force.assign(count, Vector3r::Zero());
-	torque.assign(count, Vector3r::Zero());
+	sums.clear(count);
 	scene->forces.sync();
 #pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int id = 0; id < count; ++id)
@@ -97,14 +96,14 @@ void ContactForces::collectPoints(size_t k)
 		p.friction      = pair.phys->friction;
 		p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
 		p.response      = refresh ? timber::PointResponse() : s.response;
-		solver.set(row, bodies, p, scene->dt, sweeps == 0);
+		solver.set(row, bodies, p, scene->dt);
 		s.response = p.response;
 	}
 }
 
 void ContactForces::collectPoints()
 {
-	solver.clear();
+	solver.clear(sweeps);
 	for (const Pair& pair : pairs)
 		solver.addPair(pair.interaction->getId1(), pair.interaction->getId2(), pair.phys->states.size());
 	const int count = int(pairs.size());
@@ -146,14 +145,8 @@ void ContactForces::storePoints(size_t k, Books& own)
 		torqueB += row.armB.cross(f);
 		if (trackEnergy) bookEnergy(row, a, b, s, *pair.phys, own);
 	}
-	if (a.inverseMass > 0) { // fixed bodies belong to several islands
-		force[rows.bodyA] -= sum;
-		torque[rows.bodyA] += torqueA;
-	}
-	if (b.inverseMass > 0) {
-		force[rows.bodyB] += sum;
-		torque[rows.bodyB] += torqueB;
-	}
+	if (a.inverseMass > 0) sums.add(rows.bodyA, -sum, torqueA); // fixed bodies belong to several islands, which other threads work on
+	if (b.inverseMass > 0) sums.add(rows.bodyB, sum, torqueB);
 }
 
 void ContactForces::storePoints()
@@ -181,24 +174,15 @@ void ContactForces::sumBooks()
 	}
 }
 
-void ContactForces::applyForces()
-{
-	for (size_t id = 0; id < bodies.size(); ++id) {
-		if (bodies[id].inverseMass == 0) continue;
-		scene->forces.addForce(id, force[id]);
-		scene->forces.addTorque(id, torque[id]);
-	}
-}
-
 void ContactForces::action()
 {
 	collectPairs();
 	collectBodies();
 	collectPoints();
-	sweepsDone += solver.solve(bodies, sweeps, tolerance);
+	sweepsDone += solver.solve(bodies, tolerance);
 	storePoints();
 	sumBooks();
-	applyForces();
+	sums.handOver(*scene);
 }
 
 Real ContactForces::largestEigenvalue(const boost::python::list& extra)
@@ -220,7 +204,8 @@ Real ContactForces::largestEigenvalue(const boost::python::list& extra)
 		const int                  id1 = boost::python::extract<int>(t[0]), id2 = boost::python::extract<int>(t[1]);
 		const Vector3r             x = boost::python::extract<Vector3r>(t[2]);
 		const Real                 stiffness = boost::python::extract<Real>(t[3]);
-		stiff.push_back({ id1, id2, x - Body::byId(id1, scene)->state->pos, x - Body::byId(id2, scene)->state->pos, Vector3r::UnitZ(), stiffness, stiffness });
+		const Body *               b1 = bodyAt(*scene, id1), *b2 = bodyAt(*scene, id2);
+		if (b1 && b2) stiff.push_back({ id1, id2, x - b1->state->pos, x - b2->state->pos, Vector3r::UnitZ(), stiffness, stiffness });
 	}
 	return timber::largestEigenvalue(bodies, stiff);
 }

@@ -2,14 +2,15 @@
 /// From the elastic forces of all contacts to the total forces on the bodies.
 #pragma once
 #include <ContactPhys.hpp>
+#include <bodies.hpp>
 #include <kernel/dashpots.hpp>
 #include <kernel/stiffness.hpp>
 
 namespace yade {
 
 class ContactForces : public GlobalEngine {
-	/// A contact pair in this step. Pairs are handled in the order of their body ids, whatever the container's order:
-	/// the sums then do not depend on threads or on when the collider saw the pair.
+	/// A contact pair in this step. Pairs are handled island by island, in the order of their body ids, whatever the container's
+	/// order: the sums then do not depend on threads or on when the collider saw the pair.
 	struct Pair {
 		Interaction*        interaction; ///< kept alive by `seen`
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets new ones
@@ -19,7 +20,7 @@ class ContactForces : public GlobalEngine {
 	std::vector<shared_ptr<Interaction>> seen; ///< the interactions that `pairs` was sorted for, in the container's order
 	timber::DashpotSolver             solver;
 	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
-	std::vector<Vector3r>             force, torque; ///< contact sums, indexed by body id
+	BodyForces                        sums; ///< of the contacts, on free bodies
 
 	/// Energies of an island in this step.
 	struct Books {
@@ -37,7 +38,6 @@ class ContactForces : public GlobalEngine {
 	void storePoints();
 	void bookEnergy(const timber::DashpotSolver::Row&, const timber::DashpotBody&, const timber::DashpotBody&, timber::PointState&, const ManifoldPhys&, Books&) const;
 	void sumBooks();
-	void applyForces();
 
 public:
 	void action() override;
@@ -50,8 +50,8 @@ public:
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit dashpots; 0: explicit dashpots, as in the paper, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, , "The sweeps end once one changes the contact impulses by less than this share. [-]"))
-		((long, sweepsDone, 0, , "Sweeps of all steps so far. [-]"))
+		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once one changes its impulses by less than this share. [-]"))
+		((long, sweepsDone, 0, , "Sweeps of all steps so far, each those of the island that took most. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))

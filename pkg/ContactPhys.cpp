@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactPhys.hpp>
+#include <bodies.hpp>
 
 namespace yade {
 
@@ -11,7 +12,7 @@ namespace {
 	const RoundedPolyhedron& shapeOf(const Body& body) { return *static_cast<RoundedPolyhedron*>(body.shape.get()); }
 
 	/// A fixed body counts as infinitely heavy.
-	Real massOf(const Body& body) { return body.state->blockedDOFs == State::DOF_ALL ? std::numeric_limits<Real>::infinity() : body.state->mass; }
+	Real massOf(const Body& body) { return isFree(*body.state) ? body.state->mass : std::numeric_limits<Real>::infinity(); }
 
 	void setPair(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
 	{

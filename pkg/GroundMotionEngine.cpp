@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <GroundMotionEngine.hpp>
+#include <bodies.hpp>
 
 namespace yade {
 
@@ -10,7 +11,7 @@ namespace {
 	void accelerate(Scene& scene, const Vector3r& acceleration)
 	{
 		for (const shared_ptr<Body>& b : *scene.bodies)
-			if (b && b->state->blockedDOFs != State::DOF_ALL) scene.forces.addForce(b->getId(), b->state->mass * acceleration);
+			if (b && isFree(*b->state)) scene.forces.addForce(b->getId(), b->state->mass * acceleration);
 	}
 }
 
@@ -38,7 +39,7 @@ Vector3r GroundMotionEngine::freeMomentum() const
 {
 	Vector3r sum = Vector3r::Zero();
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && b->state->blockedDOFs != State::DOF_ALL) sum += b->state->mass * b->state->vel;
+		if (b && isFree(*b->state)) sum += b->state->mass * b->state->vel;
 	return sum;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HouseMonitor.hpp>
+#include <bodies.hpp>
 
 namespace yade {
 
@@ -9,7 +10,6 @@ namespace {
 	/// Names of energies(), in its order.
 	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts" };
 
-	bool isFree(const Body& b) { return b.state->blockedDOFs != State::DOF_ALL; }
 }
 
 void HouseMonitor::postLoad(HouseMonitor&)
@@ -23,7 +23,7 @@ Real HouseMonitor::kineticEnergy() const
 {
 	Real sum = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b || !isFree(*b)) continue;
+		if (!b || !isFree(*b->state)) continue;
 		sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel)) / 2;
 	}
 	return sum;
@@ -34,7 +34,7 @@ Real HouseMonitor::gravityEnergy() const
 {
 	Real sum = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b || !isFree(*b)) continue;
+		if (!b || !isFree(*b->state)) continue;
 		const State& s = *b->state;
 		sum -= s.mass * gravity.dot(s.pos - s.refPos - scene->dt / 2 * s.vel);
 	}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <Integrators.hpp>
+#include <bodies.hpp>
 #include <RoundedPolyhedron.hpp>
 #include <threads.hpp>
 #include <kernel/rotation.hpp>
@@ -22,7 +23,7 @@ void SymplecticIntegrator::move(Body& b) const
 {
 	const Real dt = scene->dt;
 	State&     s  = *b.state;
-	if (s.blockedDOFs == State::DOF_ALL) {
+	if (!isFree(s)) {
 		s.pos += dt * s.vel;
 		return;
 	}

@@ -88,8 +88,8 @@ void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, cons
 {
 	static const char* const     names[] = { "tension", "compression", "shear" };
 	TimberJoint&                 joint   = *joints[index];
-	Vector3r &                   force = joint.forces[spring], &stretch = joint.stretches[spring];
-	const timber::SpringForce    f = timber::springForce(joint.stiffness(), stretch, axes[joint.id1] * joint.normal);
+	Vector3r &                   force = joint.forces[spring], &way = joint.stretches[spring];
+	const timber::SpringForce    f = timber::springForce(joint.stiffness(), way, axes[joint.id1] * joint.normal);
 	const shared_ptr<JointBreak> entry(new JointBreak);
 	entry->time   = scene->time;
 	entry->joint  = int(index);
@@ -101,15 +101,18 @@ void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, cons
 	released += f.energy - scene->dt / 2 * force.dot(partingVelocity(s1, s2, end2));
 	joint.broken[spring] = 1;
 	force                = Vector3r::Zero();
-	stretch              = Vector3r::Zero();
+	way                  = Vector3r::Zero();
 }
 
-JointEngine::Pull JointEngine::stretch(TimberJoint& joint) const
+/// Stretches the joint's springs to the bodies' placement.
+JointEngine::Pull JointEngine::pullOf(TimberJoint& joint) const
 {
 	Pull pull;
-	const shared_ptr<Body>&b1 = Body::byId(joint.id1, scene), &b2 = Body::byId(joint.id2, scene);
+	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
 	if (!b1 || !b2) { // taken out of the scene, and its joints with it
 		joint.broken.assign(joint.broken.size(), 1);
+		joint.forces.assign(joint.broken.size(), Vector3r::Zero());
+		joint.stretches.assign(joint.broken.size(), Vector3r::Zero());
 		return pull;
 	}
 	const timber::JointStiffness stiffness = joint.stiffness();
@@ -139,7 +142,7 @@ void JointEngine::breakSprings(size_t index)
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	for (size_t k = 0; k < joint.broken.size(); ++k)
 		if (!joint.broken[k] && (joint.perJoint || joint.forces[k].squaredNorm() > joint.strength * joint.strength)) breakSpring(index, k, s1, s2);
-	pulls[index] = stretch(joint);
+	pulls[index] = pullOf(joint);
 }
 
 void JointEngine::stretchAll()
@@ -148,34 +151,22 @@ void JointEngine::stretchAll()
 	pulls.assign(count, Pull());
 #pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int k = 0; k < count; ++k)
-		if (!joints[k]->isFinished()) pulls[k] = stretch(*joints[k]);
+		if (!joints[k]->isFinished()) pulls[k] = pullOf(*joints[k]);
 }
 
 /// Breaks and sums in the order of the joints, so that threads change nothing.
 void JointEngine::sumPulls()
 {
 	elastic = 0;
-	force.assign(axes.size(), Vector3r::Zero());
-	torque.assign(axes.size(), Vector3r::Zero());
+	sums.clear(axes.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
 		if (pulls[k].overloaded) breakSprings(k);
 		const Pull& pull = pulls[k];
 		if (pull.energy == 0) continue; // finished, or not stretched at all
 		const TimberJoint& joint = *joints[k];
 		elastic += pull.energy;
-		force[joint.id1] += pull.force;
-		torque[joint.id1] += pull.torque1;
-		force[joint.id2] -= pull.force;
-		torque[joint.id2] += pull.torque2;
-	}
-}
-
-void JointEngine::applyForces()
-{
-	for (size_t id = 0; id < force.size(); ++id) {
-		if (force[id].isZero(0) && torque[id].isZero(0)) continue;
-		scene->forces.addForce(id, force[id]);
-		scene->forces.addTorque(id, torque[id]);
+		sums.add(joint.id1, pull.force, pull.torque1);
+		sums.add(joint.id2, -pull.force, pull.torque2);
 	}
 }
 
@@ -183,7 +174,7 @@ Real JointEngine::elasticPower() const
 {
 	Real power = 0;
 	for (const shared_ptr<TimberJoint>& j : joints) {
-		const shared_ptr<Body>&b1 = Body::byId(j->id1, scene), &b2 = Body::byId(j->id2, scene);
+		const Body *b1 = bodyAt(*scene, j->id1), *b2 = bodyAt(*scene, j->id2);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k)
 			if (!j->broken[k]) power += j->forces[k].dot(partingVelocity(*b1->state, *b2->state, b2->state->pos + b2->state->ori * j->anchors2[k]));
 	}
@@ -195,7 +186,7 @@ void JointEngine::action()
 	collectAxes();
 	stretchAll();
 	sumPulls();
-	applyForces();
+	sums.handOver(*scene);
 }
 
 } // namespace yade

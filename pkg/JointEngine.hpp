@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Breakable joints between two bodies (paper, sections 2.4 and 3.2).
 #pragma once
+#include <bodies.hpp>
 #include <kernel/joint_law.hpp>
-#include <pch.hpp>
 
 namespace yade {
 
@@ -63,15 +63,14 @@ class JointEngine : public GlobalEngine {
 	};
 	std::vector<Matrix3r> axes; ///< of the bodies, by id
 	std::vector<Pull>     pulls; ///< of the joints
-	std::vector<Vector3r> force, torque; ///< sums on the bodies, by id
+	BodyForces            sums; ///< of the joints
 
 	void collectAxes();
-	Pull stretch(TimberJoint&) const;
+	Pull pullOf(TimberJoint&) const;
 	void stretchAll();
 	void breakSprings(size_t joint);
 	void breakSpring(size_t joint, size_t spring, const State&, const State&);
 	void sumPulls();
-	void applyForces();
 
 public:
 	void                action() override;

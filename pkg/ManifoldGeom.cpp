@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ManifoldGeom.hpp>
+#include <bodies.hpp>
 
 namespace yade {
 
@@ -16,7 +17,7 @@ boost::python::list ManifoldGeom::pyPoints() const
 bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(
         const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2, const Vector3r& shift2, const bool&, const shared_ptr<Interaction>& I)
 {
-	if (state1.blockedDOFs == State::DOF_ALL && state2.blockedDOFs == State::DOF_ALL && !I->geom) return false;
+	if (!isFree(state1) && !isFree(state2) && !I->geom) return false;
 	if (!I->geom) I->geom = shared_ptr<IGeom>(new ManifoldGeom);
 	ManifoldGeom&      geom = *static_cast<ManifoldGeom*>(I->geom.get());
 	const timber::Pose pose1 { state1.pos, state1.ori }, pose2 { state2.pos + shift2, state2.ori };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <GroundMotionEngine.hpp>
+#include <bodies.hpp>
 #include <RestSkipper.hpp>
 
 namespace yade {
@@ -10,7 +11,7 @@ Real RestSkipper::fastest() const
 {
 	Real most = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && b->state->blockedDOFs != State::DOF_ALL) most = math::max(most, b->state->vel.norm() + b->state->angVel.norm());
+		if (b && isFree(*b->state)) most = math::max(most, b->state->vel.norm() + b->state->angVel.norm());
 	return most;
 }
 

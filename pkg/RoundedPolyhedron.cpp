@@ -17,12 +17,14 @@ namespace {
 		if (!(value >= 0) || !std::isfinite(value)) throw std::invalid_argument("friction = " + std::to_string(value) + ": it must be finite and >= 0");
 	}
 
-	/// The numbers that make a geometry.
+	/// The numbers that make a geometry. NaN among them, which no map can order, is refused first.
 	std::vector<Real> key(const vector<Vector3r>& vertices, Real radius)
 	{
 		std::vector<Real> numbers { radius };
-		for (const Vector3r& v : vertices)
+		for (const Vector3r& v : vertices) {
+			if (!v.allFinite()) timber::Polyhedron::fromVertices(vertices); // says which
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);
+		}
 		return numbers;
 	}
 
@@ -46,9 +48,12 @@ namespace {
 		{
 			const std::lock_guard<std::mutex> lock(guard);
 			tidy();
-			boost::weak_ptr<Geometry>& place = known[key(vertices, radius)];
-			shared_ptr<Geometry>       found = place.lock();
-			if (!found) place = found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			const std::vector<Real> name = key(vertices, radius);
+			const auto              place = known.find(name);
+			shared_ptr<Geometry>    found = place == known.end() ? nullptr : place->second.lock();
+			if (found) return found;
+			found       = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			known[name] = found; // what is refused does not come here
 			return found;
 		}
 	};

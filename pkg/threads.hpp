@@ -4,7 +4,8 @@
 
 namespace yade {
 
-/// Loops over no more bodies, pairs or joints than this run on one thread: waking another one would cost more. [-]
-constexpr int smallLoop = 150;
+/// Loops over no more bodies, pairs or joints than this run on one thread: waking another one would cost more. Islands of
+/// contacts, of which each is a lot of work, are shared from two on. [-]
+constexpr int smallLoop = 100;
 
 } // namespace yade

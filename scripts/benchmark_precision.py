@@ -28,7 +28,7 @@ from bench_tools import machine, markdown_table, write_csv, write_section  # noq
 from yade.minieigenHP import Quaternion, Vector3  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.files import written_whole  # noqa: E402
-from yade_timber.house.errors import HouseError  # noqa: E402
+from yade_timber.house.errors import StepError  # noqa: E402
 from yade_timber.motion import GroundMotion, default_motion  # noqa: E402
 
 O = yw.Omega()
@@ -154,7 +154,7 @@ def run(case, dt, options):
     build, curves, duration, _, with_joints = CASES[case]
     try:
         build(dt, options)
-    except HouseError:  # the step is too large for the house's joints
+    except StepError:  # the step is too large for the house's joints
         return None, 0.0
 
     def sample():

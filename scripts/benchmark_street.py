@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A street of houses: time per element and step, memory per element, speed-up with two threads.
 
-    yade -n -x scripts/benchmark_street.py [--houses 1 2 5 10 50] [--threads 1 2] [--steps 100] [--out FOLDER]
+    yade -n -x scripts/benchmark_street.py [--houses 1 2 5 10 50] [--threads 1 2] [--steps 100] [--blocks 7] [--rounds 3] [--out FOLDER]
 
 Each street runs in a YADE process of its own: house C, 12 m from the next one, in the strongest part of the synthetic motion.
 """

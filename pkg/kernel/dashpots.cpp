@@ -29,7 +29,7 @@ namespace {
 	PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const DashpotPoint& p)
 	{
 		const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
-		return { response * p.normal, largestShearResponse(response, p.normal) };
+		return { response * p.normal, largestShearResponse(response, p.normal), a.inverseMass + b.inverseMass };
 	}
 
 	/// theta of the step and the gain of a correction, for a dashpot of rate h C against the response a.
@@ -72,7 +72,7 @@ namespace {
 			velocityB += b.inverseMass * impulse;
 			spinB += b.inverseInertia * row.armB.cross(impulse);
 		}
-		/// Fixed bodies belong to several islands and are never written to.
+		/// Fixed bodies belong to several islands, which other threads work on: they are never written to.
 		void store(DashpotBody& a, DashpotBody& b) const
 		{
 			if (a.inverseMass > 0) a.newVelocity = velocityA, a.newSpin = spinA;
@@ -84,8 +84,9 @@ namespace {
 
 Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce) { return clipped(elasticShear, friction * normalForce); }
 
-void DashpotSolver::clear()
+void DashpotSolver::clear(int mostSweeps)
 {
+	sweeps = mostSweeps;
 	rows.clear();
 	pairs.clear();
 }
@@ -96,7 +97,7 @@ void DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 	rows.resize(rows.size() + count);
 }
 
-void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h, bool isExplicit)
+void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
 {
 	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
 	const Vec3 before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
@@ -108,8 +109,8 @@ void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, Dashpo
 	row.normal = p.normal;
 	row.impulse = p.impulse;
 	row.friction = p.friction;
-	if (!isExplicit) {
-		if (p.response.shear < 0) p.response = responseAt(a, b, p);
+	if (sweeps > 0) {
+		if (p.response.inverseMass != a.inverseMass + b.inverseMass) p.response = responseAt(a, b, p);
 		row.normalResponse = p.response.normal;
 		setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
 		setDashpot(h * p.shearDamping, p.response.shear, shearTheta, row.shearGain);
@@ -120,7 +121,7 @@ void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, Dashpo
 	row.elasticShearNorm = row.elasticShear.norm();
 	row.normalTarget = h * p.elasticNormal - h * p.normalDamping * (1 - normalTheta) * vn;
 	row.shearTarget = row.elasticShear - h * p.shearDamping * (1 - shearTheta) * (before - vn * p.normal);
-	if (!isExplicit) return;
+	if (sweeps > 0) return;
 	const double normal = std::max(0., row.normalTarget);
 	row.impulse = normal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
 }
@@ -227,7 +228,7 @@ bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, dou
 }
 
 /// Returns the number of sweeps.
-int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance)
+int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance)
 {
 	for (const int k : island)
 		relax(bodies, pairs[k], true);
@@ -241,7 +242,7 @@ int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, int
 	return done;
 }
 
-int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance)
+int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance)
 {
 	for (const int k : island) {
 		const Pair& pair = pairs[k];
@@ -251,10 +252,10 @@ int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, 
 			motion.push(a, b, rows[row], rows[row].impulse);
 		motion.store(a, b);
 	}
-	return sweeps == 0 ? 0 : sweepAll(bodies, island, sweeps, tolerance);
+	return sweeps == 0 ? 0 : sweepAll(bodies, island, tolerance);
 }
 
-int DashpotSolver::solve(std::vector<DashpotBody>& bodies, int sweeps, double tolerance)
+int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 {
 	findIslands(bodies);
 	awake.assign(bodies.size(), 0);
@@ -262,24 +263,7 @@ int DashpotSolver::solve(std::vector<DashpotBody>& bodies, int sweeps, double to
 	const int count = int(islandCount());
 #pragma omp parallel for schedule(dynamic) reduction(max : done) if (count > 1)
 	for (int k = 0; k < count; ++k)
-		done = std::max(done, solveIsland(bodies, island(k), sweeps, tolerance));
-	return done;
-}
-
-int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance)
-{
-	const auto meets = [](const DashpotPoint& p) { return [&p](const DashpotPoint& q) { return p.bodyA == q.bodyA && p.bodyB == q.bodyB; }; };
-	DashpotSolver solver;
-	for (auto p = points.begin(); p != points.end();) {
-		const auto end = std::find_if_not(p, points.end(), meets(*p));
-		solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
-		p = end;
-	}
-	for (size_t k = 0; k < points.size(); ++k)
-		solver.set(k, bodies, points[k], h, sweeps == 0);
-	const int done = solver.solve(bodies, sweeps, tolerance);
-	for (size_t k = 0; k < points.size(); ++k)
-		points[k].impulse = solver.row(k).impulse;
+		done = std::max(done, solveIsland(bodies, island(k), tolerance));
 	return done;
 }
 

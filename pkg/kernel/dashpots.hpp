@@ -25,10 +25,11 @@ struct DashpotBody {
 };
 
 /// How the relative velocity at a point answers to impulses there. It decides theta and the speed of the sweeps, and changes
-/// little in some steps: it may be kept for them.
+/// little in some steps: it may be kept for them, but not when a body is held, released or gets another mass.
 struct PointResponse {
-	Vec3 normal; ///< change of the relative velocity per unit normal impulse [1/kg]
-	double shear = -1; ///< largest change per unit tangential impulse [1/kg]; < 0: not known
+	Vec3 normal = Vec3::Zero(); ///< change of the relative velocity per unit normal impulse [1/kg]
+	double shear = 0; ///< largest change per unit tangential impulse [1/kg]
+	double inverseMass = -1; ///< of both bodies together when it was found [1/kg]; < 0: not known
 };
 
 struct DashpotPoint {
@@ -39,7 +40,7 @@ struct DashpotPoint {
 	Vec3 elasticShear; ///< e_s on B, before Coulomb's limit [N]
 	double normalDamping, shearDamping; ///< C_n, C_s [N s/m]
 	double friction; ///< [-]
-	Vec3 impulse; ///< in: guess; out: total contact impulse on B [N s]
+	Vec3 impulse; ///< guess of the total contact impulse on B [N s]
 	PointResponse response; ///< in-out: found when not known
 };
 
@@ -74,17 +75,18 @@ public:
 		const int* end() const { return last; }
 	};
 
-	void clear();
+	/// Starts a step. sweeps: most passes over the points, alternating in direction; 0: explicit dashpots.
+	void clear(int sweeps);
 	/// Makes room for the points of two bodies.
 	void addPair(int bodyA, int bodyB, size_t count);
-	/// Row k from a point of a step of length h [s]. May be called by several threads, each with rows of its own.
-	void set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& point, double h, bool isExplicit);
-	/// Impulses of all rows, and the bodies' velocities with them. sweeps: most passes over the points, alternating in
-	/// direction; 0 for explicit rows. After the first, a pass looks only at pairs of which a body has just been changed; a pair
+	/// Row k from a point of a step of length h [s]; finds the point's response if it is not known. May be called by several
+	/// threads, each with rows of its own.
+	void set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& point, double h);
+	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body has just been changed; a pair
 	/// whose impulses change by less than `tolerance` of the root mean square of the island's points [-] changes nobody. Few
 	/// fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
 	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
-	int solve(std::vector<DashpotBody>& bodies, int sweeps, double tolerance = 0);
+	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
 	const Row& row(size_t k) const { return rows[k]; }
@@ -93,6 +95,7 @@ public:
 	Island island(size_t k) const { return { order.data() + islandStarts[k], order.data() + islandStarts[k + 1] }; }
 
 private:
+	int sweeps = 0;
 	std::vector<Row> rows;
 	std::vector<Pair> pairs;
 	std::vector<int> order; ///< pairs by island
@@ -106,8 +109,8 @@ private:
 	double threshold(Island island, double tolerance) const;
 	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
 	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
-	int sweepAll(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance);
-	int solveIsland(std::vector<DashpotBody>& bodies, Island island, int sweeps, double tolerance);
+	int sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance);
+	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };
 
@@ -116,8 +119,5 @@ template <class Point> Vec3 relativeVelocity(const Point& p, const Vec3& vA, con
 {
 	return vB + wB.cross(p.armB) - vA - wA.cross(p.armA);
 }
-
-/// One step of points whose pairs stand next to each other; no memory kept.
-int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0);
 
 } // namespace timber

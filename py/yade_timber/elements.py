@@ -23,10 +23,10 @@ def snow(density=90.0, stiffness_per_kg=3.948e4, friction=0.5, label=""):
     return yw.SnowMat(density=density, stiffnessPerMass=stiffness_per_kg, friction=friction, label=label)
 
 
-def rounded(corners):
-    """Corners to 14 digits of their extent: equal elements in different places get equal numbers and share their geometry. [m]"""
-    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 13)
-    return np.round(corners / digit) * digit
+def to_digits(corners):
+    """Corners to 13 digits of their extent: equal elements in different places of a street get equal numbers and share their geometry. [m]"""
+    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
+    return np.round(corners / digit) * digit + 0.0  # no negative zeros
 
 
 def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind="", color=None):
@@ -51,11 +51,11 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     volume, centroid, inertia, axes = raw.massProperties()
     axes = Quaternion(axes)
     corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
-    local = [Vector3(*v) for v in rounded(corners)]
+    local = [Vector3(*v) for v in to_digits(corners)]
     turned = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    body.shape = yw.RoundedPolyhedron(vertices=local, radius=raw.radius, name=name, kind=kind)
+    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius or 0, name=name, kind=kind)
     if color is not None:
         body.shape.color = Vector3(*color)
     body.material = material if material is not None else timber()

@@ -8,7 +8,8 @@ from yade.minieigenHP import Vector3
 
 from . import elements, palette, scene
 from .frames import steps_between
-from .house import HouseError, build_house, load_house
+from .house import build_house, load_house
+from .house.errors import StepError
 from .house.friction import own_coefficient
 
 O = yw.Omega()
@@ -66,10 +67,10 @@ def build(scenario):
 
 
 def check_step(model):
-    """Raise HouseError when the joints, which have no dashpots, are too stiff for the time step: those of light members are."""
+    """Raise StepError when the joints, which have no dashpots, are too stiff for the time step: those of light members are."""
     limit = scene.stable_dt(JOINT_SAFETY)
     if O.dt > limit:
-        raise HouseError(f"{model.name}: a time step of {O.dt:g} s is too large for the joints between the lightest members: take at most {limit:.2g} s (--dt), or less stiff joints")
+        raise StepError(f"{model.name}: a time step of {O.dt:g} s is too large for the joints between the lightest members: take at most {limit:.2g} s (--dt), or less stiff joints")
 
 
 def law_options(law):

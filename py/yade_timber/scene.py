@@ -42,7 +42,7 @@ def engines(
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
     damping_ratio  share of critical damping [-]
     sweeps         most Gauss-Seidel sweeps of the implicit dashpots; 0: explicit dashpots as in the paper
-    tolerance      share of the contact impulses that the last sweep may change [-]
+    tolerance      share of an island's contact impulses that the last sweep may change [-]
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
     skip_rest      steps to skip at a time while the scene rests and the ground is quiet (RestSkipper); 0: none
@@ -137,12 +137,13 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
 def make_joint(body1, body2, id1, id2, points, normal, kn, ks, strength, per, kind="", name="", broken=False):
     """TimberJoint between two bodies in their present placement; arguments as in `connect`."""
     s1, s2 = body1.state, body2.state
+    points = [Vector3(*p) for p in np.asarray(points, float)]
     direction = Vector3(*normal) if normal is not None else s2.pos - s1.pos
     return yw.TimberJoint(
         id1=id1,
         id2=id2,
-        anchors1=[s1.ori.conjugate() * (Vector3(*p) - s1.pos) for p in points],
-        anchors2=[s2.ori.conjugate() * (Vector3(*p) - s2.pos) for p in points],
+        anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
+        anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
         normal=s1.ori.conjugate() * direction.normalized(),
         kn=kn,
         ks=ks,
@@ -218,6 +219,8 @@ def _unbroken_springs():
     engine = find_engine(yw.JointEngine)
     springs = []
     for joint in engine.joints if engine else []:
+        if joint.isFinished or O.bodies[joint.id1] is None:
+            continue
         s1 = O.bodies[joint.id1].state
         stiffness = max(joint.kn, joint.ks) / (len(joint.anchors1) if joint.perJoint else 1)
         springs += [(joint.id1, joint.id2, s1.pos + s1.ori * a, stiffness) for a, gone in zip(joint.anchors1, joint.broken) if not gone]

@@ -29,6 +29,24 @@ inline DashpotPoint central(double damping, double elastic = 0)
 	return p;
 }
 
+/// One step of points whose pairs stand next to each other. Returns the number of passes.
+inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0)
+{
+	DashpotSolver solver;
+	solver.clear(sweeps);
+	for (auto p = points.begin(); p != points.end();) {
+		const auto end = std::find_if_not(p, points.end(), [&](const DashpotPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; });
+		solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
+		p = end;
+	}
+	for (size_t k = 0; k < points.size(); ++k)
+		solver.set(k, bodies, points[k], h);
+	const int done = solver.solve(bodies, tolerance);
+	for (size_t k = 0; k < points.size(); ++k)
+		points[k].impulse = solver.row(k).impulse;
+	return done;
+}
+
 /// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.
 inline double after(double massA, double massB, double speed, double damping, double h, int sweeps)
 {

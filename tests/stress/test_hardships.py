@@ -6,7 +6,7 @@ import limits
 import pytest
 import yade_timber as yt
 from compare import assert_close
-from hardships import RESIDUAL, float32_house, rough_record, shaken, single_precision, speed_bound, strong_part
+from hardships import expect_sound, float32_house, rough_record, shaken, single_precision, strong_part
 from yade import O
 from yade_timber import scene
 
@@ -19,24 +19,20 @@ def test_stable_below_the_predicted_limit(build):
             assert limits.is_stable(build, share * limits.settled(build), damped), (share, damped)
 
 
-@pytest.mark.parametrize("build, share", [(limits.hung_block, 1.1), (limits.stiff_house, 1.2), (limits.house, 10), (limits.stack, 4)])
-def test_unstable_above_it(build, share):
-    """Joints alone: just above the limit. Where contacts decide, dashpots and loss of contact hold the motion back for a while."""
-    assert not limits.is_stable(build, share * limits.settled(build))
+@pytest.mark.parametrize("build, share, damped", [(limits.hung_block, 1.1, True), (limits.stiff_house, 1.2, True), (limits.stack, 1.1, False), (limits.stack, 6, True), (limits.house, 10, True)])
+def test_unstable_above_it(build, share, damped):
+    """Just above the limit where no dashpots act; they and loss of contact hold the motion back for a while."""
+    assert not limits.is_stable(build, share * limits.settled(build), damped)
 
 
 @pytest.mark.parametrize("house", ["A", "B", "C"])
 def test_spikes_and_steps(house):
-    record = rough_record(10.0)
-    fastest, left_over = shaken(house, record, 10.0, snow_depth=1.0)
-    assert fastest < speed_bound(record, 10.0) and left_over < RESIDUAL
+    expect_sound(shaken(house, rough_record(10.0), 10.0, snow_depth=1.0))
 
 
 def test_ten_minutes_of_shaking():
     """House C in the strong part of the motion, halved, sixty times: nothing creeps away, no energy appears."""
-    record = strong_part(600.0)
-    fastest, left_over = shaken("C", record, 600.0, scale=0.5)
-    assert fastest < speed_bound(record, 600.0, 0.5) and left_over < RESIDUAL
+    expect_sound(shaken("C", strong_part(600.0), 600.0, scale=0.5))
 
 
 @pytest.mark.parametrize("house, snow", [("A", 1.0), ("B2", 1.0), ("C2", 1.0)])

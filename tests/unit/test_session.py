@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+import yade.wrapper as yw
 import yade_timber as yt
 from compare import assert_close
 from yade import O
@@ -36,10 +37,25 @@ def test_interaction_erased_while_the_collider_sleeps():
 def test_body_taken_out():
     _, column = column_on_plate()
     O.bodies.erase(column)
-    assert yt.energy()["kinetic"] == 0
+    assert yt.energy()["kinetic"] == 0 and yt.stable_dt() == np.inf
     O.run(100, True)
     joint = scene.find_engine(yt.JointEngine).joints[0]
-    assert joint.isFinished
+    assert joint.isFinished and joint.load == 0 and all(spring["stretch"] == 0 for spring in joint.springs)
+
+
+def test_plate_taken_out_from_under_a_joint():
+    plate, _ = column_on_plate()
+    O.bodies.erase(plate)
+    assert yt.stable_dt() == np.inf
+    O.run(100, True)
+    assert yt.stable_dt() == np.inf and scene.find_engine(yt.JointEngine).joints[0].isFinished
+
+
+def test_joint_of_a_body_that_never_was():
+    column_on_plate()
+    scene.find_engine(yt.JointEngine).append(yt.TimberJoint(id1=0, id2=77, anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1))
+    O.run(2, True)
+    assert scene.find_engine(yt.JointEngine).joints[1].isFinished
 
 
 def test_snow_put_on_later():
@@ -59,6 +75,48 @@ def test_fixed_body_released():
     O.bodies[held].dynamic = True
     O.run(10000, True)
     assert_close(O.bodies[held].state.pos[2], 0.1, atol=1e-4)  # it fell 1 cm and lies on the plate
+
+
+@pytest.mark.parametrize("steps", [10, 40])
+def test_loaded_body_released(steps):
+    """Held under a heavy one, longer or shorter than its contacts keep what they know, and let go: it stays where it is."""
+    O.reset()
+    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    held = O.bodies.append(yt.box((0.1, 0.1, 0.1), (0, 0, 0.05), fixed=True))
+    O.bodies.append(yt.box((1, 1, 1), (0, 0, 0.6)))
+    O.dt, O.engines = 4e-5, yt.engines()
+    O.run(steps, True)
+    O.bodies[held].dynamic = True
+    for _ in range(200):
+        O.step()
+        assert max(b.state.vel.norm() for b in O.bodies) < 0.05  # [m/s] its own contacts close by x = 63 micrometres: sqrt(g x) = 0.025; with the gains of the held body 1.8
+
+
+def test_gravity_of_either_engine():
+    column_on_plate()
+    assert scene.gravity_now()[2] == -9.81
+    O.engines = [yw.GravityEngine(gravity=(0, 0, -5)) if isinstance(e, yw.UniformGravity) else e for e in O.engines]
+    assert scene.gravity_now()[2] == -5
+    O.engines = yt.engines(gravity=(0, 0, 0))
+    assert scene.gravity_now().norm() == 0
+
+
+def test_refused_shapes_leave_others_alone():
+    """NaN is in no order with numbers: it must not pass for another element's shape, before or behind it."""
+    nan = float("nan")
+    kept = yt.box((1, 2, 3), (0, 0, 0), radius=0.04)
+    for place in ((nan, 0, 0), (nan, nan, nan)):
+        with pytest.raises((ValueError, RuntimeError)):
+            yt.box((1, 2, 3), place, radius=0.04)
+    assert_close([yt.box(size, (0, 0, 0), radius=0.04).state.mass for size in ((1, 2, 3), (5, 5, 5))], [340 * 6, 340 * 125], rtol=1e-12)
+    assert_close(kept.state.mass, 340 * 6, rtol=1e-12)
+
+
+def test_equal_elements_have_equal_numbers():
+    """So that they share their geometry, in whatever house of a street they are."""
+    for size in ((0.105, 0.105, 2.73), (0.12, 0.12, 2.73), (0.105, 7.28, 0.12)):
+        shapes = [yt.box(size, (12 * k + 0.91, 0.455, 1.785)).shape for k in range(10)]
+        assert len({(shape.radius, *(x for v in shape.vertices for x in v)) for shape in shapes}) == 1
 
 
 def test_engines_called_again_keep_the_joints():

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Small questions about YADE's bodies, and sums of forces on them.
+#pragma once
+#include <pch.hpp>
+
+namespace yade {
+
+/// Not held in all its degrees of freedom.
+inline bool isFree(const State& s) { return s.blockedDOFs != State::DOF_ALL; }
+
+/// The body of that id, or null when there is none (any more).
+inline Body* bodyAt(const Scene& scene, Body::id_t id)
+{
+	const BodyContainer& bodies = *scene.bodies;
+	return id >= 0 && size_t(id) < bodies.size() ? bodies[id].get() : nullptr;
+}
+
+/// Forces and torques about the centres, by body id. YADE's container adds them up in the order of its threads; sums made
+/// here, and handed over once, do not depend on them.
+struct BodyForces {
+	std::vector<Vector3r> force, torque; ///< [N, N m]
+
+	void clear(size_t bodies)
+	{
+		force.assign(bodies, Vector3r::Zero());
+		torque.assign(bodies, Vector3r::Zero());
+	}
+	void add(Body::id_t id, const Vector3r& f, const Vector3r& t)
+	{
+		force[id] += f;
+		torque[id] += t;
+	}
+	void handOver(Scene& scene) const
+	{
+		for (size_t id = 0; id < force.size(); ++id) {
+			if (force[id].isZero(0) && torque[id].isZero(0)) continue;
+			scene.forces.addForce(id, force[id]);
+			scene.forces.addTorque(id, torque[id]);
+		}
+	}
+};
+
+} // namespace yade
