@@ -78,6 +78,16 @@ def fit(curve):
     return tuple(np.exp(optimize.minimize(cost, start, bounds=bounds, method="L-BFGS-B").x))
 
 
+def half(curve):
+    """Words: at which strength half of the runs collapse. Nothing is said of strengths that were not tried."""
+    fitted, scales = fit(curve), [point["scale"] for point in curve]
+    if fitted is None:
+        return "none collapses" if not curve[0]["collapsed"] else "all collapse"
+    if fitted[0] > max(scales):
+        return f"fewer than half collapse up to {max(scales):g}"
+    return f"more than half collapse from {min(scales):g} on" if fitted[0] < min(scales) else f"half collapse at {fitted[0]:.2f}"
+
+
 def plot(table, snows, path):
     figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True)
     for axis, snow in zip(axes[0], snows):
@@ -104,10 +114,9 @@ def draw(axis, house, curve, shift):
     colour, marker = LOOKS.get(house, ("#555555", "D"))
     x, part, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "part", "low", "high"))
     fitted = fit(curve)
-    label = f"house {house}" + (f": half of them at {fitted[0]:.2f}" if fitted else ": none" if not part.any() else ": all")
-    axis.errorbar(x * shift, part, [part - low, high - part], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=label)
+    axis.errorbar(x * shift, part, [part - low, high - part], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=f"house {house}: {half(curve)}")
     if fitted:
-        line = np.geomspace(x.min() / 1.3, x.max() * 1.3, 200)
+        line = np.geomspace(x.min(), x.max(), 200)
         axis.plot(line, stats.norm.cdf(np.log(line / fitted[0]) / fitted[1]), color=colour, lw=1.5)
 
 
@@ -118,9 +127,8 @@ def main():
     plot(table, options.snow, options.to / "fragility.png")
     for house in options.houses.split(","):
         for snow in options.snow:
-            fitted = fit([point for point in table if point["house"] == house and point["snow_m"] == snow])
-            words = f"half of the runs collapse at {fitted[0]:.2f} times the motion, spread {fitted[1]:.2f}" if fitted else "no curve"
-            print(f"house {house}, {snow:g} m of snow: {words}")
+            curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
+            print(f"house {house}, {snow:g} m of snow: {half(curve)}")
     sys.exit(any(point["failed"] for point in table))
 
 

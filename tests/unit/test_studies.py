@@ -40,6 +40,14 @@ def test_fit_finds_the_curve_it_was_made_from():
     assert study_fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    "collapsed, words",
+    [((0, 0, 0), "none collapses"), ((5, 5, 5), "all collapse"), ((0, 0, 1), "fewer than half collapse up to 2"), ((4, 5, 5), "more than half collapse from 0.5 on"), ((0, 2, 5), "half collapse at 1.0")],
+)
+def test_words_keep_to_what_was_tried(collapsed, words):
+    assert study_fragility.half([{"scale": s, "runs": 5, "collapsed": c} for s, c in zip((0.5, 1.0, 2.0), collapsed)]).startswith(words)
+
+
 def test_fit_says_nothing_where_there_is_nothing():
     assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 0} for s in (0.5, 1.0)]) is None
     assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 5} for s in (0.5, 1.0)]) is None
