@@ -99,7 +99,7 @@ def in_other_process(threads, duration=DURATION):
 
 @case
 def one_thread_or_two(duration=DURATION):
-    """Pairs are summed in the order of their ids: not a bit depends on the number of threads."""
+    """Sums go island by island in the order of ids: not a bit depends on the number of threads. (test_run.py compares a whole house.)"""
     (few, one), (many, two) = in_other_process(1, duration), in_other_process(2, duration)
     return [
         Row("8", "threads of the second run [-]", 2 * few, many, bound=0),
