@@ -15,8 +15,8 @@ from yade_timber import campaign, claims
 GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "paper_runs.json"
 LEFT_OUT = ("wall_s", "real_time_factor", "threads")
 """Differ from machine to machine."""
-DRIFT_RTOL = 0.05
-"""Of peak drifts of runs in which no spring breaks: other compilers round differently, and what rocks and bounces lets it grow. Observed on one machine: 0."""
+STILL_ATOL = 1e-3
+"""Of peak drifts of runs that stand still [-]. Shaken houses rock and slam: there a change of 1e-13 m in the vertices changed peak drifts by up to 55 %."""
 
 
 @pytest.fixture(scope="module")
@@ -49,18 +49,17 @@ def write(found):
 
 @pytest.mark.parametrize("name", claims.RUNS)
 def test_fate(name, runs, golden):
-    """Collapse or not, and the direction of the tilt: what a chaotic fall keeps."""
-    assert [runs[name][key] for key in ("collapsed", "tilt_direction")] == [golden[name][key] for key in ("collapsed", "tilt_direction")]
+    """Collapse or not, and its direction: what a chaotic fall keeps."""
+    assert runs[name]["collapsed"] == golden[name]["collapsed"]
+    assert not golden[name]["collapsed"] or runs[name]["tilt_direction"] == golden[name]["tilt_direction"]
 
 
-@pytest.mark.parametrize("name", claims.RUNS)
+@pytest.mark.parametrize("name", [run for run in claims.RUNS if not claims.loads(run)[1]])
 def test_drift(name, runs, golden):
-    """Peak drifts of runs without a break."""
-    if golden[name]["broken"]["springs"] or golden[name]["collapsed"]:
-        pytest.skip("joints break: after that, runs part ways")
+    """Peak drifts of the runs without an earthquake."""
     for storey, ways in golden[name]["peak_drift"].items():
         for way, value in ways.items():
-            assert runs[name]["peak_drift"][storey][way] == pytest.approx(value, rel=DRIFT_RTOL, abs=1e-4)
+            assert runs[name]["peak_drift"][storey][way] == pytest.approx(value, abs=STILL_ATOL)
 
 
 def test_claims(runs, golden):
