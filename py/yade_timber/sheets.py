@@ -64,7 +64,7 @@ def sheet(frames, view, form):
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, frames, view.title)
-    legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=int(0.86 * form.width))
+    legend(figure, start, {m.state for p in panels for m in p.marks}, 8, columns=int(0.6 * form.width))
     return figure
 
 
