@@ -259,9 +259,10 @@ int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 {
 	findIslands(bodies);
 	awake.assign(bodies.size(), 0);
-	int done = 0;
 	const int count = int(islandCount());
-#pragma omp parallel for schedule(dynamic) reduction(max : done) if (count > 1)
+	if (count == 1) return solveIsland(bodies, island(0), tolerance); // a parallel region costs as much as a contact, even on one thread
+	int done = 0;
+#pragma omp parallel for schedule(dynamic) reduction(max : done)
 	for (int k = 0; k < count; ++k)
 		done = std::max(done, solveIsland(bodies, island(k), tolerance));
 	return done;
