@@ -82,3 +82,12 @@ def write_section(folder, name, text):
     kept = dict(re.findall(r"<!-- (\w+) -->\n(.*?)<!-- /\1 -->\n", old, re.S))
     kept[name] = f"{text.strip()}\n"
     write_text(page, HEAD + "".join(f"\n<!-- {key} -->\n{kept[key]}<!-- /{key} -->\n" for key in SECTIONS if key in kept))
+
+
+def publish(folder, name, text, heads, rows):
+    """Print a section; with a folder, write it to the results page there and its rows to NAME.csv."""
+    print(text)
+    if folder:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_csv(folder / f"{name}.csv", heads, rows)
+        write_section(folder, name, text)

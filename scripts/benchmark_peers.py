@@ -21,7 +21,7 @@ ROOT = Path(sys.argv[0]).resolve().parent.parent  # YADE runs a script without s
 sys.path.insert(0, str(ROOT / "scripts"))
 
 import yade_timber as yt  # noqa: E402
-from bench_tools import cpu_per_step, interleaved, machine, markdown_table, write_csv, write_section  # noqa: E402
+from bench_tools import cpu_per_step, interleaved, machine, markdown_table, publish  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
 
 O = yw.Omega()
@@ -171,12 +171,7 @@ A depth error of Polyhedra is that of its equivalent depth, the cube root of the
 def main():
     options = arguments()
     rows = yade_rows(options) + kernel_rows(options.repetitions)
-    text = section(rows)
-    print(text)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        write_csv(options.out / "peers.csv", HEADS, rows)
-        write_section(options.out, "peers", text)
+    publish(options.out, "peers", section(rows), HEADS, rows)
 
 
 main()

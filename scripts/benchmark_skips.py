@@ -17,7 +17,7 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import machine, markdown_table, write_csv, write_section  # noqa: E402
+from bench_tools import machine, markdown_table, publish  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 
@@ -117,12 +117,7 @@ def section(options, rows):
 def main():
     options = arguments()
     rows = [measure(words, build, options) for words, build in CASES.items()]
-    text = section(options, rows)
-    print(text)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        write_csv(options.out / "skips.csv", HEADS, rows)
-        write_section(options.out, "skips", text)
+    publish(options.out, "skips", section(options, rows), HEADS, rows)
 
 
 main()

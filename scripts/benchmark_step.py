@@ -14,7 +14,7 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import cpu_per_step, interleaved, machine, markdown_table, wall_per_step, write_csv, write_section  # noqa: E402
+from bench_tools import cpu_per_step, interleaved, machine, markdown_table, publish, wall_per_step  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 
@@ -119,12 +119,7 @@ def section(options, rows):
 def main():
     options = arguments()
     rows = [measure(options, name, start) for name, start in STATES.items()]
-    text = section(options, rows)
-    print(text)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        write_csv(options.out / "step.csv", HEADS, rows)
-        write_section(options.out, "step", text)
+    publish(options.out, "step", section(options, rows), HEADS, rows)
 
 
 main()

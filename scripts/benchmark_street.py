@@ -18,7 +18,7 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, cpu_per_step, interleaved, machine, markdown_table, resident_memory, wall_per_step, write_csv, write_section  # noqa: E402
+from bench_tools import BARE_MEMORY, cpu_per_step, interleaved, machine, markdown_table, publish, resident_memory, wall_per_step  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
@@ -151,12 +151,7 @@ def main():
         print(json.dumps(single(options)), flush=True)
         return
     found = measure_all(options)
-    text = section(found, options.rounds)
-    print(text)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        write_csv(options.out / "street.csv", HEADS, [row(m) for m in found])
-        write_section(options.out, "street", text)
+    publish(options.out, "street", section(found, options.rounds), HEADS, [row(m) for m in found])
 
 
 main()

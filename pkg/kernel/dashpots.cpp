@@ -87,14 +87,14 @@ Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce)
 void DashpotSolver::clear(int mostSweeps)
 {
 	sweeps = mostSweeps;
-	rows.clear();
 	pairs.clear();
 }
 
 void DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
-	pairs.push_back({ bodyA, bodyB, rows.size(), count, 0 });
-	rows.resize(rows.size() + count);
+	const size_t first = pairs.empty() ? 0 : pairs.back().first + pairs.back().count;
+	pairs.push_back({ bodyA, bodyB, first, count, 0 });
+	if (rows.size() < first + count) rows.resize(first + count); // rows of the last step are overwritten by set()
 }
 
 void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)

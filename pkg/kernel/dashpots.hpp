@@ -82,15 +82,14 @@ public:
 	/// Row k from a point of a step of length h [s]; finds the point's response if it is not known. May be called by several
 	/// threads, each with rows of its own.
 	void set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& point, double h);
-	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body has just been changed; a pair
-	/// whose impulses change by less than `tolerance` of the root mean square of the island's points [-] changes nobody. Few
-	/// fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
+	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
+	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
+	/// points [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
 	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
 	const Row& row(size_t k) const { return rows[k]; }
-	size_t rowCount() const { return rows.size(); }
 	size_t islandCount() const { return islandStarts.empty() ? 0 : islandStarts.size() - 1; }
 	Island island(size_t k) const { return { order.data() + islandStarts[k], order.data() + islandStarts[k + 1] }; }
 
