@@ -5,8 +5,9 @@
     scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-each,flush-off] [--runs modelA_snow,...] [--dt S]
         [--record PREFIX | --seed N] [--scale X] [--start S] [--end S] [--duration S]
 
-Readings differ from the shipped houses in one thing each. What has been done is not done again. Writes sensitivity.md,
-and the tables of each reading in its folder. Needs no YADE itself.
+Readings differ from the shipped houses in one thing each; runs of houses that a reading does not change are those of the
+shipped case. What has been done is not done again. Writes sensitivity.md, and the tables of each reading in its folder.
+Needs no YADE itself.
 """
 import argparse
 import sys
@@ -16,16 +17,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber import campaign, claims_table  # noqa: E402
 from yade_timber.claims import RUNS, loads  # noqa: E402
-from yade_timber.readings import READINGS, house_options  # noqa: E402
+from yade_timber.readings import READINGS, changes, house_options  # noqa: E402
 
 
-def tasks_of(reading, folder, runs, options):
-    """Tasks of a reading: each run with a house file that differs from the shipped one in that reading."""
-    return [campaign.Task("house", folder / run, task_options(reading, run, folder, options)) for run in runs]
+def tasks_of(name, folder, runs, options):
+    """Tasks of a reading, each with a house file of its own; houses that it does not change are those of the shipped case."""
+    return [task_of(name if changes(READINGS[name], loads(run)[0]) else "shipped", run, folder, options) for run in runs]
 
 
-def task_options(reading, run, folder, options):
-    return (*house_options(reading, run, folder / "houses"), *campaign.handed_on(options, earthquake=loads(run)[1]))
+def task_of(name, run, folder, options):
+    words = (*house_options(READINGS[name], run, folder / name / "houses"), *campaign.handed_on(options, earthquake=loads(run)[1]))
+    return campaign.Task("house", folder / name / run, words)
 
 
 def main():
@@ -36,7 +38,7 @@ def main():
     options = parser.parse_args()
     readings = campaign.chosen(options.only, READINGS, "--only")
     runs = campaign.chosen(options.runs, RUNS, "--runs")
-    tasks = {name: tasks_of(READINGS[name], options.out / name, runs, options) for name in readings}
+    tasks = {name: tasks_of(name, options.out, runs, options) for name in readings}
     claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
 
 

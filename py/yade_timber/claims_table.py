@@ -3,11 +3,14 @@
 import csv
 import io
 import json
+import statistics
 
 from . import campaign
 from .claims import RUNS, damage, drift_text, judge, leaning, time_text
 from .files import write_text
 
+MIDDLE = "middle"
+"""Name of the case that is the middle of others."""
 WORDS = {True: "holds", False: "does not hold", None: "not known"}
 RUN_COLUMNS = ("run", "fate", "leans from", "tilt (1/10)", "collapse", "peak drift 1 N-S", "1 E-W", "2 N-S", "2 E-W", "residual 1", "residual 2",
                "springs broken", "joints broken", "column-beam", "brace-beam", "storey 1", "storey 2", "north", "south", "east", "west",
@@ -55,7 +58,7 @@ def compare(words, results):
     signs = {True: "x", False: "-", None: ""}
     names = [r.name for r in next(iter(results.values()))]
     rows = [(case, words[case], sum(r.holds is True for r in found), *(signs[r.holds] for r in found)) for case, found in results.items()]
-    known = [[r.holds for r in same if r.holds is not None] for same in zip(*results.values())]
+    known = [[r.holds for r in same if r.holds is not None] for same in zip(*(found for case, found in results.items() if case != MIDDLE))]
     rows.append(("all", "cases in which it holds, of those that ran", "", *(f"{sum(holds)}/{len(holds)}" for holds in known)))
     return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *table(("case", "what", "hold", *names), rows)]) + "\n"
 
@@ -84,13 +87,34 @@ def write(folder, results, summaries):
     return [folder / name for name in contents]
 
 
-def study(words, tasks, jobs, folder, name):
-    """Do the runs of a study, print and write its table and those of each case. words: {case: what it is}; tasks: {case: list of Task}."""
+def middle(values):
+    """What is in the middle of the same part of several summaries: of tables entry by entry, of numbers their median, of all else what most of them have."""
+    if all(isinstance(value, dict) for value in values):
+        return {key: middle([value[key] for value in values]) for key in values[0] if all(key in value for value in values)}
+    numbers = [value for value in values if isinstance(value, (int, float)) and not isinstance(value, bool)]
+    return statistics.median(numbers) if 2 * len(numbers) > len(values) else max(values, key=values.count)
+
+
+def middles(found):
+    """{run: middle of its summaries}, of the runs that all of these cases have. found: list of {run: summary}."""
+    return {run: middle([some[run] for some in found]) for run in RUNS if all(run in some for some in found)}
+
+
+def study(words, tasks, jobs, folder, name, together=()):
+    """Do the runs of a study, print and write its table and those of each case.
+
+    words    {case: what it is}
+    tasks    {case: list of Task}
+    together cases whose middle is judged, too, as the case MIDDLE
+    """
     done = campaign.run_missing(list(dict.fromkeys(task for some in tasks.values() for task in some)), jobs)
     found = {case: {task.folder.name: done[task] for task in some if done[task] is not None} for case, some in tasks.items()}
-    text = compare(words, {case: judge(summaries) for case, summaries in found.items()})
+    if together:
+        found[MIDDLE] = middles([found[case] for case in together])
+    results = {case: judge(summaries) for case, summaries in found.items()}
+    text = compare({**words, MIDDLE: f"middle of {', '.join(together)}: medians, and the fate that most have"}, results)
     print(text)
     write_text(folder / name, text)
     for case, summaries in found.items():
         (folder / case).mkdir(parents=True, exist_ok=True)
-        write(folder / case, judge(summaries), summaries)
+        write(folder / case, results[case], summaries)

@@ -4,6 +4,7 @@
 import argparse
 import copy
 import json
+import runpy
 import sys
 
 import pytest
@@ -150,3 +151,18 @@ def test_motions_are_handed_only_to_shaken_runs():
     given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
     assert campaign.handed_on(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
     assert campaign.handed_on(given, earthquake=False) == ("--dt", 1e-4)
+
+
+def test_middle_of_summaries():
+    runs = [summary("A", sway_ns=sway, collapse=fall, leans=fall and fall - 4, direction=way) for sway, fall, way in ((0.1, 24.0, "ns"), (0.3, None, None), (0.2, 26.0, "ns"))]
+    found = claims_table.middles([{"modelA_quake": run} for run in runs])["modelA_quake"]
+    assert found["collapsed"] is True and found["collapse_time_s"] == 25.0 and found["tilt_direction"] == "ns"
+    assert found["peak_drift"]["storey1"]["ns"] == 0.2 and found["model"] == "A"
+    assert claims_table.middles([{"modelA_quake": runs[0]}, {}]) == {}, "a run that a case lacks has no middle"
+
+
+def test_houses_that_a_reading_leaves_alone_are_not_run_again(tmp_path):
+    tasks_of = runpy.run_path(str(campaign.SCRIPTS / "sensitivity_study.py"))["tasks_of"]
+    tasks = {task.folder.name: task for task in tasks_of("braces-inwards", tmp_path, claims.RUNS, argparse.Namespace())}
+    assert {name for name, task in tasks.items() if task.folder.parent.name == "braces-inwards"} == {name for name in tasks if name.startswith("modelB")}
+    assert tasks["modelA_quake"].folder == tmp_path / "shipped" / "modelA_quake"
