@@ -17,13 +17,33 @@ namespace {
 		        , out(o)
 		        , turn(candidateSkin / c.region)
 		{
+			out.clear();
 			for (const Vec3& v : p.a.core.vertices)
-				verticesA.push_back(p.toB(v));
-			for (const Vec3& v : p.b.core.vertices)
-				verticesB.push_back(p.toA(v));
-			faces();
-			edges();
-			if (p.patterns.vertexEdge) ignoredPatterns();
+				verticesA.push_back({ p.toB(v), motionAt(v) });
+			for (const Vec3& v : p.b.core.vertices) {
+				const Vec3 x = p.toA(v);
+				verticesB.push_back({ x, motionAt(x) });
+			}
+			for (const Edge& e : p.b.core.edges)
+				edgesB.push_back({ p.rotation * e.along, p.rotation * e.outward });
+		}
+		void faces()
+		{
+			const Polyhedron &a = pair.a.core, &b = pair.b.core;
+			for (size_t v = 0; v < a.vertices.size(); ++v)
+				for (size_t f = 0; f < b.faces.size(); ++f)
+					vertexFace({ Meeting::VertexFace, int(v), int(f) }, verticesA[v], b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
+			for (size_t f = 0; f < a.faces.size(); ++f)
+				for (size_t v = 0; v < b.vertices.size(); ++v)
+					vertexFace({ Meeting::FaceVertex, int(f), int(v) }, verticesB[v], a.faces[f], pair.a.coreHalfThickness, verticesB[v].place);
+		}
+		void othersThanFaces()
+		{
+			const Polyhedron &a = pair.a.core, &b = pair.b.core;
+			for (size_t ea = 0; ea < a.edges.size(); ++ea)
+				for (size_t eb = 0; eb < b.edges.size(); ++eb)
+					edgeEdge({ Meeting::EdgeEdge, int(ea), int(eb) }, a.edges[ea], b.edges[eb], edgesB[eb]);
+			if (pair.patterns.vertexEdge) ignoredPatterns();
 		}
 
 	private:
@@ -31,7 +51,15 @@ namespace {
 		const CandidateCache& cache;
 		std::vector<FeatureId>& out;
 		const double turn; ///< largest turn while the cache holds [rad]
-		std::vector<Vec3> verticesA, verticesB; ///< each in the other's frame
+		struct Vertex {
+			Vec3 place; ///< in the other's frame
+			double motion; ///< motionAt() there [m]
+		};
+		std::vector<Vertex> verticesA, verticesB;
+		struct Turned {
+			Vec3 along, outward; ///< frame of A
+		};
+		std::vector<Turned> edgesB;
 
 		/// Bound of the relative motion near x (frame of A) while the cache holds. [m]
 		double motionAt(const Vec3& x) const { return candidateSkin * std::max(1., (x - cache.centre).norm() / cache.region); }
@@ -43,50 +71,34 @@ namespace {
 			coresMayMeet = coresMayMeet || coresMeet;
 		}
 
-		void faces()
+		void vertexFace(FeatureId id, const Vertex& x, const Face& face, double depth, const Vec3& place)
 		{
-			const Polyhedron &a = pair.a.core, &b = pair.b.core;
-			for (size_t v = 0; v < a.vertices.size(); ++v)
-				for (size_t f = 0; f < b.faces.size(); ++f)
-					vertexFace({ Meeting::VertexFace, int(v), int(f) }, verticesA[v], b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
-			for (size_t f = 0; f < a.faces.size(); ++f)
-				for (size_t v = 0; v < b.vertices.size(); ++v)
-					vertexFace({ Meeting::FaceVertex, int(f), int(v) }, verticesB[v], a.faces[f], pair.a.coreHalfThickness, verticesB[v]);
-		}
-		void vertexFace(FeatureId id, const Vec3& x, const Face& face, double depth, const Vec3& place)
-		{
-			const double motion = motionAt(place), h = height(face.plane, x);
-			if (h <= pair.touch() + motion && h >= -depth - motion && isOverFace(face, x, flushTolerance + motion)) add(id, place, h <= motion);
+			const double h = height(face.plane, x.place);
+			if (h <= pair.touch() + x.motion && h >= -depth - x.motion && isOverFace(face, x.place, flushTolerance + x.motion)) add(id, place, h <= x.motion);
 		}
 
-		void edges()
+		void edgeEdge(FeatureId id, const Edge& ea, const Edge& eb, const Turned& turnedB)
 		{
-			const Polyhedron &a = pair.a.core, &b = pair.b.core;
-			for (size_t ea = 0; ea < a.edges.size(); ++ea)
-				for (size_t eb = 0; eb < b.edges.size(); ++eb)
-					edgeEdge({ Meeting::EdgeEdge, int(ea), int(eb) }, a.edges[ea], b.edges[eb]);
-		}
-		void edgeEdge(FeatureId id, const Edge& ea, const Edge& eb)
-		{
-			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &tailB = verticesB[eb.tail];
-			const Vec3 alongB = pair.rotation * eb.along;
-			const Crossing c = crossing(tailA, ea.along, tailB, alongB);
-			if (c.sine < steadySine) return nearlyParallel(id, ea, tailA, eb, tailB, alongB, c.sine);
+			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &tailB = verticesB[eb.tail].place;
+			const Crossing c = crossing(tailA, ea.along, tailB, turnedB.along);
+			if (c.sine < steadySine) return nearlyParallel(id, ea, eb, c.sine);
 			const Vec3 place = tailA + c.alongA * ea.along;
 			const double motion = motionAt(place), range = std::max(pair.touch(), pair.depthLimit()) + motion;
 			const double slack = 3 * (motion + range * turn) / c.sine;
 			if (c.alongA < -slack || c.alongA > ea.length + slack || c.alongB < -slack || c.alongB > eb.length + slack) return;
 			const double distance = std::abs(c.across.dot(tailB - tailA));
-			const bool mayFace = c.across.dot(ea.outward) * c.across.dot(pair.rotation * eb.outward) <= 3 * turn / c.sine;
+			const bool mayFace = c.across.dot(ea.outward) * c.across.dot(turnedB.outward) <= 3 * turn / c.sine;
 			if (distance <= range && mayFace) add(id, place, distance <= motion);
 		}
-		void nearlyParallel(FeatureId id, const Edge& ea, const Vec3& tailA, const Edge& eb, const Vec3& tailB, const Vec3& alongB, double sine)
+		void nearlyParallel(FeatureId id, const Edge& ea, const Edge& eb, double sine)
 		{
 			if (sine + turn < parallelSine) return;
-			const Vec3 spanA = ea.length * ea.along, spanB = eb.length * alongB;
-			const double motion = std::min(std::max(motionAt(tailA), motionAt(tailA + spanA)), std::max(motionAt(tailB), motionAt(tailB + spanB)));
-			const double range = std::max(pair.touch(), pair.depthLimit()) * (1 + turn) + motion, distance = segmentDistance(tailA, spanA, tailB, spanB);
-			const Vec3 place = ea.length < eb.length ? Vec3(tailA + spanA / 2) : Vec3(tailB + spanB / 2);
+			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &headA = pair.a.core.vertices[ea.head];
+			const Vertex &tailB = verticesB[eb.tail], &headB = verticesB[eb.head];
+			const double motion = std::min(std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion), std::max(tailB.motion, headB.motion));
+			const double range = std::max(pair.touch(), pair.depthLimit()) * (1 + turn) + motion;
+			const double distance = segmentDistance(tailA, headA - tailA, tailB.place, headB.place - tailB.place);
+			const Vec3 place = ea.length < eb.length ? Vec3((tailA + headA) / 2) : Vec3((tailB.place + headB.place) / 2);
 			if (distance <= range) add(id, place, distance <= motion);
 		}
 
@@ -95,13 +107,13 @@ namespace {
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t e = 0; e < b.edges.size(); ++e)
-					vertexEdge({ Meeting::VertexEdge, int(v), int(e) }, verticesA[v], b, b.edges[e], a.vertices[v]);
+					vertexEdge({ Meeting::VertexEdge, int(v), int(e) }, verticesA[v].place, b, b.edges[e], a.vertices[v]);
 			for (size_t e = 0; e < a.edges.size(); ++e)
 				for (size_t v = 0; v < b.vertices.size(); ++v)
-					vertexEdge({ Meeting::EdgeVertex, int(e), int(v) }, verticesB[v], a, a.edges[e], verticesB[v]);
+					vertexEdge({ Meeting::EdgeVertex, int(e), int(v) }, verticesB[v].place, a, a.edges[e], verticesB[v].place);
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t w = 0; w < verticesB.size(); ++w)
-					within({ Meeting::VertexVertex, int(v), int(w) }, (verticesB[w] - a.vertices[v]).norm(), a.vertices[v]);
+					within({ Meeting::VertexVertex, int(v), int(w) }, (verticesB[w].place - a.vertices[v]).norm(), a.vertices[v]);
 		}
 		void vertexEdge(FeatureId id, const Vec3& x, const Polyhedron& body, const Edge& edge, const Vec3& place)
 		{
@@ -147,11 +159,15 @@ void searchCandidates(const Pair& pair, CandidateCache& cache)
 	cache.coresMayMeet = gap <= candidateSkin;
 	centreOnSmallerBody(pair, cache);
 	if (gap < pair.touch() + 2 * candidateSkin) {
-		const std::vector<Vec3> places = Search(pair, cache, cache.candidates).places;
-		if (!places.empty()) {
-			centreOn(places, pair.touch(), cache);
-			cache.candidates.clear();
-			cache.coresMayMeet = Search(pair, cache, cache.candidates).coresMayMeet || cache.coresMayMeet;
+		Search rough(pair, cache, cache.candidates); // finds where the features meet; faces alone tell it, if any do
+		rough.faces();
+		if (rough.places.empty()) rough.othersThanFaces();
+		if (!rough.places.empty()) {
+			centreOn(rough.places, pair.touch(), cache);
+			Search whole(pair, cache, cache.candidates);
+			whole.faces();
+			whole.othersThanFaces();
+			cache.coresMayMeet = whole.coresMayMeet || cache.coresMayMeet;
 		}
 	}
 	cache.centreB = pair.toB(cache.centre);

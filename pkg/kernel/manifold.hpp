@@ -53,8 +53,8 @@ struct Patterns {
 /// Holds no result: an empty cache gives the same manifold.
 struct CandidateCache {
 	std::vector<FeatureId> candidates;
-	Mat3 rotation; ///< of B in the frame of A, at the search
-	Vec3 centre = Vec3::Zero(), centreB; ///< in the frames of A and B [m]
+	Mat3 rotation = Mat3::Identity(); ///< of B in the frame of A, at the search
+	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< in the frames of A and B [m]
 	double region = 0; ///< [m]
 	double margin = -1; ///< [m]; < 0: never searched
 	bool coresMayMeet = false; ///< cores may overlap within the margin
