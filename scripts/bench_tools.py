@@ -26,7 +26,7 @@ O = yw.Omega()
 
 PAGE = "performance.md"
 HEAD = "# Performance\n\nMade by `scripts/benchmark_*.py`, each of which rewrites its own section.\n"
-SECTIONS = ("step", "skips", "peers", "street", "precision")
+SECTIONS = ("step", "profile", "skips", "peers", "street", "precision")
 """Order on the page."""
 
 

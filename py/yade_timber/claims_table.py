@@ -88,11 +88,13 @@ def write(folder, results, summaries):
 
 
 def middle(values):
-    """What is in the middle of the same part of several summaries: of tables entry by entry, of numbers their median, of all else what most of them have."""
+    """What is in the middle of the same part of several summaries: of tables entry by entry, of numbers their median (of counts the lower one), of all else what most of them have."""
     if all(isinstance(value, dict) for value in values):
         return {key: middle([value[key] for value in values]) for key in values[0] if all(key in value for value in values)}
     numbers = [value for value in values if isinstance(value, (int, float)) and not isinstance(value, bool)]
-    return statistics.median(numbers) if 2 * len(numbers) > len(values) else max(values, key=values.count)
+    if 2 * len(numbers) <= len(values):
+        return max(values, key=values.count)
+    return statistics.median_low(numbers) if all(isinstance(number, int) for number in numbers) else statistics.median(numbers)
 
 
 def middles(found):
