@@ -264,6 +264,9 @@ def section(rows, stable, options):
 
 def main():
     options = arguments()
+    for dt in options.steps:
+        if abs(SAMPLE / dt - round(SAMPLE / dt)) > 1e-6:
+            sys.exit(f"error: --steps {dt:g}: must divide {SAMPLE:g} s, the time between samples")
     rows = [row for case in options.cases for row in study(case, options)]
     stable = [] if options.no_limits else limit_rows()
     options.out.mkdir(parents=True, exist_ok=True)

@@ -131,7 +131,7 @@ def section(found, rounds):
     one = {m["houses"]: m for m in found if m["threads"] == 1}
     shown = []
     for m in found:
-        base, same = one.get(min(one)), one.get(m["houses"])
+        base, same = one.get(min(one, default=None)), one.get(m["houses"])
         share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if m["threads"] == 1 else None
         speed_up = same["wall"] / m["wall"] if same and m["threads"] > 1 else None
         cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}", f"{m['cpu'] * 1e6 / m['elements']:.2f}"]

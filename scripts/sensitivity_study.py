@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What each reading of the paper's open choices does to its claims: the fourteen runs for every reading in READINGS.
 
-    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-each,flush-off] [--runs modelA_snow,...] [--dt S]
+    scripts/sensitivity_study.py [--out results/sensitivity] [--jobs 2] [--only joint-whole,flush-off] [--runs modelA_snow,...] [--dt S]
         [--record PREFIX | --seed N] [--scale X] [--start S] [--end S] [--duration S]
 
 Readings differ from the shipped houses in one thing each; runs of houses that a reading does not change are those of the
@@ -39,8 +39,8 @@ def main():
     readings = campaign.chosen(options.only, READINGS, "--only")
     runs = campaign.chosen(options.runs, RUNS, "--runs")
     tasks = {name: tasks_of(name, options.out, runs, options) for name in readings}
-    claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
+    return claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

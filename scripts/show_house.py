@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
 
-from yade_timber import drawings  # noqa: E402
+from yade_timber import drawings, sheets  # noqa: E402
 from yade_timber.house import HouseError, build_house, load_house  # noqa: E402
 
 
@@ -28,9 +28,9 @@ def main():
     except HouseError as problem:
         sys.exit(str(problem))
     print(json.dumps(model.counts(), indent=2))
-    out = options.out or Path(f"house_{model.name}.png")
+    out = sheets.stem_of(options.out) if options.out else Path(f"house_{model.name}")
     try:
-        written = drawings.write(out.with_suffix(""), model)
+        written = drawings.write(out, model)
     except OSError as problem:
         sys.exit(f"error: {out}: cannot be written ({problem.strerror})")
     print("written: " + ", ".join(map(str, written)))

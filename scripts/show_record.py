@@ -15,7 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
 
 from yade_timber import motion as gm  # noqa: E402
-from yade_timber import record_plot  # noqa: E402
+from yade_timber import record_plot, sheets  # noqa: E402
 
 
 def print_measures(motion, corner):
@@ -46,6 +46,8 @@ def arguments():
     parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD are taken [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=Path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     options = parser.parse_args()
+    if options.record and options.positional:
+        parser.error("RECORD and --record are the same: give one")
     options.record = options.record or options.positional
     return options
 
@@ -57,8 +59,8 @@ def main():
         request = gm.motion_request(options)
         motion = gm.scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
-        out = options.out or Path(f"{motion.name}.png")
-        written = record_plot.write(out.with_suffix(""), motion, corner)
+        out = sheets.stem_of(options.out) if options.out else Path(motion.name)
+        written = record_plot.write(out, motion, corner)
     except gm.RecordError as error:
         sys.exit(f"error: {error}")
     except OSError as error:

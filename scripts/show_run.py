@@ -14,14 +14,14 @@ from yade_timber.errors import RunError  # noqa: E402
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path, nargs="+", help="folder of a run's results (it holds frames.h5)")
-    parser.add_argument("--out", type=Path, help="folder of the pictures (default: beside the frames)")
+    parser.add_argument("--out", type=Path, help="folder of the pictures, or of a folder for each of several runs (default: beside the frames)")
     return parser.parse_args()
 
 
 def main():
     options = arguments()
     for folder in options.folder:
-        out = options.out or folder
+        out = folder if options.out is None else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
         try:
             out.mkdir(parents=True, exist_ok=True)
             written = pictures.write(out, folder)

@@ -12,7 +12,7 @@ import sys
 from statistics import mean
 
 import matplotlib.pyplot as plt
-from study_common import BLUE, GREY, ORANGE, parser, run_all, save, write_table
+from study_common import BLUE, GREY, ORANGE, house_name, parser, run_all, save, write_table
 
 from yade_timber.house import HouseError, brace_parts, build_house, free_bays, load_house
 
@@ -24,7 +24,7 @@ SHOWN, NUMBERED = 24, 5
 
 def arguments():
     made = parser(__doc__, "study_brace")
-    made.add_argument("--house", default="B", help="shipped house or house file (default %(default)s)")
+    made.add_argument("--house", default="B", type=house_name, help="shipped house or house file (default %(default)s)")
     made.add_argument("--scale", type=float, default=1.0, help="factor on the motion (default %(default)g)")
     made.add_argument("--snow", type=float, default=0.0, help="depth of snow [m] (default %(default)g)")
     made.add_argument("--seeds", default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
@@ -79,7 +79,7 @@ def plot(table, without, options, path):
     fallen = "; black: the house collapses" if any(row["collapses"] for row in table) else ""
     figure.colorbar(colours, ax=axes[1:], orientation="horizontal", shrink=0.6, label=f"change of the largest storey drift by one more brace there [%]{fallen}")
     snow = f", {options.snow:g} m of snow" if options.snow else ""
-    figure.suptitle(f"House {model.name}: one more brace, {options.scale:g} times the synthetic motions {options.seeds}{snow}")
+    figure.suptitle(f"House {model.name}: one more brace; synthetic motions of seeds {options.seeds.replace(',', ', ')}, times {options.scale:g}{snow}")
     save(figure, path)
     plt.close(figure)
 
@@ -148,9 +148,11 @@ def main():
     main_house = next(iter(description.data["structures"]))
     words = [word for word in options.only.split(",") if word] or [""]
     bays = [bay for bay in free_bays(description) if bay.startswith(main_house) and any(word in bay for word in words)]
+    if not bays:
+        sys.exit(f"error: --only {options.only}: no free bay's name holds that" if options.only else f"error: {options.house}: no free bay")
     found = run_all(rows(options, bays), options)
-    if not bays or any(entry["status"] != "done" for entry in found if (entry["braces"], entry["set"]) == (None, None)):
-        sys.exit("error: nothing to compare: no free bay, or the house as it is did not run")
+    if any(entry["status"] != "done" for entry in found if (entry["braces"], entry["set"]) == (None, None)):
+        sys.exit("error: nothing to compare: the house as it is did not run")
     table, without = ranking(found)
     write_table(options.to / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])
     plot(table, without, options, options.to / "brace.png")

@@ -9,11 +9,12 @@ Writes fragility.csv (a row a point, with its binomial interval) and fragility.p
 """
 
 import sys
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy import optimize, stats
-from study_common import BLUE, GREEN, ORANGE, numbers, parser, run_all, save, write_table
+from study_common import BLUE, GREEN, ORANGE, house_name, numbers, parser, run_all, save, write_table
 
 SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
 """Factors on the motion that show each house's curve; others by --scales."""
@@ -35,7 +36,7 @@ def arguments():
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
     return [
-        {"house": house, "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
+        {"house": house_name(house), "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
         for house in options.houses.split(",")
         for snow in options.snow
         for scale in options.scales or SCALES.get(house, SCALES["B"])
@@ -48,7 +49,7 @@ def points(found):
     groups = {}
     for entry in found:
         groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
-    return [_point(*key, entries) for key, entries in groups.items()]
+    return [_point(Path(house).stem, snow, scale, entries) for (house, snow, scale), entries in groups.items()]
 
 
 def _point(house, snow, scale, entries):
@@ -82,7 +83,8 @@ def half(curve):
     """Words: at which strength half of the runs collapse. Nothing is said of strengths that were not tried."""
     fitted, scales = fit(curve), [point["scale"] for point in curve]
     if fitted is None:
-        return "none collapses" if not curve[0]["collapsed"] else "all collapse"
+        collapsed, runs = (sum(point[key] for point in curve) for key in ("collapsed", "runs"))
+        return "no run was done" if not runs else "all collapse" if collapsed else "none collapses"
     if fitted[0] > max(scales):
         return f"fewer than half collapse up to {max(scales):g}"
     return f"more than half collapse from {min(scales):g} on" if fitted[0] < min(scales) else f"half collapse at {fitted[0]:.2f}"

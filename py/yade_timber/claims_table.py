@@ -103,7 +103,7 @@ def middles(found):
 
 
 def study(words, tasks, jobs, folder, name, together=()):
-    """Do the runs of a study, print and write its table and those of each case.
+    """Do the runs of a study, print and write its table and those of each case; returns the exit status: 1 when runs failed.
 
     words    {case: what it is}
     tasks    {case: list of Task}
@@ -120,3 +120,4 @@ def study(words, tasks, jobs, folder, name, together=()):
     for case, summaries in found.items():
         (folder / case).mkdir(parents=True, exist_ok=True)
         write(folder / case, results[case], summaries)
+    return int(None in done.values())

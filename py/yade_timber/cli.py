@@ -32,6 +32,7 @@ class Output:
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
+    options: tuple = ()  # words of the command line that decide the result
 
 
 class _Parser(argparse.ArgumentParser):
@@ -66,22 +67,40 @@ def house_parser():
     return made
 
 
+OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "--no-views": 0, "--no-frames": 0, "--quiet": 0}
+"""Options that change nothing in a run, and how many values each has."""
+
+
+def decisive(words):
+    """Words of a command line that decide the result: all but OUTPUT_OPTIONS and their values."""
+    kept, skip = [], 0
+    for word in words:
+        option, given, _ = word.partition("=")
+        if skip:
+            skip -= 1
+        elif option in OUTPUT_OPTIONS:
+            skip = 0 if given else OUTPUT_OPTIONS[option]
+        else:
+            kept.append(word)
+    return tuple(kept)
+
+
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     given = parser(script).parse_args(_joined(argv[1:]))
-    return _run(given, script, house, earthquake, SNOW_DEPTH if snow else 0.0, "take a script of a run that has one")
+    return _run(given, script, house, earthquake, SNOW_DEPTH if snow else 0.0, "take a script of a run that has one", argv[1:])
 
 
 def read_house(argv):
     """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
     given = house_parser().parse_args(_joined(argv[1:]))
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
-    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None or given.seed is not None, depth, "add --quake or --record FILE")
+    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None or given.seed is not None, depth, "add --quake or --record FILE", argv[1:])
 
 
-def _run(given, name, house, earthquake, depth, remedy):
-    """(Scenario, Output) of a run called `name`. remedy: what to do when there is no earthquake to scale."""
+def _run(given, name, house, earthquake, depth, remedy, words):
+    """(Scenario, Output) of a run called `name`. remedy: what to do when there is no earthquake to scale; words: of the command line."""
     _check_numbers(given)
     request = motion_request(given)
     motion = _motion(request, earthquake, given.dt, remedy)
@@ -91,7 +110,7 @@ def _run(given, name, house, earthquake, depth, remedy):
     folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
     return scenario, Output(
-        folder, given.resume, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint
+        folder, given.resume, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint, decisive(words)
     )
 
 

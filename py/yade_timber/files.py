@@ -12,10 +12,21 @@ def written_whole(path):
     part = path.with_name(f".part-{path.name}")
     try:
         yield part
+        _to_disk(part)
         os.replace(part, path)
+        _to_disk(path.parent)
     except BaseException:
         part.unlink(missing_ok=True)
         raise
+
+
+def _to_disk(path):
+    """Has the system write a file, or the names in a folder, to the disk: a power cut keeps what comes later from overtaking it."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def write_text(path, text):

@@ -240,7 +240,7 @@ def load(path):
                 raise RunError(f"{path}: these are no recorded frames ({FORMAT})")
             return _load(file)
     except FileNotFoundError:
-        raise RunError(f"{path}: no such file; frames are recorded unless a run has --no-views") from None
+        raise RunError(f"{path}: no such file; frames are recorded unless a run has --no-frames, and not in batches") from None
     except (OSError, KeyError) as problem:
         raise RunError(f"{path}: cannot read the frames: {problem}") from None
 

@@ -17,6 +17,6 @@ def write(folder, results=None):
     written = sheets.write_end(folder / END, recorded)
     for view in VIEWS:
         written += sheets.write_sheet(folder / view.name, recorded, view)
-    if recorded.history:
+    if recorded.history and len(recorded.history[1]):
         written += plots.write(folder / CURVES, recorded)
     return written + [player.make((results or folder) / frames.NAME, folder / player.NAME)]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One page of curves for a run: ground motion, storey drifts, broken joints, energy balance. Needs no YADE."""
+from itertools import cycle
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -83,7 +85,7 @@ def draw_motion(axis, motion):
 def draw_drifts(axis, values, key, name):
     """Storey drifts in one direction with the lines that engineers know, as far as the drifts reach."""
     curves = [values[column] for column in values if column.startswith(f"drift_{key}")]
-    for k, (curve, (color, dashes)) in enumerate(zip(curves, STOREYS), 1):
+    for k, (curve, (color, dashes)) in enumerate(zip(curves, cycle(STOREYS)), 1):
         axis.plot(values["time [s]"], curve, color=color, ls=dashes, lw=0.9, label=f"storey {k}")
     reach = min(DRIFT_RANGE, max(1.2 * np.nanmax(np.abs(curves)), 1.25 * DRIFT_LINES[0][0]))
     for level, text in DRIFT_LINES:

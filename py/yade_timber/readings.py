@@ -3,15 +3,12 @@
 import copy
 import json
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import yaml
 
 from .claims import loads
 from .files import write_text
-from .house.reading import read_table
-
-HOUSES = Path(__file__).resolve().parent / "data" / "houses"
+from .house.reading import SHIPPED, read_table
 
 
 @dataclass(frozen=True)
@@ -47,7 +44,7 @@ def write_house(reading, run, folder):
     house, _, _ = loads(run)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"model{house}.yaml"
-    entries = {"extends": str(HOUSES / f"model{house}.yaml"), **reading.entries(house)}
+    entries = {"extends": str(SHIPPED / f"model{house}.yaml"), **reading.entries(house)}
     write_text(path, yaml.safe_dump(entries, sort_keys=False))
     return path
 
@@ -57,7 +54,7 @@ def write_house(reading, run, folder):
 
 def shipped(name="base"):
     """A shipped house file, with what it extends, as plain tables."""
-    return json.loads(json.dumps(read_table(HOUSES / f"{name}.yaml")))
+    return json.loads(json.dumps(read_table(SHIPPED / f"{name}.yaml")))
 
 
 def changes(reading, house):

@@ -23,6 +23,8 @@ RESIDUAL_WINDOW = 1.0
 """The residual drift is the mean over this last part of the run, about a period of the standing houses. [s]"""
 FALLEN = math.radians(45)
 """A column that is tilted by more has fallen. [rad]"""
+LEANING = 1 / 10
+"""A structure with a larger storey drift leans. [-]"""
 DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
 SUMMARY, HISTORY, BREAKS = "summary.json", "history.csv", "breaks.csv"
 
@@ -140,18 +142,30 @@ def leans_from(monitor):
     return next((row[0] for row in reversed(before) if row[place] * before[-1][place] <= 0), 0.0)
 
 
+def storey_moves(model, structure):
+    """How far the levels of a structure have moved since the start, from below, with the heights of their storeys: [((3,) mean [m], [m])]."""
+    bodies, moves = {body.shape.name: body for body in O.bodies}, {}
+    for element, level in level_marks(model, structure):
+        moves.setdefault(level, []).append(bodies[element.name].state.displ())
+    heights = {level: head - foot for level, (foot, head) in model.storey_levels[structure].items()}
+    return [(sum(found, Vector3.Zero) / len(found), heights[level]) for level, found in sorted(moves.items())]
+
+
 def fallen_structures(model):
     """Names of the structures of which a level lies lower than at the start by half its storey, as the scene is now."""
-    bodies = {body.shape.name: body for body in O.bodies}
-    fallen = []
-    for structure, storeys in model.storey_levels.items():
-        drops = {}
-        for element, level in level_marks(model, structure):
-            state = bodies[element.name].state
-            drops.setdefault(level, []).append(state.refPos[2] - state.pos[2])
-        if any(sum(d) / len(d) > (storeys[level][1] - storeys[level][0]) / 2 for level, d in drops.items()):
-            fallen.append(structure)
-    return fallen
+    return [name for name in model.storey_levels if any(-move[2] > height / 2 for move, height in storey_moves(model, name))]
+
+
+def drift_now(model, structure):
+    """Largest storey drift of a structure as the scene is now, resultant of N-S and E-W. [-]"""
+    moves = [(Vector3.Zero, 1.0), *storey_moves(model, structure)]
+    return max((math.hypot(above[0] - below[0], above[1] - below[1]) / height for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
+
+
+def leaning_structures(model):
+    """Names of the structures that have not fallen and lean by more than LEANING, as the scene is now. Not of the first: its drifts are given."""
+    fallen = fallen_structures(model)
+    return [name for name in list(model.storey_levels)[1:] if name not in fallen and drift_now(model, name) > LEANING]
 
 
 def energy_balance(terms):
@@ -233,6 +247,7 @@ def summary(scenario, model, wall_s):
         "collapsed": collapse is not None,
         "collapse_time_s": collapse,
         "fallen_structures": fallen_structures(model),
+        "leaning_structures": leaning_structures(model),
         "peak_drift": by_storey(monitor.peak),
         "residual_drift": by_storey(residual_drift(monitor)),
         "energy": energy_balance(scene.energy()),

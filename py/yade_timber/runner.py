@@ -16,6 +16,7 @@ from . import checkpoint, cli, frames, pictures, results, scene, viewer
 from .errors import RunError
 from .export import export_scene
 from .house import HouseError, build_house, load_house
+from .lock import locked
 from .motion import RecordError
 from .progress import Progress
 from .recorder import Recorder
@@ -44,13 +45,12 @@ class Run:
         self.last_saved = None  # step of the last checkpoint
         self.signal = None
         self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
-        cli.prepare_folder(output.folder)
         resumed = output.resume and self.checkpoint_path.exists()
         self._load() if resumed else self._start()
         skipper = scene.find_engine(yw.RestSkipper)
         if skipper:
             skipper.last = self.steps
-        if output.export:
+        if output.export and not resumed:
             self._export()
 
     # --- start --------------------------------------------------------------------------------------------------------
@@ -148,8 +148,10 @@ class Run:
         self.wall_s += time.perf_counter() - since
 
     def _checkpoint_due(self):
-        every = round(self.output.checkpoint_interval / self.scenario.dt)
-        return every > 0 and O.iter // every > (self.last_saved or 0) // every
+        if self.output.checkpoint_interval == 0:
+            return False
+        every = max(1, round(self.output.checkpoint_interval / self.scenario.dt))
+        return O.iter // every > (self.last_saved or 0) // every
 
     def save(self):
         """Save a checkpoint now, unless checkpoints are switched off. The frames go first: those after a checkpoint can be dropped."""
@@ -164,7 +166,7 @@ class Run:
     def write(self):
         """Write results and pictures of the scene as it is now, and say so."""
         folder = self.output.folder
-        found = results.summary(self.scenario, self.model, self.wall_s)
+        found = {**results.summary(self.scenario, self.model, self.wall_s), "options": list(self.output.options)}
         written = []
         if self.recorder:
             self.recorder.take(O.time, last=True)
@@ -243,14 +245,20 @@ def launch(read, argv=None):
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
     try:
-        run = Run(*read(sys.argv if argv is None else argv))
+        scenario, output = read(sys.argv if argv is None else argv)
         live = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
-        run.start() if live else run.complete()
+        cli.prepare_folder(output.folder)
+        with locked(output.folder) as free:
+            if not free:
+                raise RunError(f"{output.folder}: another process is computing a run there; wait for it, or choose another folder with --out")
+            run = Run(scenario, output)
+            run.start() if live else run.complete()
     except (RunError, RecordError, HouseError) as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
         number = stop.args[0]
-        leave(f"stopped at {O.time:.2f} s by {signal.Signals(number).name}; go on with --resume", 128 + number)
+        remedy = "go on with --resume" if output.checkpoint_interval > 0 else "nothing was saved (--checkpoint 0)"
+        leave(f"stopped at {O.time:.2f} s by {signal.Signals(number).name}; {remedy}", 128 + number)
     if live:
         print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results follow in {run.output.folder}")
     return run

@@ -116,9 +116,9 @@ def add_joints(model, ids):
 def level_marks(model, structure):
     """Bodies that mark the levels of a structure: [(element, level)]; level k is the top of storey k.
 
-    The floor where there is one, else the beams under the roof; in a structure without floors the roof itself, which moves as one.
+    The floor where there is one, else the beams under the roof, or the roof; in a structure without floors the roof itself, which moves as one.
     """
-    kinds = ("floor", "beam") if model.of_kind("floor", group=structure) else ("roof", "beam")
+    kinds = ("floor", "beam", "roof") if model.of_kind("floor", group=structure) else ("roof", "beam")
     marks = []
     for storey in sorted(model.storey_levels[structure]):
         levels = [[e for e in model.of_kind(kind, group=structure) if e.storey == storey] for kind in kinds]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheets of pictures of a run, made from its recorded frames: six moments in one view, and the end in two views. Needs no YADE."""
+import re
 from dataclasses import dataclass
 from textwrap import fill
 
@@ -75,15 +76,15 @@ def words(frames, moment):
 
 
 def layout(form, count, box):
-    """(columns, pixels per metre, a multiple of 2) that draws panels of `box` largest on the paper."""
+    """(columns, pixels per metre, a multiple of 2) that draws panels of `box` largest on the paper, with as few places empty as that allows."""
     width, height = box[1] - box[0], box[3] - box[2]
     found = []
     for columns in (1, 2, 3):
         rows = -(-count // columns)
         across = (form.width - 2 * EDGE - (columns - 1) * GAP) / columns / width
         up = ((form.height - HEAD - FOOT) / rows - CAPTION - GAP) / height
-        found.append((min(across, up), columns))
-    scale, columns = max(found)
+        found.append((min(across, up), -(rows * columns - count), columns))
+    scale, _, columns = max(found)
     return columns, max(2, int(scale * form.dpi) // 2 * 2)
 
 
@@ -104,7 +105,8 @@ def heading(figure, frames, what):
     width, height = figure.get_size_inches()
     figure.text(EDGE / width, 1 - 0.30 / height, f"{frames.title}. {what}", fontsize=14, fontweight="bold", va="center")
     if frames.summary:
-        result = fill(sentence(frames.summary), int(LETTERS * (width - 2 * EDGE)))
+        result = re.sub(r"(?<=\d) (?=[st]\b)", "\u00a0", sentence(frames.summary))  # units stay with their numbers
+        result = fill(result, int(LETTERS * (width - 2 * EDGE)))
         figure.text(EDGE / width, 1 - 0.46 / height, result, fontsize=10, va="top")
 
 
@@ -137,9 +139,14 @@ def both_views(frames, frame, dpi):
     return figure
 
 
+def stem_of(path):
+    """A picture's path without its ending; a dot in a name is none."""
+    return path.with_suffix("") if path.suffix.lower() in (".png", ".pdf") else path
+
+
 def save(figure, stem, endings, dpi):
-    """Write a figure as files that differ in their endings; returns their paths."""
-    paths = [stem.with_suffix(f".{ending}") for ending in endings]
+    """Write a figure as files STEM.ENDING; returns their paths."""
+    paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
     for path in paths:
         with written_whole(path) as part:
             figure.savefig(part, dpi=dpi, metadata={"Software": None} if path.suffix == ".png" else {"CreationDate": None})

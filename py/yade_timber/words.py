@@ -19,14 +19,14 @@ def sentence(found):
     if found["snow"]:
         broken += f", snow {found['snow_mass_kg'] / 1000:.1f} t"
     fallen = [] if found["collapsed"] else found.get("fallen_structures", [])
-    fallen = f", {' and '.join(fallen)} down" if fallen else ""
-    return f"House {found['model']} {fate(found)}{fallen}, {broken}"
+    others = [f", {' and '.join(names)} {what}" for names, what in ((fallen, "down"), (found.get("leaning_structures", []), "leaning")) if names]
+    return f"House {found['model']} {fate(found)}{''.join(others)}, {broken}"
 
 
 def fate(found):
     """What became of the house, in words."""
     tilt = found["tilt_time_s"]
-    leaning = "" if tilt is None else f"leans {direction_name(found['tilt_direction'])} from {tilt:.1f} s"
+    leaning = "" if tilt is None else f"leans {direction_name(found['tilt_direction'])} by 1/10 at {tilt:.1f} s"
     if found["collapsed"]:
         return f"{leaning or 'stands'} and collapses at {found['collapse_time_s']:.1f} s"
     drift, storey, way = largest_drift(found)

@@ -15,7 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.batch.lock import held  # noqa: E402
+from yade_timber.lock import held  # noqa: E402
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  dt    duration

@@ -4,7 +4,8 @@ import json
 
 import pytest
 from yade.utils import TableParamReader
-from yade_timber.batch import BatchError, lock, read_table
+from yade_timber import lock
+from yade_timber.batch import BatchError, read_table
 from yade_timber.batch import run as batch_run
 from yade_timber.house import HouseError, load_house
 from yade_timber.motion import RecordError, pga
@@ -43,6 +44,11 @@ def test_every_column_reaches_the_scenario(row, tmp_path):
 def test_a_row_without_earthquake(row, tmp_path):
     made = batch_run.scenario(row("house record snow", "A none 1"), tmp_path)
     assert made.motion is None and made.snow_depth == 1.0 and made.duration == 30.0
+
+
+def test_snow_is_the_house_s_own_where_the_table_says_none(row, tmp_path):
+    assert batch_run.scenario(row("house set", "A snow.depth=0.7"), tmp_path).snow_depth == 0.7
+    assert batch_run.scenario(row("house set snow", "A snow.depth=0.7 0"), tmp_path).snow_depth == 0.0
 
 
 @pytest.mark.parametrize(

@@ -52,6 +52,14 @@ def test_names_follow_content_not_place(table):
     assert table(TABLE.replace("0.5", "0.6"))[0].name != first[0]
 
 
+def test_house_files_lie_beside_the_table_wherever_the_process_runs(table, tmp_path, monkeypatch):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "mine.yaml").write_text("extends: A")
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    rows = table("house scale\nmine.yaml 1\nA 1\nnope 1\n")
+    assert [row.house for row in rows] == [str(tmp_path / "mine.yaml"), "A", "nope"]
+
+
 def test_names_follow_house_and_record(table, tmp_path):
     """What is in the files counts: a house that differs in one number, a record that differs in one letter."""
     base = (Path(__file__).resolve().parents[2] / "py/yade_timber/data/houses/base.yaml").read_text()

@@ -129,22 +129,34 @@ def fake_script(folder, body):
 
 WRITES = """import sys, json, pathlib
 folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
-(folder / 'summary.json').write_text(json.dumps({'words': sys.argv[1:]}))
+words = sys.argv[1:]
+(folder / 'summary.json').write_text(json.dumps({'words': words, 'options': words[words.index('--resume') + 1:]}))
 """
 
 
 def test_only_missing_runs_are_done(tmp_path, monkeypatch):
-    """Options arrive; what has a summary is left alone; a failed run leaves its words and does not stop the others."""
+    """Options arrive; what has a summary of the same options is left alone; a failed run leaves its words and does not stop the others."""
     monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
     tasks = [campaign.Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
     tasks[2].folder.mkdir()
-    (tasks[2].folder / "summary.json").write_text('{"old": 1}')
+    (tasks[2].folder / "summary.json").write_text('{"old": 1, "options": []}')
     said = []
     done = campaign.run_missing(tasks, 2, scripts, said.append)
     assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
     assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
-    assert done[tasks[2]] == {"old": 1} and said[0] == "2 of 3 runs to do"
+    assert done[tasks[2]] == {"old": 1, "options": []} and said[0] == "2 of 3 runs to do"
+
+
+def test_results_of_other_options_are_not_taken(tmp_path, monkeypatch):
+    """Nor the checkpoint beside them."""
+    monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
+    scripts, said = fake_script(tmp_path, WRITES), []
+    campaign.run_missing([campaign.Task("run", tmp_path / "a", ("--seed", 1))], 1, scripts, said.append)
+    (tmp_path / "a" / "checkpoint.yade").touch()
+    other = campaign.Task("run", tmp_path / "a", ("--seed", 2))
+    assert campaign.run_missing([other], 1, scripts, said.append)[other]["options"] == ["--seed", "2"]
+    assert "done again" in said[-1] and not (tmp_path / "a" / "checkpoint.yade").exists()
 
 
 def test_motions_are_handed_only_to_shaken_runs():

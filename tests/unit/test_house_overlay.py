@@ -63,6 +63,9 @@ def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
         ({"settings": ["a b=1"]}, "column set: 'a b' is no key"),
         ({"braces": ["brace1.EW.y0.3-4"]}, "column braces: 'brace1.EW.y0.3-4': a brace is named like main.brace1"),
         ({"braces": ["shed.brace1.EW.y0.3-4"]}, "column braces: shed.brace1.EW.y0.3-4: unknown structure 'shed'"),
+        ({"settings": ["joint_types.corner_fitting.strength=abc"]}, "column set: joint_types.corner_fitting.strength: expected a number in [10, inf] N, got 'abc'"),
+        ({"settings": ["joint_types.new.kn=1e5"]}, "column set: joint_types.new"),
+        ({"settings": ["joint_types=5"]}, "column set: joint_types"),
         ({"strength": 0.0}, "column strength: 0: the factor on the joints' strength must be > 0"),
     ],
 )

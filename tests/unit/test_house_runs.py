@@ -3,6 +3,7 @@
 import math
 
 import pytest
+import yaml
 import yade_timber as yt
 from yade import O
 from yade_timber import results, scenario, scene
@@ -96,10 +97,30 @@ def test_each_storey_has_its_height(tmp_path):
     assert model.storey_levels["side"][2][0] == pytest.approx(0.42 + 2.4 + 0.32)
 
 
+def test_a_roof_right_on_the_columns_marks_the_upper_level(tmp_path):
+    """No beams under the roof of a house that has a floor: the roof itself marks the level of the upper storey."""
+    base = yaml.safe_load((SHIPPED / "base.yaml").read_text())
+    stack = [layer for k, layer in enumerate(base["structures"]["main"]["stack"]) if k != 6]  # without the upper beams
+    rules = [*base["joints"], {"between": ["column", "roof"], "type": "corner_fitting", "kind": "column_roof"}]
+    path = tmp_path / "bare.yaml"
+    path.write_text(yaml.safe_dump({"extends": "A", "structures": {"main": {"stack": stack}, "entrance": None}, "joints": rules}))
+    model = scenario.build(scenario.Scenario("bare", str(path)))
+    assert {level for _, level in scenario.level_marks(model, "main")} == {1, 2}
+
+
 def test_fallen_structures_are_named():
     """A wing that comes down alone; the entrance's roof marks its only level."""
     model = scenario.build(scenario.Scenario("fallen", "A"))
     assert results.fallen_structures(model) == []
     roof = next(b for b in O.bodies if b.shape.name == "entrance.roof")
     roof.state.pos -= (0, 0, 1.4)
-    assert results.fallen_structures(model) == ["entrance"]
+    assert results.fallen_structures(model) == ["entrance"] and results.leaning_structures(model) == []
+
+
+def test_leaning_structures_are_named():
+    model = scenario.build(scenario.Scenario("leaning", "A"))
+    roof = next(b for b in O.bodies if b.shape.name == "entrance.roof")
+    roof.state.pos += (0.2, 0, 0)
+    assert results.leaning_structures(model) == []
+    roof.state.pos += (0.2, 0, 0)
+    assert results.leaning_structures(model) == ["entrance"] and results.fallen_structures(model) == []

@@ -168,6 +168,19 @@ def test_at2_component_stated_by_the_caller(tmp_path):
     with pytest.raises(RecordError, match="direction not stated; give component="):
         read_motion(path)
     np.testing.assert_allclose(read_motion(path, component="ud").ud / GAL, WAVES["ud"], rtol=1e-6)
+    numbered = write(tmp_path, "k_001.at2", at2_text(WAVES["ew"], "090"))
+    with pytest.raises(RecordError, match="90.0 in the title but 1.0 in the file name; state component="):
+        read_motion(numbered)
+    np.testing.assert_allclose(read_motion(numbered, component="ew").ew / GAL, WAVES["ew"], rtol=1e-6)
+
+
+def test_at2_prefix_with_compass_letters(tmp_path):
+    """As NGA-West2 names Japanese stations."""
+    for name in WAVES:
+        write(tmp_path, f"RSN1_NIG019{name.upper()}.AT2", at2_text(WAVES[name], "somewhere"))
+    motion = read_motion(tmp_path / "RSN1_NIG019")
+    for name, wave in WAVES.items():
+        np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
 
 
 def test_peknold_is_read_knowingly(tmp_path):

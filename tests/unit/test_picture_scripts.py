@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from small_frames import frames
 from yade_timber import frames as recorded
+from yade_timber import sheets
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
@@ -43,6 +44,21 @@ def test_gallery_of_runs_that_are_not_over(tmp_path):
 def test_nothing_there(tmp_path, script):
     done = run(script, tmp_path, "--out", tmp_path)
     assert done.returncode == 1 and done.stderr.startswith("error: ") and "frames.h5: no such file" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_pictures_of_several_runs_lie_apart(tmp_path):
+    save_runs(tmp_path, ended=True)
+    done = run("show_run.py", tmp_path / "modelA_snow", tmp_path / "modelA_quake", "--out", tmp_path / "pictures")
+    assert done.returncode == 0, done.stderr
+    assert {path.parent.name for path in (tmp_path / "pictures").rglob("front.png")} == {"modelA_snow", "modelA_quake"}
+
+
+def test_a_dot_in_a_name_is_no_ending(tmp_path):
+    assert sheets.stem_of(tmp_path / "site.a") == tmp_path / "site.a" and sheets.stem_of(tmp_path / "site.a.png") == tmp_path / "site.a"
+    (tmp_path / "mine.yaml").write_text("extends: A\nname: house 1.5\n")
+    done = subprocess.run([sys.executable, SCRIPTS / "show_house.py", "mine.yaml"], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert {path.name for path in tmp_path.glob("house_*")} == {"house_house 1.5.png", "house_house 1.5.pdf"}
 
 
 def test_a_folder_that_cannot_be_written(tmp_path):

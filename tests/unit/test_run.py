@@ -16,7 +16,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from yade_timber import frames
+from yade_timber import frames, lock
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
 
@@ -182,14 +182,17 @@ def test_two_threads_do_what_one_does(tmp_path, shove, straight):
 
 def test_killed_and_resumed(tmp_path, shove, straight):
     """SIGKILL right after a checkpoint and again later: the end is the same to the last bit."""
-    options = [*SHORT, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05, "--duration"]
-    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options), "0.6"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def options(duration):
+        return [*SHORT, "--duration", duration, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05]
+
+    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options(0.6))], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
     victim.kill()
     victim.wait()
     assert not (tmp_path / "summary.json").exists()
-    assert run("modelB1_quake", *options, 0.35, "--resume").returncode == 0  # ends early, goes on later
-    done = run("modelB1_quake", *options, 0.6, "--resume")
+    assert run("modelB1_quake", *options(0.35), "--resume").returncode == 0  # ends early, goes on later
+    done = run("modelB1_quake", *options(0.6), "--resume")
     assert done.returncode == 0, done.stderr
     assert_same_results(straight, tmp_path)
 
@@ -214,6 +217,20 @@ def test_interrupted(tmp_path):
     assert "another scenario: dt is 0.0002 there and 0.0001 here" in other.stderr
     early = run("modelA_quake", *SHORT, "--duration", "0.001", "--out", tmp_path, "--resume")
     assert early.returncode == 1 and "ask for more" in early.stderr
+
+
+def test_one_process_a_folder(tmp_path):
+    with lock.locked(tmp_path) as free:
+        other = run("modelA_snow", "--duration", 0.001, "--out", tmp_path)
+    assert free and other.returncode == 1 and "another process is computing a run there" in other.stderr and len(own_errors(other)) == 1
+
+
+def test_nothing_simulated(tmp_path):
+    """A run of no time: pictures of the start, a summary with nothing in it, status 0. Which options it had is in the summary, those of the output are not."""
+    done = run("modelA_snow", "--duration", 0, "--dt", "2e-4", "--out", tmp_path)
+    assert done.returncode == 0 and (tmp_path / "front.png").exists() and not (tmp_path / "history.png").exists(), done.stderr
+    found = summary(tmp_path)
+    assert found["steps"] == 0 and found["options"] == ["--duration", "0", "--dt", "2e-4"]
 
 
 def test_failed_run_leaves_no_summary(tmp_path):

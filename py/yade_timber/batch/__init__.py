@@ -4,7 +4,6 @@
     table.py    text file -> rows, each with a name that follows from its content
     run.py      row -> Scenario -> the run's folder, with `run.json` at its end, whether it worked or not
     collect.py  the runs' folders -> runs.csv
-    lock.py     one process a run
     local.py    all rows on this machine, through yade-batch
 """
 

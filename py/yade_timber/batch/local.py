@@ -10,8 +10,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from ..lock import held
 from .collect import END, write_runs
-from .lock import held
 from .table import BatchError, check_shell_safe, read_table
 
 LOG = "logs/yade-batch.log"

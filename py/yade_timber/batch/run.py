@@ -19,11 +19,11 @@ from .. import checkpoint, runner
 from ..cli import QUIET_DURATION, Output, prepare_folder
 from ..errors import RunError
 from ..files import write_text
-from ..house import HouseError, changed_house
+from ..house import HouseError, changed_house, load_house
+from ..lock import locked
 from ..motion import MotionRequest, RecordError
 from ..scenario import DEFAULT_DT, MAX_DT, Scenario
 from .collect import END
-from .lock import locked
 from .table import MOTION, NO_EARTHQUAKE, BatchError, read_table
 
 
@@ -31,11 +31,12 @@ def scenario(row, folder):
     """The Scenario of a row; a changed house is written to `folder`. Raises BatchError, HouseError, RecordError."""
     motion, scale = _motion(row)
     duration = row.value("duration", motion.duration if motion else QUIET_DURATION)
-    snow, dt = row.value("snow", 0.0), row.value("dt", DEFAULT_DT)
+    house, dt = _house(row, folder), row.value("dt", DEFAULT_DT)
+    snow = row.value("snow", load_house(house).data["snow"]["depth"])
     for column, value, low, high in (("snow", snow, 0, 20), ("duration", duration, 0, 1e5), ("dt", dt, 1e-7, MAX_DT)):
         if not low <= value <= high:
             raise BatchError(f"{row.where(column)}: {value:g}: must be between {low:g} and {high:g}")
-    return Scenario(row.name, _house(row, folder), motion, snow, scale=scale, dt=dt, duration=duration)
+    return Scenario(row.name, house, motion, snow, scale=scale, dt=dt, duration=duration)
 
 
 def _motion(row):

@@ -26,7 +26,7 @@ OWN = {
     "set": (str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"),
     "braces": (str, "braces added to the house by their names, separated by ;"),
     "strength": (float, "factor on the strength of all joints (default 1)"),
-    "snow": (float, "depth of the snow on the roofs [m] (default 0)"),
+    "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
     "dt": (float, "time step [s]"),
     "duration": (float, "simulated time [s] (default: the motion's; without an earthquake 30)"),
 }
@@ -68,9 +68,11 @@ class Row:
 
     @property
     def house(self):
-        """Shipped house, or path of a house file."""
-        beside = self.table.parent / self.cells["house"]
-        return str(beside) if beside.is_file() else self.cells["house"]
+        """Shipped house, or path of a house file: beside the table, wherever the process runs."""
+        given = self.cells["house"]
+        beside = self.table.parent / given
+        is_path = "/" in given or given.endswith((".yaml", ".yml"))
+        return str(beside) if is_path or beside.is_file() else given
 
     @property
     def record(self):

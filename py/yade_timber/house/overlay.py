@@ -28,8 +28,8 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
         _set(data, text, where("set"))
     for name in braces:
         _add_brace(data, name, where("braces"))
-    _strengthen(data, strength, where("strength"))
     checked(data, path)
+    _strengthen(data, strength, where("strength"))
     return plain(data)
 
 

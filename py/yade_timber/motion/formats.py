@@ -61,15 +61,17 @@ def sniff(lines):
     return None
 
 
-def parse(path, lines, units=None):
-    """Channels of one file. `units` states the unit where the file does not. Raises RecordError."""
+def parse(path, lines, units=None, stated=False):
+    """Channels of one file. `units` states the unit where the file does not; stated: directions are given, those in the file do not matter. Raises RecordError."""
     kind = sniff(lines)
     if kind is None:
         raise RecordError(
             f"{path}: unknown record format; admissible: K-NET or KiK-net ASCII, PEER AT2, JMA CSV, "
             "CSV with named columns (ns, ew, ud, optionally time)"
         )
-    reader = {"knet": _knet, "at2": _at2, "jma": _jma, "csv": _plain_csv}[kind]
+    if kind == "at2":
+        return _at2(path, lines, units, stated)
+    reader = {"knet": _knet, "jma": _jma, "csv": _plain_csv}[kind]
     return reader(path, lines, units)
 
 
@@ -144,7 +146,7 @@ _UNIT = re.compile(r"(?:in|^|the)\s*units?\s*(?:of|are|is|in|:|=)?\s*\(?\s*([a-z
 _NUMERIC_LINE = re.compile(r"^[\s\d.eEdD+-]*\d[\s\d.eE+-]*$")
 
 
-def _at2(path, lines, units):
+def _at2(path, lines, units, stated):
     """PEER AT2 and Peknold's variant: one channel, in g unless the header states another unit."""
     count, first = _at2_header(path, lines)
     header = lines[:first]
@@ -153,7 +155,7 @@ def _at2(path, lines, units):
     values = numbers(path, lines[first:], first + 1)
     require_count(path, len(values), int(count["n"]), "NPTS")
     dt = require_step(finite(count["dt"], f"{path}, DT"), f"{path}, DT")
-    return [Channel(path, dt, values * factor, _at2_direction(path, header))]
+    return [Channel(path, dt, values * factor, None if stated else _at2_direction(path, header))]
 
 
 def _at2_header(path, lines):
@@ -194,7 +196,7 @@ def _at2_direction(path, header):
     in_title = direction_of(word) if word else None
     if "north south component" in header[0].lower():
         in_title = 0.0
-    match = re.search(r"(\d{3}|[-_.](?:up|dwn|ud|ver|vert|v|ns|ew))$", path.stem, re.I)
+    match = re.search(r"(\d{3}|[-_.](?:up|dwn|ud|ver|vert|v|ns|ew)|(?<=\d)(?:ud|ns|ew))$", path.stem, re.I)
     in_name = direction_of(match.group(1)) if match else None
     if None not in (in_title, in_name) and in_title != in_name:
         raise RecordError(

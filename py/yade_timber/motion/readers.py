@@ -24,7 +24,7 @@ _SUFFIXES = (
     ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
     ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v))\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
+    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew))\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
 )
 """What follows a prefix in the names of one record's three files; tried in this order, so that of a KiK-net pair the
 sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
@@ -53,7 +53,7 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     Raises RecordError: missing, truncated, unknown format, not a number, no unit, components that do not fit.
     """
     paths = find_files(record)
-    channels = [channel for path in paths for channel in parse(path, read_lines(path), units)]
+    channels = [channel for path in paths for channel in parse(path, read_lines(path), units, component is not None)]
     directions = _directions(channels, component)
     dt, values = _aligned(channels, trim_to_shortest)
     acceleration = _to_house_axes(str(record), values, directions)

@@ -14,8 +14,6 @@ GAL = 0.01
 STANDARD_GRAVITY = 9.80665
 """One g in m/s2 (the unit of PEER records)."""
 
-COMPONENTS = ("ew", "ns", "ud")
-"""Order of the columns = axes of the house: x east, y north, z up."""
 
 UNITS = {
     "gal": GAL,

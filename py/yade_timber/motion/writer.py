@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
+from ..files import write_text
 from .record import GAL, RecordError
 
 DECIMALS = 2
@@ -22,10 +22,8 @@ def write_csv(motion, path, comments=()):
     header = [*comments, "units: gal", f"dt: {motion.dt:.10g}", f"samples: {len(motion)}"]
     lines = [f"# {line}" for line in header] + ["ns,ew,ud"]
     lines += [",".join(map(_number, (ns, ew, ud))) for ew, ns, ud in motion.acceleration / GAL]
-    beside = path.with_name(path.name + ".part")
     try:
-        beside.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        os.replace(beside, path)
+        write_text(path, "\n".join(lines) + "\n")
     except OSError as error:
         raise RecordError(f"{path}: cannot be written ({error.strerror}); give a folder that exists") from None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One process a run: a lock on a file in the run's folder, which goes with the process, however it ends."""
+"""One process a run's folder: a lock on a file in the run's folder, which goes with the process, however it ends."""
 
 import fcntl
 from contextlib import contextmanager
