@@ -172,12 +172,18 @@ class Run:
             self.recorder.take(O.time, last=True)
             self.recorder.finish(self.frames_path, found)
             written.append(self.frames_path)
-        if self.output.views:
-            written += pictures.write(folder)
         written += results.write(folder, found, self.model)
+        if self.output.views:
+            written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.say(sentence(found))
         self.say("written: " + ", ".join(str(path) for path in written))
+
+    def _pictures(self):
+        try:
+            return pictures.write(self.output.folder)
+        except OSError as problem:
+            raise RunError(f"{self.output.folder}: the results are written, the pictures are not ({problem.strerror}); scripts/show_run.py makes them") from None
 
     # --- live ---------------------------------------------------------------------------------------------------------
 
