@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-results holds the folders modelA_snow, modelA_quake and modelC2_snow; written are DIR/modelC2_snow.png and DIR/gallery/*.png (the player's picture only where Chromium is).
+results holds the folders modelA_snow, modelA_quake and modelC2_snow; written are DIR/modelC2_snow.png, DIR/l_house.png and DIR/gallery/*.png (the player's picture only where Chromium is).
 """
 import argparse
 import io
@@ -27,12 +27,12 @@ from yade_timber.views import FRONT, SIDE  # noqa: E402
 SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"
 LEAD = "modelC2_snow"
-HOUSE = "C2"
+HOUSE, EXAMPLE = "C2", "l_house"
 COMPARED = ("modelA_quake", "modelC2_snow")
 AFTER_COLLAPSE = 1.0
 """When the compared runs are shown, after the first has collapsed. [s]"""
 CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-            "--window-size=1200,760", "--virtual-time-budget=5000")
+            "--window-size=1200,800", "--virtual-time-budget=5000")
 DPI = 130
 LARGEST = 150_000
 """A picture on a web page may take so much. [bytes]"""
@@ -100,6 +100,7 @@ def make(results, out):
     written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
     written.append(write(gallery / "history.png", plots.page(runs[HISTORY])))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
+    written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))
     written.append(write(gallery / "ground_motion.png", record_plot.page(default_motion(), corner=0.05)))
     if shutil.which(CHROMIUM[0]):
         written.append(save(gallery / "player.png", compared(results, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
