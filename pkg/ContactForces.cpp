@@ -115,9 +115,8 @@ void ContactForces::collectPoints()
 void ContactForces::bookEnergy(
         const timber::DashpotSolver::Row& row, const timber::DashpotBody& a, const timber::DashpotBody& b, timber::PointState& s, const ManifoldPhys& phys, Books& own) const
 {
-	const Vector3r before = timber::relativeVelocity(row, a.velocity, a.spin, b.velocity, b.spin);
 	const Vector3r after  = timber::relativeVelocity(row, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-	const Vector3r mean   = (before + after) / 2;
+	const Vector3r mean   = (row.before + after) / 2;
 	const Real     normal = s.dashpot.dot(row.normal);
 	const Real     energy = timber::shearEnergy(s, phys.properties());
 	own.dashpotNormal -= scene->dt * normal * mean.dot(row.normal);

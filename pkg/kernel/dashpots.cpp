@@ -107,6 +107,7 @@ void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, Dashpo
 	row.armA = p.armA;
 	row.armB = p.armB;
 	row.normal = p.normal;
+	row.before = before;
 	row.impulse = p.impulse;
 	row.friction = p.friction;
 	if (sweeps > 0) {

@@ -53,6 +53,7 @@ public:
 	/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
 	struct Row {
 		Vec3 armA, armB, normal;
+		Vec3 before; ///< relative velocity before the step [m/s]
 		Vec3 impulse; ///< total contact impulse on B [N s]
 		Vec3 normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
 		double normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
