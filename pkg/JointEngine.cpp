@@ -116,15 +116,14 @@ JointEngine::Pull JointEngine::pullOf(TimberJoint& joint) const
 		return pull;
 	}
 	const timber::JointStiffness stiffness = joint.stiffness();
-	const Matrix3r               axes1 = axes[joint.id1], axes2 = axes[joint.id2]; // copies: the compiler cannot know that springs do not write to them
-	const Vector3r               normal = axes1 * joint.normal, apart = b2->state->pos - b1->state->pos;
+	const Vector3r               normal = axes[joint.id1] * joint.normal, apart = b2->state->pos - b1->state->pos;
 	Real                         sum = 0, largest = 0;
 	for (size_t k = 0; k < joint.broken.size(); ++k) {
 		if (joint.broken[k]) continue;
-		const Vector3r            arm2 = axes2 * joint.anchors2[k], stretch = apart + arm2 - axes1 * joint.anchors1[k];
-		const timber::SpringForce f    = timber::springForce(stiffness, stretch, normal);
-		joint.stretches[k]             = stretch;
-		joint.forces[k]                = f.force;
+		const Vector3r arm2        = axes[joint.id2] * joint.anchors2[k];
+		joint.stretches[k]         = apart + arm2 - axes[joint.id1] * joint.anchors1[k];
+		const timber::SpringForce f = timber::springForce(stiffness, joint.stretches[k], normal);
+		joint.forces[k]            = f.force;
 		pull.energy += f.energy;
 		pull.force += f.force;
 		pull.torque1 += (apart + arm2).cross(f.force); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point

@@ -26,6 +26,10 @@ O = yw.Omega()
 
 PAGE = "performance.md"
 HEAD = "# Performance\n\nMade by `scripts/benchmark_*.py`, each of which rewrites its own section.\n"
+SETTLING = 1.0
+"""Simulated time before the measurement in a state of STATES [s]."""
+STATES = {"at rest": 0.0, "strong shaking": 18.5}
+"""Where in the ground motion the run begins [s]."""
 SECTIONS = ("step", "profile", "skips", "peers", "street", "precision")
 """Order on the page."""
 

@@ -19,16 +19,12 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import markdown_table, publish  # noqa: E402
+from bench_tools import SETTLING, STATES, markdown_table, publish  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 
 O = yw.Omega()
 
-SETTLING = 1.0
-"""Simulated time before the counted steps [s]."""
-STATES = {"at rest": 0.0, "strong shaking": 18.5}
-"""Where in the ground motion the run begins [s]."""
 STEP = "Scene::moveToNextTimeStep()"
 PARTS = {  # part -> functions that it consists of, and those within them that are parts of their own
     "contact points: search for candidates": (("timber::searchCandidates(",), ()),

@@ -14,16 +14,12 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import cpu_per_step, interleaved, machine, markdown_table, publish, wall_per_step  # noqa: E402
+from bench_tools import SETTLING, STATES, cpu_per_step, interleaved, machine, markdown_table, publish, wall_per_step  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 
 O = yw.Omega()
 
-SETTLING = 1.0
-"""Simulated time before the measurement [s]."""
-STATES = {"at rest": 0.0, "strong shaking": 18.5}
-"""Where in the ground motion the run begins [s]."""
 EMPTY, HOUSE, DEFAULT = "empty step", "whole step", "empty step, collider in each step"
 HEADS = ("state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio", "empty, collider in each step [us]")
 
