@@ -12,7 +12,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 # Reproducible results: no fused multiply-add behind the source's back, no -ffast-math. Dropping errno changes no number.
-add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno)
+add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition)
 
 if(TIMBER_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

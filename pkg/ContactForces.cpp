@@ -25,8 +25,7 @@ void ContactForces::collectPairs()
 	bool             changed = false;
 	for (const shared_ptr<Interaction>& I : *scene->interactions) {
 		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
-		const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
-		if (phys.states.empty() && phys.lostEnergy == 0) continue;
+		if (static_cast<ManifoldPhys*>(I->phys.get())->isIdle()) continue;
 		if (count == seen.size()) seen.push_back(nullptr);
 		if (seen[count] != I) {
 			seen[count] = I;

@@ -23,6 +23,8 @@ namespace yade {
 /// Common to all contact laws: pair properties and the history of each contact point.
 class ManifoldPhys : public IPhys {
 public:
+	/// Nothing is pressed, and nothing was lost in the last step.
+	bool                   isIdle() const { return states.empty() && lostEnergy == 0; }
 	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit }; }
 	/// Contact points as dictionaries, see ``yade_timber.contacts``.
 	boost::python::list pyStates() const;

@@ -45,20 +45,19 @@ void SymplecticIntegrator::action()
 /// Bound of the way of the body's points since the collider ran. [m]
 Real CollisionTrigger::motionOf(const Body& b) const
 {
-	const size_t id     = b.getId();
-	const auto   shape  = dynamic_cast<RoundedPolyhedron*>(b.shape.get());
-	const Real   turned = 2 * (turns[id].conjugate() * b.state->ori).vec().norm();
-	return (b.state->pos - places[id]).norm() + (shape ? turned * shape->geometry->reach : 0);
+	const size_t id    = b.getId();
+	const auto   shape = dynamic_cast<RoundedPolyhedron*>(b.shape.get());
+	return (b.state->pos - places[id]).norm() + (shape ? timber::turnedWay(turns[id].conjugate() * b.state->ori, shape->geometry->span) : 0);
 }
 
-Real CollisionTrigger::largestMotion() const
+Real CollisionTrigger::largestMotion()
 {
-	Real      largest = 0;
-	const int count   = int(scene->bodies->size());
-#pragma omp parallel for schedule(static) reduction(max : largest) if (count > smallLoop)
+	const int count = int(scene->bodies->size());
+	motions.assign(count, 0);
+#pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int id = 0; id < count; ++id)
-		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) largest = math::max(largest, motionOf(*b));
-	return largest;
+		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
+	return count > 0 ? *std::max_element(motions.begin(), motions.end()) : 0;
 }
 
 void CollisionTrigger::remember()

@@ -23,16 +23,17 @@ class CollisionTrigger : public GlobalEngine {
 	std::vector<Vector3r>    places; ///< of the bodies when the collider ran, by id
 	std::vector<Quaternionr> turns;
 	Real motionOf(const Body&) const;
-	Real largestMotion() const;
+	Real largestMotion();
 	void remember();
 
 public:
+	std::vector<Real> motions; ///< bounds of how far any point of a body is away from where it was when the collider ran, by id [m]
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(CollisionTrigger, GlobalEngine,
 		"Lets the collider behind it run only when a body may have left its bounding box, or bodies came or went. Stands right before the collider.",
 		((Real, margin, 5e-3, , "Distance by which the bounding boxes are larger than the bodies, see :yref:`Bo1_RoundedPolyhedron_Aabb.margin<Bo1_RoundedPolyhedron_Aabb>`. [m]"))
-		((Real, moved, NaN, Attr::readonly, "Bound of the distance that any point of a body is away from where it was when the collider ran. [m]"))
+		((Real, moved, NaN, Attr::readonly, "Largest bound of how far a point of a body is away from where it was when the collider ran. [m]"))
 		((int, runs, 0, Attr::readonly, "How often the collider ran. [-]")));
 	// clang-format on
 };

@@ -19,9 +19,9 @@ bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(
 {
 	if (!isFree(state1) && !isFree(state2) && !I->geom) return false;
 	if (!I->geom) I->geom = shared_ptr<IGeom>(new ManifoldGeom);
-	ManifoldGeom&      geom = *static_cast<ManifoldGeom*>(I->geom.get());
+	ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
 	const timber::Pose pose1 { state1.pos, state1.ori }, pose2 { state2.pos + shift2, state2.ori };
-	timber::updateManifold(*static_cast<RoundedPolyhedron*>(shape1.get())->geometry, *static_cast<RoundedPolyhedron*>(shape2.get())->geometry, pose1, pose2,
+	geom.gap = timber::updateManifold(*static_cast<RoundedPolyhedron*>(shape1.get())->geometry, *static_cast<RoundedPolyhedron*>(shape2.get())->geometry, pose1, pose2,
 	        { vertexEdge, flushSupports }, geom.cache, geom.contactPoints);
 	return true;
 }

@@ -19,6 +19,7 @@ namespace yade {
 class ManifoldGeom : public IGeom {
 public:
 	timber::CandidateCache cache;
+	Real                   gap = 0; ///< by which the bodies may surely move against each other before they touch; 0: not known [m]
 
 	boost::python::list pyPoints() const;
 	// clang-format off

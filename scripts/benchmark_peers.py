@@ -106,7 +106,7 @@ def timber_engines():
 
 def without_functors(engines):
     """The same engines with an empty InteractionLoop and nothing behind it."""
-    place = next(k for k, e in enumerate(engines) if isinstance(e, yw.InteractionLoop))
+    place = next(k for k, e in enumerate(engines) if isinstance(e, (yw.ContactLoop, yw.InteractionLoop)))
     return engines[:place] + [yw.InteractionLoop([], [], [])]
 
 

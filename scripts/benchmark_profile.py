@@ -37,7 +37,7 @@ PARTS = {  # part -> functions that it consists of, and those within them that a
     "integrator": (("SymplecticIntegrator::action()",), ()),
     "collider": (("CollisionTrigger::action()", "InsertionSortCollider::action()"), ()),
 }
-REST = "YADE's loop over contacts, gravity, ground motion, monitor"
+REST = "loop over contacts, gravity, ground motion, monitor"
 HEADS = ("part", *(f"{state} [1000 instructions a step]" for state in STATES), *(f"{state}, share" for state in STATES))
 
 

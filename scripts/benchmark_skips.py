@@ -64,6 +64,13 @@ def collider(options, skip):
     return run
 
 
+def pairs(options, skip):
+    run = shaken(options)
+    if not skip:
+        O.engines = [e.loop if isinstance(e, yw.ContactLoop) else e for e in O.engines]
+    return run
+
+
 def energies(options, skip):
     return shaken(options, track_energy=not skip)
 
@@ -81,6 +88,7 @@ def joints(options, skip):
 CASES = {  # words, scene -> build
     ("rest: grains of steps while the house rests and the ground is quiet", f"at rest under snow, {RESTING:g} s"): rest,
     ("the collider, until a body may have left its box", "strong shaking, snow"): collider,
+    ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
     ("energies that nobody asks for", "strong shaking, snow"): energies,
     ("the engine of joints, where all are broken", "strong shaking, snow, no joints"): joints,
 }

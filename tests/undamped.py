@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes without dashpots, for checks against undamped solutions."""
 import yade.wrapper as yw
+from yade_timber import scene
 
 O = yw.Omega()
 
 
 def undamp():
     """Switch the dashpots of all contacts off, present and future."""
-    for engine in O.engines:
-        if isinstance(engine, yw.InteractionLoop):
-            for functor in engine.physDispatcher.functors:
-                functor.dampingRatio = 0
+    for functor in scene.interaction_loop().physDispatcher.functors:
+        functor.dampingRatio = 0
     for interaction in O.interactions:
         if interaction.phys is not None:
             interaction.phys.dampingRatio = 0

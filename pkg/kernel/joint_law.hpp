@@ -21,6 +21,7 @@ struct SpringForce {
 inline SpringForce springForce(const JointStiffness& k, const Vec3& stretch, const Vec3& normal)
 {
 	const double along = stretch.dot(normal), extra = k.normal - k.shear;
+	if (extra == 0) return { k.shear * stretch, k.normal * along, 0.5 * (k.shear * stretch.squaredNorm()) };
 	return { k.shear * stretch + extra * along * normal, k.normal * along, 0.5 * (k.shear * stretch.squaredNorm() + extra * along * along) };
 }
 

@@ -183,12 +183,14 @@ namespace {
 		});
 	}
 
-	/// The axis on which the cores were apart at the last search keeps them from touching: the usual case of a pair that has
-	/// parted a little. Any axis may say so. A flush support reaches beyond a border, at a corner by sqrt(2) times its tolerance.
-	bool isApart(const Pair& pair, const CandidateCache& cache)
+	/// Gap between the bodies on the axis on which the cores were apart at the last search: if it is there, the pair does not
+	/// touch, the usual case of one that has parted a little. Any axis may say so. A flush support reaches beyond a border, at a
+	/// corner by sqrt(2) times its tolerance. [m]
+	double knownGap(const Pair& pair, const CandidateCache& cache)
 	{
+		if (!cache.searched()) return 0;
 		const double nearB = extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis);
-		return nearB - cache.farA > pair.touch() + 2 * flushTolerance;
+		return std::max(0., nearB - cache.farA - pair.touch() - 2 * flushTolerance);
 	}
 
 	void lookForOverlap(Pair& pair)
@@ -201,13 +203,13 @@ namespace {
 
 } // namespace
 
-void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
+double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
 	points.clear();
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
-	if (cache.searched() && isApart(pair, cache)) return;
+	if (const double gap = knownGap(pair, cache); gap > 0) return gap;
 	if (!cache.holds(pair.rotation, pair.translation)) searchCandidates(pair, cache);
 	if (cache.coresMayMeet) lookForOverlap(pair);
 
@@ -219,6 +221,7 @@ void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, cons
 		if (!isRepeated(points, point)) points.push_back(point);
 	}
 	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, turnA, poseA.position, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
+	return 0;
 }
 
 } // namespace timber

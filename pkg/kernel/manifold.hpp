@@ -76,8 +76,9 @@ struct CandidateCache {
 double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis,
         double enough = std::numeric_limits<double>::infinity());
 
-/// Contact points with overlap > 0, sorted by id. Both bodies' vertices are in their body frames.
-void updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
+/// Contact points with overlap > 0, sorted by id. Both bodies' vertices are in their body frames. Returns by how much the bodies
+/// may surely move against each other before there are any; 0: not known. [m]
+double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points);
 
 } // namespace timber

@@ -326,8 +326,10 @@ RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 		}
 	if (body.core.vertices.empty())
 		throw PolyhedronError("rounding radius " + std::to_string(body.radius) + " m leaves no core (" + reason + "): it must be below the radius of the inscribed sphere, at most " + std::to_string(sharp.thickness() / 2) + " m");
-	for (const Vec3& v : body.core.vertices)
+	for (const Vec3& v : body.core.vertices) {
+		body.span = body.span.cwiseMax(v.cwiseAbs());
 		body.reach = std::max(body.reach, v.norm());
+	}
 	body.coreHalfThickness = body.core.thickness() / 2;
 	return body;
 }

@@ -70,6 +70,7 @@ struct RoundedPolyhedron {
 	Polyhedron sharp; ///< the element as drawn
 	Polyhedron core; ///< faces of `sharp` moved inwards by `radius`
 	double radius = 0; ///< [m]
+	Vec3 span = Vec3::Zero(); ///< largest distance of a core vertex from the frame's origin along each axis [m]
 	double reach = 0; ///< distance of the farthest core vertex from the frame's origin [m]
 	double coreHalfThickness = 0; ///< deepest overlap beyond the cores' contact that a face or edge answers to [m]
 

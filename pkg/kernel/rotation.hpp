@@ -49,4 +49,13 @@ inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& in
 	return orientation * body.cwiseProduct(inverse).eval();
 }
 
+/// Bound of the way that points of a body go when it turns: a point at x goes |(R - I) x| = 2 |q x x|, q the vector part of the
+/// rotation's quaternion. A slender member that spins about its axis goes a short way.
+/// turn: of the body, in its own frame; span: largest |x| along each axis [m]. Returns [m].
+inline double turnedWay(const Quat& turn, const Vec3& span)
+{
+	const Vec3 q = turn.vec().cwiseAbs();
+	return 2 * Vec3(q.y() * span.z() + q.z() * span.y(), q.z() * span.x() + q.x() * span.z(), q.x() * span.y() + q.y() * span.x()).norm();
+}
+
 } // namespace timber

@@ -10,6 +10,7 @@ GRAVITY = (0.0, 0.0, -9.81)
 """[m/s2]"""
 BOUND_MARGIN = 5e-3
 """How far bodies may move before the collider looks again [m]; results do not depend on it."""
+LOOPS = (yw.ContactLoop, yw.InteractionLoop)
 JOINT_READINGS = {"spring": False, "joint": True}
 """What stiffness and strength belong to -> TimberJoint.perJoint."""
 
@@ -56,7 +57,7 @@ def engines(
         yw.CollisionTrigger(margin=BOUND_MARGIN),
         # verletDist = 0: the boxes' own margin and CollisionTrigger do that work without NewtonIntegrator
         yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0),
-        yw.InteractionLoop([geometry], pairs, laws),
+        yw.ContactLoop(loop=yw.InteractionLoop([geometry], pairs, laws)),
     ]
     kept = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
     if kept is not None:
@@ -94,6 +95,12 @@ def find_engine(kind):
     return next((e for e in O.engines if isinstance(e, kind)), None)
 
 
+def interaction_loop():
+    """The scene's InteractionLoop, which holds the functors and stands in `O.engines` by itself or in a ContactLoop, or None."""
+    engine = find_engine(LOOPS)
+    return engine.loop if isinstance(engine, yw.ContactLoop) else engine
+
+
 def gravity_now():
     """Acceleration of gravity in the scene, this package's or YADE's engine. [m/s2]"""
     engine = find_engine((yw.UniformGravity, yw.GravityEngine))
@@ -125,7 +132,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     engine = find_engine(yw.JointEngine)
     if engine is None:
         chain = list(O.engines)
-        place = next((k + 1 for k, e in enumerate(chain) if isinstance(e, yw.InteractionLoop)), None)
+        place = next((k + 1 for k, e in enumerate(chain) if isinstance(e, LOOPS)), None)
         if place is None:
             raise ValueError("connect: set O.engines = yade_timber.engines(...) first")
         engine = yw.JointEngine()

@@ -156,6 +156,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0; // placements are checked by the caller
 			updateManifold(a, b, poseA, poseB, patterns, cache, points);
 			check(a, b, poseA, poseB, points);
+			const double gap = updateManifold(a, b, poseA, poseB, patterns, cache, points);
+			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(), poseB.orientation };
+			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(), "a contact within the gap that was promised");
 			CandidateCache empty;
 			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
 			require(points.size() == fresh.size(), "the cache changes the result");

@@ -2,6 +2,8 @@
 /// Many random pairs, slivers, plates, needles and sizes of 1:1000 among them: the manifold stays finite, bounded,
 /// sorted and free of the cache, whatever the pair.
 #include "shapes.hpp"
+#include <kernel/constants.hpp>
+#include <kernel/rotation.hpp>
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
@@ -135,4 +137,49 @@ TEST(RandomPairs, CacheHoldsNoResult)
 	}
 	EXPECT_EQ(different, 0);
 	EXPECT_GT(touching, 1000);
+}
+
+/// Within the motion that a gap promises, measured as CollisionTrigger does, nothing touches; a little beyond it, some do.
+TEST(RandomPairs, GapIsKept)
+{
+	Random random(91);
+	int refused = 0, promised = 0, beyond = 0;
+	const auto bodies = randomBodies(random, 100, refused);
+	for (int trial = 0; trial < 4000; ++trial) {
+		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
+		const Patterns patterns { trial % 2 == 0, trial % 3 != 0 };
+		const Vec3 direction = randomDirection(random);
+		const Pose poseB { (a.reach + b.reach) * uniform(random, 0.3, 1.2) * direction, randomRotation(random) };
+		CandidateCache cache;
+		std::vector<ContactPoint> points;
+		updateManifold(a, b, {}, poseB, patterns, cache, points); // finds the axis
+		const double gap = updateManifold(a, b, {}, poseB, patterns, cache, points);
+		if (gap == 0) continue;
+		++promised;
+		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.reach);
+		const double left = gap - turnedWay(turn, b.span);
+		ASSERT_GE(left, 0);
+		EXPECT_TRUE(contacts(a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns).empty()) << trial;
+		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
+		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, patterns).empty();
+	}
+	EXPECT_GT(promised, 1000);
+	EXPECT_GT(beyond, promised / 20);
+}
+
+/// No core vertex goes farther than the bound; a member that spins about its axis is not taken for one that swings.
+TEST(RandomPairs, TurnedWayBoundsAllPoints)
+{
+	Random random(92);
+	int refused = 0;
+	for (const auto& body : randomBodies(random, 200, refused)) {
+		const Quat turn = about(randomDirection(random), uniform(random, 0, 3));
+		const double bound = turnedWay(turn, body.span);
+		EXPECT_LE(bound, 4 * body.reach);
+		for (const Vec3& x : body.core.vertices)
+			EXPECT_LE((turn * x - x).norm(), bound + 1e-12 * body.reach);
+	}
+	const auto column = roundedBox({ 0.12, 0.12, 2.73 });
+	EXPECT_NEAR(turnedWay(about(Vec3::UnitZ(), 0.01), column.span), 0.01 * M_SQRT2 * 0.048, 1e-5);
+	EXPECT_NEAR(turnedWay(about(Vec3::UnitX(), 0.01), column.span), 0.01 * std::hypot(0.048, 1.353), 1e-5);
 }

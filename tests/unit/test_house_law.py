@@ -2,7 +2,7 @@
 """What a house file says about the laws arrives in the engines."""
 import pytest
 from yade import O
-from yade_timber import checkpoint, scenario
+from yade_timber import checkpoint, scenario, scene
 
 
 def built(tmp_path, law):
@@ -11,7 +11,7 @@ def built(tmp_path, law):
     path.write_text(f"extends: storehouse\nname: mine\nlaw: {law}\n")
     built = scenario.Scenario("law", str(path))
     model = scenario.build(built)
-    loop = next(e for e in O.engines if type(e).__name__ == "InteractionLoop")
+    loop = scene.interaction_loop()
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, checkpoint.identity(built, model, "")

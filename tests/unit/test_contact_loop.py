@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""ContactLoop leaves pairs alone that cannot touch; everything else is as with YADE's InteractionLoop."""
+import pytest
+import yade.wrapper as yw
+import yade_timber as yt
+from yade import O
+from yade.minieigenHP import Vector3
+from yade_timber import scenario, scene
+from yade_timber.motion import default_motion
+
+
+def unwrap():
+    """Put the InteractionLoop in its ContactLoop's place."""
+    O.engines = [e.loop if isinstance(e, yw.ContactLoop) else e for e in O.engines]
+
+
+def places():
+    return [(tuple(b.state.pos), tuple(b.state.ori)) for b in O.bodies if b]
+
+
+def box(height, fixed=False):
+    return O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, height), fixed=fixed))
+
+
+def start(dt=2e-4):
+    O.engines = yt.engines()
+    O.dt = dt
+
+
+@pytest.mark.parametrize("begin", [0.0, 18.5])
+def test_same_to_the_last_bit(begin):
+    """House C1 under snow, settling and in strong shaking."""
+
+    def run(wrapped):
+        scenario.build(scenario.Scenario("loop", "C1", default_motion(), 1.0, options={"skip_rest": 0}))
+        scene.find_engine(yw.GroundMotionEngine).start = -begin
+        if not wrapped:
+            unwrap()
+        O.run(1500, True)
+        return places(), yt.energy()
+
+    expected, found = run(False), run(True)
+    assert found == expected
+    assert scene.find_engine(yw.ContactLoop).runs < O.iter / 4  # the collider's runs
+
+
+def test_a_held_body_that_is_released():
+    """Two held bodies are no pair; once one is released, it rests on the other."""
+    O.reset()
+    box(0.1, fixed=True)
+    upper = box(0.3, fixed=True)
+    start()
+    O.run(10, True)
+    O.bodies[upper].state.blockedDOFs = ""
+    O.run(500, True)
+    assert O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
+    assert len(yt.contacts(0, upper)) == 4
+
+
+def test_bodies_put_elsewhere_or_taken_out():
+    """A body that hung beyond reach is put onto another; then that one is taken out."""
+    O.reset()
+    box(0.1, fixed=True)
+    upper = box(0.4)
+    start()
+    O.engines = [e for e in O.engines if not isinstance(e, yw.UniformGravity)]
+    O.run(5, True)
+    assert not yt.contacts(0, upper)
+    O.bodies[upper].state.pos = Vector3(0, 0, 0.3 - 1e-5)
+    O.step()
+    assert len(yt.contacts(0, upper)) == 4
+    O.bodies.erase(0)
+    O.run(5, True)
+    speed = O.bodies[upper].state.vel[2]
+    O.run(5, True)
+    assert O.bodies[upper].state.vel[2] == speed > 0
+
+
+def test_pairs_that_were_reset_by_hand():
+    O.reset()
+    box(0.1, fixed=True)
+    upper = box(0.3 - 1e-6)
+    start()
+    O.run(5, True)
+    O.interactions.erase(0, upper)
+    assert not yt.contacts(0, upper)
+    O.step()
+    assert len(yt.contacts(0, upper)) == 4
+
+
+def test_other_shapes_are_left_to_yade():
+    """Spheres that fly at each other beside a box on the ground: as with the InteractionLoop alone."""
+
+    def run(wrapped):
+        O.reset()
+        O.materials.append(yw.FrictMat(young=1e7, density=1000))
+        box(0.1, fixed=True)
+        box(0.3)
+        for x, speed in ((2, 1), (2.25, -1)):
+            ball = yw.Body(shape=yw.Sphere(radius=0.1), material=O.materials[0])
+            ball.state.mass, ball.state.inertia = 4.2, Vector3(0.017, 0.017, 0.017)
+            ball.state.pos, ball.state.vel = Vector3(x, 0, 0), Vector3(speed, 0, 0)
+            O.bodies.append(ball)
+        start(1e-4)
+        for engine in O.engines:
+            if isinstance(engine, yw.InsertionSortCollider):
+                engine.boundDispatcher.functors = [*engine.boundDispatcher.functors, yw.Bo1_Sphere_Aabb(aabbEnlargeFactor=1.1)]
+        loop = scene.interaction_loop()
+        loop.geomDispatcher.functors = [*loop.geomDispatcher.functors, yw.Ig2_Sphere_Sphere_ScGeom()]
+        loop.physDispatcher.functors = [*loop.physDispatcher.functors, yw.Ip2_FrictMat_FrictMat_FrictPhys()]
+        loop.lawDispatcher.functors = [*loop.lawDispatcher.functors, yw.Law2_ScGeom_FrictPhys_CundallStrack()]
+        if not wrapped:
+            unwrap()
+        O.run(1000, True)
+        return places()
+
+    expected = run(False)
+    assert run(True) == expected
+    assert expected[2][0][0] < 2  # the spheres met and flew apart
+
+
+def test_without_an_interaction_loop():
+    O.reset()
+    box(0.1)
+    O.engines = [yw.ForceResetter(), yw.ContactLoop()]
+    with pytest.raises(Exception, match="needs an InteractionLoop"):
+        O.step()
