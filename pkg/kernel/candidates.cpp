@@ -11,11 +11,13 @@ namespace {
 		std::vector<Vec3> places; ///< of the candidates, frame of A
 		bool coresMayMeet = false;
 
-		Search(const Pair& p, const CandidateCache& c, std::vector<FeatureId>& o)
+		/// gap: of the cores along cache.axis [m]
+		Search(const Pair& p, const CandidateCache& c, double g, std::vector<FeatureId>& o)
 		        : pair(p)
 		        , cache(c)
 		        , out(o)
 		        , turn(candidateSkin / c.region)
+		        , gap(g)
 		{
 			out.clear();
 			for (const Vec3& v : p.a.core.vertices)
@@ -25,7 +27,7 @@ namespace {
 				verticesB.push_back({ x, motionAt(x) });
 			}
 			for (const Edge& e : p.b.core.edges)
-				edgesB.push_back({ p.rotation * e.along, p.rotation * e.outward });
+				edgesB.push_back({ p.rotation * e.along, p.rotation * e.outward, std::min(behindB(e.tail), behindB(e.head)) });
 		}
 		void faces()
 		{
@@ -40,9 +42,11 @@ namespace {
 		void othersThanFaces()
 		{
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
-			for (size_t ea = 0; ea < a.edges.size(); ++ea)
+			for (size_t ea = 0; ea < a.edges.size(); ++ea) {
+				const double nearest = nearestAlongAxis(a.edges[ea]), reach = reachOf(a.edges[ea]);
 				for (size_t eb = 0; eb < b.edges.size(); ++eb)
-					edgeEdge({ Meeting::EdgeEdge, int(ea), int(eb) }, a.edges[ea], b.edges[eb], edgesB[eb]);
+					if (nearest + edgesB[eb].behind <= reach) edgeEdge({ Meeting::EdgeEdge, int(ea), int(eb) }, a.edges[ea], b.edges[eb], edgesB[eb]);
+			}
 			if (pair.patterns.vertexEdge) ignoredPatterns();
 		}
 
@@ -51,6 +55,7 @@ namespace {
 		const CandidateCache& cache;
 		std::vector<FeatureId>& out;
 		const double turn; ///< largest turn while the cache holds [rad]
+		const double gap; ///< of the cores along cache.axis [m]
 		struct Vertex {
 			Vec3 place; ///< in the other's frame
 			double motion; ///< motionAt() there [m]
@@ -58,11 +63,22 @@ namespace {
 		std::vector<Vertex> verticesA, verticesB;
 		struct Turned {
 			Vec3 along, outward; ///< frame of A
+			double behind; ///< how far the edge lies behind what of B is nearest to A along the axis [m]
 		};
 		std::vector<Turned> edgesB;
 
 		/// Bound of the relative motion near x (frame of A) while the cache holds. [m]
 		double motionAt(const Vec3& x) const { return candidateSkin * std::max(1., (x - cache.centre).norm() / cache.region); }
+
+		double behindB(int vertex) const { return verticesB[vertex].place.dot(cache.axis) - (cache.farA + gap); }
+		/// Distance along the axis from the edge to what of B is nearest. [m]
+		double nearestAlongAxis(const Edge& ea) const
+		{
+			const std::vector<Vec3>& v = pair.a.core.vertices;
+			return cache.farA + gap - std::max(v[ea.tail].dot(cache.axis), v[ea.head].dot(cache.axis));
+		}
+		/// Distance within which an edge of B may meet this one while the cache holds. [m]
+		double reachOf(const Edge& ea) const { return std::max(pair.touch(), pair.depthLimit()) * (1 + turn) + std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion); }
 
 		void add(FeatureId id, const Vec3& place, bool coresMeet)
 		{
@@ -159,12 +175,12 @@ void searchCandidates(const Pair& pair, CandidateCache& cache)
 	cache.coresMayMeet = gap <= candidateSkin;
 	centreOnSmallerBody(pair, cache);
 	if (gap < pair.touch() + 2 * candidateSkin) {
-		Search rough(pair, cache, cache.candidates); // finds where the features meet; faces alone tell it, if any do
+		Search rough(pair, cache, gap, cache.candidates); // finds where the features meet; faces alone tell it, if any do
 		rough.faces();
 		if (rough.places.empty()) rough.othersThanFaces();
 		if (!rough.places.empty()) {
 			centreOn(rough.places, pair.touch(), cache);
-			Search whole(pair, cache, cache.candidates);
+			Search whole(pair, cache, gap, cache.candidates);
 			whole.faces();
 			whole.othersThanFaces();
 			cache.coresMayMeet = whole.coresMayMeet || cache.coresMayMeet;
