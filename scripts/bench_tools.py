@@ -30,7 +30,7 @@ SETTLING = 1.0
 """Simulated time before the measurement in a state of STATES [s]."""
 STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """Where in the ground motion the run begins [s]."""
-SECTIONS = ("step", "profile", "skips", "peers", "street", "precision")
+SECTIONS = ("step", "profile", "skips", "parts", "peers", "street", "precision")
 """Order on the page."""
 
 
