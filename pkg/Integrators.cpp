@@ -45,9 +45,8 @@ void SymplecticIntegrator::action()
 /// Bound of the way of the body's points since the collider ran. [m]
 Real CollisionTrigger::motionOf(const Body& b) const
 {
-	const size_t id    = b.getId();
-	const auto   shape = dynamic_cast<RoundedPolyhedron*>(b.shape.get());
-	return (b.state->pos - places[id]).norm() + (shape ? timber::turnedWay(turns[id].conjugate() * b.state->ori, shape->geometry->span) : 0);
+	const Seen& then = seen[b.getId()];
+	return (b.state->pos - then.place).norm() + timber::turnedWay(then.turn.conjugate() * b.state->ori, then.span);
 }
 
 Real CollisionTrigger::largestMotion()
@@ -62,12 +61,11 @@ Real CollisionTrigger::largestMotion()
 
 void CollisionTrigger::remember()
 {
-	places.resize(scene->bodies->size());
-	turns.resize(scene->bodies->size());
+	seen.resize(scene->bodies->size());
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
-		places[b->getId()] = b->state->pos;
-		turns[b->getId()]  = b->state->ori;
+		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
+		seen[b->getId()] = { b->state->pos, b->state->ori, shape ? shape->geometry->span : Vector3r(Vector3r::Zero()) };
 	}
 }
 
@@ -76,7 +74,7 @@ void CollisionTrigger::action()
 	const auto isCollider = [](const shared_ptr<Engine>& e) { return e->getClassName().find("Collider") != string::npos; };
 	const auto collider   = std::find_if(scene->engines.begin(), scene->engines.end(), isCollider);
 	if (collider == scene->engines.end()) return;
-	const bool changed = places.size() != scene->bodies->size() || scene->interactions->dirty;
+	const bool changed = seen.size() != scene->bodies->size() || scene->interactions->dirty;
 	moved              = changed ? NaN : largestMotion();
 	(*collider)->dead  = moved < margin;
 	if ((*collider)->dead) return;

@@ -20,8 +20,13 @@ public:
 REGISTER_SERIALIZABLE(SymplecticIntegrator);
 
 class CollisionTrigger : public GlobalEngine {
-	std::vector<Vector3r>    places; ///< of the bodies when the collider ran, by id
-	std::vector<Quaternionr> turns;
+	/// A body when the collider ran.
+	struct Seen {
+		Vector3r    place;
+		Quaternionr turn;
+		Vector3r    span; ///< largest distance of its core's points from the centre along its axes; 0 for other shapes [m]
+	};
+	std::vector<Seen> seen; ///< by id
 	Real motionOf(const Body&) const;
 	Real largestMotion();
 	void remember();

@@ -32,7 +32,7 @@ PARTS = {  # part -> functions that it consists of, and those within them that a
     "elastic law": (("::lawStep<",), ()),
     "dashpots: rows": (("ContactForces::collectPairs()", "ContactForces::collectBodies()", "ContactForces::collectPoints()"), ()),
     "dashpots: sweeps": (("DashpotSolver::solve(",), ()),
-    "forces and energies of the points": (("ContactForces::storePoints()",), ()),
+    "forces and energies of the points": (("ContactForces::storePoints(",), ()),
     "joints": (("JointEngine::action()",), ()),
     "integrator": (("SymplecticIntegrator::action()",), ()),
     "collider": (("CollisionTrigger::action()", "InsertionSortCollider::action()"), ()),
