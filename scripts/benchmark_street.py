@@ -137,7 +137,7 @@ def section(found, rounds):
         cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}", f"{m['cpu'] * 1e6 / m['elements']:.2f}"]
         shown.append(cells + [f"{x:.2f}" if x else "" for x in (share, speed_up)] + [f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}"])
     heads = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]", "cost per element against one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
-    names = [name for name, t in found[0]["engines"].items() if t > 0.01]
+    names = [name for name in found[0]["engines"] if any(m["engines"][name] > 0.01 for m in found)]
     engines = [(m["houses"], m["threads"], *(f"{m['engines'][n] / m['elements'] * 1e3:.0f}" for n in names)) for m in found]
     return (
         f"## A street of houses\n\nHouse C in strong shaking, dt = {scenario.DEFAULT_DT:g} s: medians of {rounds} processes each, in turns. {machine()}.\n\n{markdown_table(heads, shown)}\n"
