@@ -77,7 +77,7 @@ namespace {
 			const std::vector<Vec3>& v = pair.a.core.vertices;
 			return cache.farA + gap - std::max(v[ea.tail].dot(cache.axis), v[ea.head].dot(cache.axis));
 		}
-		/// Distance within which an edge of B may meet this one while the cache holds. [m]
+		/// Distance within which an edge of B may meet this one while the cache holds; (1 + turn) as for nearly parallel edges. [m]
 		double reachOf(const Edge& ea) const { return std::max(pair.touch(), pair.depthLimit()) * (1 + turn) + std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion); }
 
 		void add(FeatureId id, const Vec3& place, bool coresMeet)

@@ -11,6 +11,7 @@ GRAVITY = (0.0, 0.0, -9.81)
 BOUND_MARGIN = 5e-3
 """How far bodies may move before the collider looks again [m]; results do not depend on it."""
 LOOPS = (yw.ContactLoop, yw.InteractionLoop)
+"""Engines that loop over contacts: this package's holds YADE's."""
 JOINT_READINGS = {"spring": False, "joint": True}
 """What stiffness and strength belong to -> TimberJoint.perJoint."""
 
