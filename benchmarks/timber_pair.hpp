@@ -2,8 +2,7 @@
 /// One pair as a step of the package handles it: manifold, elastic law, dashpots, limits.
 #pragma once
 #include "configurations.hpp"
-#include <kernel/contact_law.hpp>
-#include <kernel/dashpots.hpp>
+#include <kernel/pair_points.hpp>
 
 namespace timber::bench {
 
@@ -11,6 +10,7 @@ class TimberPair {
 	RoundedPolyhedron a, b;
 	Pose poseA, poseB;
 	Vec3 place;
+	const Vec3 still = Vec3::Zero();
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
 	std::vector<PointState> states;
@@ -21,42 +21,16 @@ class TimberPair {
 	static constexpr double h = 1e-4, gravity = 9.81;
 	long passes = 0, steps = 0;
 
-	void elastic()
-	{
-		if (states.size() != points.size()) states.assign(points.size(), {});
-		for (size_t k = 0; k < points.size(); ++k) {
-			states[k].id = points[k].id;
-			elasticStep(law, properties, points[k], { Vec3::Zero(), Vec3::Zero() }, h, NormalForm::Closed, states[k]);
-		}
-	}
 	void damped()
 	{
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
 		bodies[1].newSpin = bodies[1].spin;
 		solver.clear(50);
 		solver.addPair(0, 1, points.size());
-		for (size_t k = 0; k < points.size(); ++k) {
-			PointState& s = states[k];
-			DashpotPoint p;
-			p.bodyA = 0;
-			p.bodyB = 1;
-			p.armA = points[k].position - poseA.position;
-			p.armB = points[k].position - poseB.position;
-			p.normal = points[k].normal;
-			p.elasticNormal = s.normal;
-			p.elasticShear = s.shear;
-			p.normalDamping = 2 * std::sqrt(properties.mass * s.stiffness);
-			p.shearDamping = p.normalDamping * std::sqrt(properties.shearRatio);
-			p.friction = properties.friction;
-			p.impulse = h * (s.normal * p.normal + s.shear + s.dashpot);
-			p.response = s.response;
-			solver.set(k, bodies, p, h);
-			s.response = p.response;
-		}
+		setRows(solver, 0, bodies, poseA.position, poseB.position, properties, 1, h, false, points, states);
 		passes += solver.solve(bodies, 1e-3);
 		++steps;
-		for (size_t k = 0; k < points.size(); ++k)
-			states[k].dashpot = solver.row(k).impulse / h - states[k].normal * points[k].normal - states[k].shear;
+		takeForces(solver, 0, bodies, properties, h, states, nullptr);
 	}
 
 public:
@@ -91,7 +65,8 @@ public:
 	{
 		geometry(k);
 		if (points.empty()) return;
-		elastic();
+		const BodyMotion a { poseA.position, still, still }, b { poseB.position, still, still };
+		elasticPair(law, properties, a, b, h, NormalForm::Closed, steps == 0, points, states);
 		damped();
 	}
 	Found found()

@@ -14,6 +14,16 @@ endif()
 # Reproducible results: no fused multiply-add behind the source's back, no -ffast-math. Neither errno nor floating-point traps are used: dropping them changes no number.
 add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
+# Four numbers at a time instead of two (pkg/kernel/lanes.hpp), the same to the last bit. A module built so is refused by the loader of a machine that
+# has no such processor.
+include(CheckCXXSourceRuns)
+check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"bmi2\") ? 0 : 1; }" TIMBER_HAS_X86_64_V3)
+option(TIMBER_X86_64_V3 "Build for processors of level x86-64-v3 (AVX2)" ${TIMBER_HAS_X86_64_V3})
+if(TIMBER_X86_64_V3)
+  add_compile_options(-march=x86-64-v3 -mno-fma) # GCC 12 makes fmaddsub of neighbouring lanes whatever -ffp-contract says
+  add_link_options(-Wl,-z,x86-64-v3)
+endif()
+
 if(TIMBER_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

@@ -73,31 +73,11 @@ void ContactForces::collectBodies()
 
 void ContactForces::collectPoints(size_t k)
 {
-	const Pair&    pair = pairs[k];
-	const int      id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
-	const Vector3r x1 = Body::byId(id1, scene)->state->pos, x2 = Body::byId(id2, scene)->state->pos;
-	const Real     rootShear = math::sqrt(pair.phys->shearRatio);
-	const bool     refresh   = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-	size_t         row       = solver.pair(k).first;
-	for (size_t i = 0; i < pair.phys->states.size(); ++i, ++row) {
-		const timber::ContactPoint& at = pair.geom->contactPoints[i];
-		timber::PointState&         s  = pair.phys->states[i];
-		timber::DashpotPoint        p;
-		p.bodyA         = id1;
-		p.bodyB         = id2;
-		p.armA          = at.position - x1;
-		p.armB          = at.position - x2;
-		p.normal        = at.normal;
-		p.elasticNormal = s.normal;
-		p.elasticShear  = s.shear;
-		p.normalDamping = 2 * pair.phys->dampingRatio * math::sqrt(pair.phys->mass * s.stiffness);
-		p.shearDamping  = p.normalDamping * rootShear;
-		p.friction      = pair.phys->friction;
-		p.impulse       = scene->dt * (s.normal * at.normal + s.shear + s.dashpot);
-		p.response      = refresh ? timber::PointResponse() : s.response;
-		solver.set(row, bodies, p, scene->dt);
-		s.response = p.response;
-	}
+	const Pair& pair = pairs[k];
+	const int   id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
+	const bool  refresh = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
+	timber::setRows(solver, k, bodies, Body::byId(id1, scene)->state->pos, Body::byId(id2, scene)->state->pos, pair.phys->properties(), pair.phys->dampingRatio, scene->dt, refresh,
+	        pair.geom->contactPoints, pair.phys->states);
 }
 
 void ContactForces::collectPoints()
@@ -111,46 +91,19 @@ void ContactForces::collectPoints()
 		collectPoints(k);
 }
 
-void ContactForces::bookEnergy(
-        const timber::DashpotSolver::Row& row, const timber::DashpotBody& a, const timber::DashpotBody& b, timber::PointState& s, const ManifoldPhys& phys, Books& own) const
+void ContactForces::storePoints(size_t k, timber::PairEnergies& own)
 {
-	const Vector3r after  = timber::relativeVelocity(row, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-	const Vector3r mean   = (row.before + after) / 2;
-	const Real     normal = s.dashpot.dot(row.normal);
-	const Real     energy = timber::shearEnergy(s, phys.properties());
-	own.dashpotNormal -= scene->dt * normal * mean.dot(row.normal);
-	own.dashpotShear -= scene->dt * (s.dashpot - normal * row.normal).dot(mean);
-	own.friction -= s.slide.dot(s.shearBefore + s.shear) / 2 + energy - s.shearEnergyBefore;
-	own.elasticNormal += s.energy;
-	own.elasticShear += energy;
-	own.elasticPower -= (s.normal * row.normal + s.shear).dot(after);
-}
-
-void ContactForces::storePoints(size_t k, Books& own)
-{
-	const Pair&                        pair = pairs[k];
-	const timber::DashpotSolver::Pair& rows = solver.pair(k);
-	const timber::DashpotBody &        a = bodies[rows.bodyA], &b = bodies[rows.bodyB];
-	Vector3r                           sum = Vector3r::Zero(), torqueA = Vector3r::Zero(), torqueB = Vector3r::Zero();
-	for (size_t i = 0; i < rows.count; ++i) {
-		const timber::DashpotSolver::Row& row = solver.row(rows.first + i);
-		timber::PointState&               s   = pair.phys->states[i];
-		const Vector3r                    f   = row.impulse / scene->dt;
-		s.shear   = timber::limitedShear(s.shear, row.friction, f.dot(row.normal));
-		s.dashpot = f - s.normal * row.normal - s.shear;
-		sum += f;
-		torqueA -= row.armA.cross(f);
-		torqueB += row.armB.cross(f);
-		if (trackEnergy) bookEnergy(row, a, b, s, *pair.phys, own);
-	}
-	if (a.inverseMass > 0) sums.add(rows.bodyA, -sum, torqueA); // fixed bodies belong to several islands, which other threads work on
-	if (b.inverseMass > 0) sums.add(rows.bodyB, sum, torqueB);
+	const timber::DashpotSolver::Pair& pair = solver.pair(k);
+	ManifoldPhys&                      phys = *pairs[k].phys;
+	const timber::PairForce            f    = timber::takeForces(solver, k, bodies, phys.properties(), scene->dt, phys.states, trackEnergy ? &own : nullptr);
+	if (bodies[pair.bodyA].inverseMass > 0) sums.add(pair.bodyA, -f.onB, f.torqueA); // fixed bodies belong to several islands, which other threads work on
+	if (bodies[pair.bodyB].inverseMass > 0) sums.add(pair.bodyB, f.onB, f.torqueB);
 }
 
 void ContactForces::storePoints()
 {
 	const int count = int(solver.islandCount());
-	books.assign(count, Books());
+	books.assign(count, timber::PairEnergies());
 #pragma omp parallel for schedule(dynamic) if (count > 1)
 	for (int island = 0; island < count; ++island)
 		for (const int pair : solver.island(island))
@@ -162,7 +115,7 @@ void ContactForces::sumBooks()
 	elasticNormal = elasticShear = elasticPower = 0;
 	for (const Pair& pair : pairs)
 		lost += pair.phys->lostEnergy;
-	for (const Books& own : books) {
+	for (const timber::PairEnergies& own : books) {
 		dashpotNormal += own.dashpotNormal;
 		dashpotShear += own.dashpotShear;
 		friction += own.friction;

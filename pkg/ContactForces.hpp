@@ -22,11 +22,7 @@ class ContactForces : public GlobalEngine {
 	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
 	BodyForces                        sums; ///< of the contacts, on free bodies
 
-	/// Energies of an island in this step.
-	struct Books {
-		Real dashpotNormal = 0, dashpotShear = 0, friction = 0, elasticNormal = 0, elasticShear = 0, elasticPower = 0;
-	};
-	std::vector<Books> books; ///< of each island: summed in their order, whoever did them
+	std::vector<timber::PairEnergies> books; ///< of each island: summed in their order, whoever did them
 
 	void sortPairs();
 	void collectPairs();
@@ -34,9 +30,8 @@ class ContactForces : public GlobalEngine {
 	void collectBodies();
 	void collectPoints(size_t pair);
 	void collectPoints();
-	void storePoints(size_t pair, Books&);
+	void storePoints(size_t pair, timber::PairEnergies&);
 	void storePoints();
-	void bookEnergy(const timber::DashpotSolver::Row&, const timber::DashpotBody&, const timber::DashpotBody&, timber::PointState&, const ManifoldPhys&, Books&) const;
 	void sumBooks();
 
 public:

@@ -3,7 +3,7 @@
 /// forces on the bodies: ContactForces.
 #pragma once
 #include <ManifoldGeom.hpp>
-#include <kernel/contact_law.hpp>
+#include <kernel/pair_points.hpp>
 
 namespace boost {
 namespace serialization {
@@ -13,7 +13,7 @@ namespace serialization {
 		ar & boost::serialization::make_nvp("excess", s.excess) & boost::serialization::make_nvp("overlap", s.overlap);
 		ar & boost::serialization::make_nvp("stiffness", s.stiffness) & boost::serialization::make_nvp("normal", s.normal) & boost::serialization::make_nvp("energy", s.energy) & boost::serialization::make_nvp("closing", s.closing);
 		ar & boost::serialization::make_nvp("shear", s.shear) & boost::serialization::make_nvp("dashpot", s.dashpot);
-		ar & boost::serialization::make_nvp("response", s.response.normal) & boost::serialization::make_nvp("shearResponse", s.response.shear) & boost::serialization::make_nvp("responseMass", s.response.inverseMass);
+		ar & boost::serialization::make_nvp("response", s.normalResponse) & boost::serialization::make_nvp("shearResponse", s.shearResponse) & boost::serialization::make_nvp("responseMass", s.responseMass);
 	}
 }
 }

@@ -89,7 +89,7 @@ void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, cons
 	static const char* const     names[] = { "tension", "compression", "shear" };
 	TimberJoint&                 joint   = *joints[index];
 	Vector3r &                   force = joint.forces[spring], &way = joint.stretches[spring];
-	const timber::SpringForce    f = timber::springForce(joint.stiffness(), way, axes[joint.id1] * joint.normal);
+	const auto                   f = timber::springForce<double>(joint.stiffness(), way, axes[joint.id1] * joint.normal);
 	const shared_ptr<JointBreak> entry(new JointBreak);
 	entry->time   = scene->time;
 	entry->joint  = int(index);
@@ -105,34 +105,23 @@ void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, cons
 }
 
 /// Stretches the joint's springs to the bodies' placement.
-JointEngine::Pull JointEngine::pullOf(TimberJoint& joint) const
+timber::JointPull JointEngine::pullOf(TimberJoint& joint) const
 {
-	Pull pull;
 	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
 	if (!b1 || !b2) { // taken out of the scene, and its joints with it
 		joint.broken.assign(joint.broken.size(), 1);
 		joint.forces.assign(joint.broken.size(), Vector3r::Zero());
 		joint.stretches.assign(joint.broken.size(), Vector3r::Zero());
-		return pull;
+		return {};
 	}
-	const timber::JointStiffness stiffness = joint.stiffness();
-	const Vector3r               normal = axes[joint.id1] * joint.normal, apart = b2->state->pos - b1->state->pos;
-	Real                         sum = 0, largest = 0;
-	for (size_t k = 0; k < joint.broken.size(); ++k) {
-		if (joint.broken[k]) continue;
-		const Vector3r arm2        = axes[joint.id2] * joint.anchors2[k];
-		joint.stretches[k]         = apart + arm2 - axes[joint.id1] * joint.anchors1[k];
-		const timber::SpringForce f = timber::springForce(stiffness, joint.stretches[k], normal);
-		joint.forces[k]            = f.force;
-		pull.energy += f.energy;
-		pull.force += f.force;
-		pull.torque1 += (apart + arm2).cross(f.force); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
-		pull.torque2 -= arm2.cross(f.force);
-		largest = math::max(largest, f.force.squaredNorm());
-		if (joint.perJoint) sum += f.force.norm();
-	}
-	pull.overloaded = joint.perJoint ? sum > joint.strength : largest > joint.strength * joint.strength;
-	return pull;
+	const timber::JointPlacement place { axes[joint.id1], axes[joint.id2], b2->state->pos - b1->state->pos };
+	return timber::pullSprings(joint.stiffness(), place, joint.normal, joint.anchors1, joint.anchors2, joint.broken, joint.stretches, joint.forces);
+}
+
+bool JointEngine::isOverloaded(size_t index) const
+{
+	const TimberJoint& joint = *joints[index];
+	return joint.perJoint ? pulls[index].sum > joint.strength : pulls[index].largest > joint.strength * joint.strength;
 }
 
 /// Breaks what is overloaded; what is left pulls on.
@@ -148,7 +137,7 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::stretchAll()
 {
 	const int count = int(joints.size());
-	pulls.assign(count, Pull());
+	pulls.assign(count, timber::JointPull());
 #pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int k = 0; k < count; ++k)
 		if (!joints[k]->isFinished()) pulls[k] = pullOf(*joints[k]);
@@ -160,13 +149,13 @@ void JointEngine::sumPulls()
 	elastic = 0;
 	sums.clear(axes.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
-		if (pulls[k].overloaded) breakSprings(k);
-		const Pull& pull = pulls[k];
+		if (isOverloaded(k)) breakSprings(k);
+		const timber::JointPull& pull = pulls[k];
 		if (pull.energy == 0) continue; // finished, or not stretched at all
 		const TimberJoint& joint = *joints[k];
 		elastic += pull.energy;
-		sums.add(joint.id1, pull.force, pull.torque1);
-		sums.add(joint.id2, -pull.force, pull.torque2);
+		sums.add(joint.id1, pull.force, pull.torqueA);
+		sums.add(joint.id2, -pull.force, pull.torqueB);
 	}
 }
 

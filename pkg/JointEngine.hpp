@@ -55,18 +55,13 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
-	/// What a joint does in this step, by its springs that are left; forces on body 1, torques about the bodies' centres.
-	struct Pull {
-		Vector3r force = Vector3r::Zero(), torque1 = Vector3r::Zero(), torque2 = Vector3r::Zero();
-		Real     energy     = 0;
-		bool     overloaded = false;
-	};
-	std::vector<Matrix3r> axes; ///< of the bodies, by id
-	std::vector<Pull>     pulls; ///< of the joints
-	BodyForces            sums; ///< of the joints
+	std::vector<Matrix3r>          axes; ///< of the bodies, by id
+	std::vector<timber::JointPull> pulls; ///< of the joints in this step, by their springs that are left
+	BodyForces                     sums; ///< of the joints
 
 	void collectAxes();
-	Pull pullOf(TimberJoint&) const;
+	timber::JointPull pullOf(TimberJoint&) const;
+	bool isOverloaded(size_t joint) const;
 	void stretchAll();
 	void breakSprings(size_t joint);
 	void breakSpring(size_t joint, size_t spring, const State&, const State&);

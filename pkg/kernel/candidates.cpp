@@ -89,8 +89,8 @@ namespace {
 
 		void vertexFace(FeatureId id, const Vertex& x, const Face& face, double depth, const Vec3& place)
 		{
-			const double h = height(face.plane, x.place);
-			if (h <= pair.touch() + x.motion && h >= -depth - x.motion && isOverFace(face, x.place, flushTolerance + x.motion)) add(id, place, h <= x.motion);
+			const double h = height<double>(face.plane, x.place);
+			if (h <= pair.touch() + x.motion && h >= -depth - x.motion && isOverFace<double>(face, x.place, flushTolerance + x.motion)) add(id, place, h <= x.motion);
 		}
 
 		void edgeEdge(FeatureId id, const Edge& ea, const Edge& eb, const Turned& turnedB)

@@ -5,6 +5,7 @@
 #pragma once
 #include "constants.hpp"
 #include "dashpots.hpp"
+#include "lanes.hpp"
 #include "manifold.hpp"
 #include <algorithm>
 #include <cmath>
@@ -27,18 +28,19 @@ inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
-	double force(double n) const { return 4. / 3 * modulus * std::sqrt(radius * n) * n; } ///< [N] (Eq. 37)
-	double stiffness(double n) const { return 2 * modulus * std::sqrt(radius * n); } ///< [N/m] (Eq. 39)
-	double energy(double n) const { return 0.4 * force(n) * n; } ///< [J]
+	template <class Number> Number root(Number n) const { using std::sqrt; return sqrt(Number(radius) * n); }
+	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * root(n) * n; } ///< [N] (Eq. 37)
+	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * root(n); } ///< [N/m] (Eq. 39)
+	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
 	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
 };
 
 /// Snow: constant stiffness, proportional to the snow's mass (Table 1).
 struct LinearLaw {
 	double constant; ///< [N/m]
-	double force(double n) const { return constant * n; }
-	double stiffness(double) const { return constant; }
-	double energy(double n) const { return 0.5 * constant * n * n; }
+	template <class Number> Number force(Number n) const { return Number(constant) * n; }
+	template <class Number> Number stiffness(Number) const { return Number(constant); }
+	template <class Number> Number energy(Number n) const { return Number(0.5 * constant) * n * n; }
 	double overlapOf(double energy) const { return std::sqrt(2 * energy / constant); }
 };
 
@@ -50,26 +52,29 @@ struct PairProperties {
 	double overlapLimit = 0; ///< the force stays constant beyond it: the cores touch [m]
 };
 
-/// What a contact point remembers between steps. Forces act on B.
-struct PointState {
+/// What the springs of a contact point remember between steps. Forces act on B.
+template <class Number> struct Springs {
+	Number excess = 0.; ///< overlap that was there at birth and carries no force, see bornOverlap() [m]
+	Number overlap = 0.; ///< counted overlap n = overlap - excess, at most the limit [m]
+	Number stiffness = 0.; ///< K_n [N/m]
+	Number normal = 0.; ///< elastic normal force e_n [N]
+	Number energy = 0.; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
+	Vec3Of<Number> shear = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
+	Number closing = 0.; ///< closing displacement of the last step [m]
+	Vec3Of<Number> slide = Vec3Of<Number>::Constant(Number(0.)); ///< tangential displacement of B against A in the last step [m]
+	Vec3Of<Number> shearBefore = Vec3Of<Number>::Constant(Number(0.)); ///< e_s before that displacement [N]
+	Number shearEnergyBefore = 0.; ///< [J]
+};
+
+/// What a contact point remembers between steps.
+struct PointState : Springs<double>, PointResponse {
 	FeatureId id;
-	double excess = 0; ///< overlap that was there at birth and carries no force, see bornOverlap() [m]
-	double overlap = 0; ///< counted overlap n = overlap - excess, at most the limit [m]
-	double stiffness = 0; ///< K_n [N/m]
-	double normal = 0; ///< elastic normal force e_n [N]
-	double energy = 0; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
-	Vec3 shear = Vec3::Zero(); ///< elastic tangential force e_s [N]
-	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step [N]
-	PointResponse response; ///< kept for some steps
-	double closing = 0; ///< closing displacement of the last step [m]
-	Vec3 slide = Vec3::Zero(); ///< tangential displacement of B against A in the last step [m]
-	Vec3 shearBefore = Vec3::Zero(); ///< e_s before that displacement [N]
-	double shearEnergyBefore = 0; ///< [J]
+	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step, on B [N]
 };
 
 /// Motion of B against A at a contact point.
-struct PointMotion {
-	Vec3 velocity; ///< [m/s]
+template <class Number> struct PointMotion {
+	Vec3Of<Number> velocity; ///< [m/s]
 	Vec3 spin; ///< mean angular velocity of the two bodies: the contact turns with it [rad/s]
 };
 
@@ -80,58 +85,65 @@ struct PointMotion {
 /// overlap [m] > 0, approach: closing displacement [m], energy [J] >= 0; returns [m].
 template <class Law> double bornOverlap(const Law& law, double overlap, double approach, double energy) { return std::min(overlap, std::max(approach, law.overlapOf(std::max(0., energy)))); }
 
-/// Stored energy of the tangential spring. [J]
-inline double shearEnergy(const PointState& s, const PairProperties& p)
+/// Energy that a tangential spring stores with a force. [J]
+template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number stiffness)
 {
-	const double stiffness = p.shearRatio * s.stiffness;
-	return stiffness > 0 ? s.shear.squaredNorm() / (2 * stiffness) : 0;
+	return chosen(stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
+template <class Number> Number shearEnergy(const Springs<Number>& s, const PairProperties& p) { return shearEnergy<Number>(s.shear, Number(p.shearRatio) * s.stiffness); }
 
 /// Turns a tangential force with the contact: with the mean spin of the bodies, then into the plane normal to n.
 /// Its length stays.
-inline Vec3 turned(const Vec3& shear, const Vec3& turn, const Vec3& normal)
+template <class Number> Vec3Of<Number> turned(const Vec3Of<Number>& shear, const Vec3& turn, const Vec3Of<Number>& normal)
 {
-	const double length = shear.squaredNorm();
-	if (length == 0) return shear;
-	Vec3 t = shear + turn.cross(shear);
+	using std::sqrt;
+	const Number length = shear.squaredNorm();
+	Vec3Of<Number> t = shear + wide<Number>(turn).cross(shear);
 	t -= t.dot(normal) * normal;
-	const double left = t.squaredNorm();
-	return left > 0 ? Vec3(t * std::sqrt(length / left)) : Vec3(Vec3::Zero());
+	const Number left = t.squaredNorm(), none = 0.;
+	return t * chosen(left > none, [&] { return Number(sqrt(Number(length / left))); }, [&] { return none; });
 }
 
 /// Force of a point that comes or goes within a step: its overlap n [m] is below its displacement d in a step [m]. Before
 /// or after it there was none, and the trapezoid sum of the work over the two steps, F(n) d + F(n + d) d / 2, must be the
 /// energy at n + d; with the force of n itself, impacts that last few steps lose energy. Exact for a linear law. [N]
-template <class Law> double grazingForce(const Law& law, double n, double d) { return std::max(0., law.energy(n + d) / d - law.force(n + d) / 2); }
+template <class Law, class Number> Number grazingForce(const Law& law, Number n, Number d)
+{
+	return most(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
+}
 
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.
 enum class NormalForm { Closed, Increment };
 
-/// Elastic forces of one point for its new overlap and displacement (Eqs. 15, 16, 19, 20).
+/// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
 /// energy. Sliding is decided where the total normal force is known (dashpots.hpp).
-/// in: law, pair, point, motion, dt [s]; in-out: state (a new one has only its id and excess).
-template <class Law>
-void elasticStep(const Law& law, const PairProperties& pair, const ContactPoint& point, const PointMotion& motion, double dt, NormalForm form, PointState& state)
+/// in: law, pair, point, motion, dt [s]; in-out: state (a new one has only its excess).
+template <class Law, class Point, class Number>
+void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const PointMotion<Number>& motion, double dt, NormalForm form, Springs<Number>& state)
 {
-	state.closing = -motion.velocity.dot(point.normal) * dt;
-	state.excess = std::min(state.excess, point.overlap);
-	const double before = state.overlap, stiffnessBefore = state.stiffness;
-	state.overlap = std::min(point.overlap - state.excess, pair.overlapLimit);
+	const Number h = dt, none = 0., limit = pair.overlapLimit;
+	state.closing = -motion.velocity.dot(point.normal) * h;
+	state.excess = least(state.excess, point.overlap);
+	const Number before = state.overlap, stiffnessBefore = state.stiffness, whole = point.overlap - state.excess;
+	state.overlap = least(whole, limit);
 	state.stiffness = law.stiffness(state.overlap);
-	state.normal = form == NormalForm::Closed ? law.force(state.overlap) : std::max(0., state.normal + state.stiffness * (state.overlap - before));
+	if (form == NormalForm::Closed) {
+		state.normal = law.force(state.overlap);
+		const Number way = most(state.closing, Number(-state.closing));
+		const auto grazes = both(none < state.overlap, state.overlap < least(way, limit));
+		state.normal = chosen(grazes, [&] { return grazingForce(law, state.overlap, way); }, [&] { return state.normal; });
+	} else
+		state.normal = most(none, Number(state.normal + state.stiffness * (state.overlap - before)));
+	state.energy = law.energy(state.overlap) + (whole - state.overlap) * state.normal;
 
-	const double way = std::abs(state.closing);
-	const bool grazes = 0 < state.overlap && state.overlap < std::min(way, pair.overlapLimit);
-	if (form == NormalForm::Closed && grazes) state.normal = grazingForce(law, state.overlap, way);
-	state.energy = law.energy(state.overlap) + (point.overlap - state.excess - state.overlap) * state.normal;
-
-	state.shear = turned(state.shear, motion.spin * dt, point.normal);
+	const Number shearStiffness = Number(pair.shearRatio) * state.stiffness;
+	state.shear = turned<Number>(state.shear, motion.spin * dt, point.normal);
 	state.shearBefore = state.shear;
-	state.shearEnergyBefore = stiffnessBefore > 0 ? state.shear.squaredNorm() / (2 * pair.shearRatio * stiffnessBefore) : 0;
-	if (state.stiffness < stiffnessBefore) state.shear *= state.stiffness / stiffnessBefore;
-	state.slide = (motion.velocity + state.closing / dt * point.normal) * dt;
-	state.shear -= pair.shearRatio * state.stiffness * state.slide;
+	state.shearEnergyBefore = shearEnergy<Number>(state.shear, Number(pair.shearRatio) * stiffnessBefore);
+	state.shear *= chosen(state.stiffness < stiffnessBefore, [&] { return Number(state.stiffness / stiffnessBefore); }, [] { return Number(1.); });
+	state.slide = (motion.velocity + Number(state.closing / h) * point.normal) * h;
+	state.shear -= shearStiffness * state.slide;
 }
 
 } // namespace timber

@@ -26,31 +26,73 @@ namespace {
 		return (tt + uu) / 2 + std::sqrt((tt - uu) * (tt - uu) / 4 + tu * tu);
 	}
 
-	PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const DashpotPoint& p)
-	{
-		const Mat3 response = pointResponse(a, p.armA) + pointResponse(b, p.armB);
-		return { response * p.normal, largestShearResponse(response, p.normal), a.inverseMass + b.inverseMass };
-	}
-
 	/// theta of the step and the gain of a correction, for a dashpot of rate h C against the response a.
-	void setDashpot(double rate, double a, double& theta, double& gain)
+	template <class Number> void setDashpot(Number rate, Number a, Number& theta, Number& gain)
 	{
-		const double x = rate * a;
-		theta = 0.5 + x / (12 + 2 * x);
-		gain = 1 / (1 + theta * x);
-	}
-
-	Vec3 clipped(const Vec3& v, double length)
-	{
-		const double square = v.squaredNorm();
-		return square > length * length ? Vec3(v * (length / std::sqrt(square))) : v;
+		const Number x = rate * a;
+		theta = Number(0.5) + x / (Number(12.) + Number(2.) * x);
+		gain = Number(1.) / (Number(1.) + theta * x);
 	}
 
 	/// Tangential impulse under a Coulomb limit [N s]: the spring slides when it alone exceeds the limit, and then has no
 	/// dashpot; spring and dashpot together never exceed it.
-	Vec3 limitedTangential(const Vec3& elastic, double elasticNorm, const Vec3& withDashpot, double limit)
+	template <class Number> Vec3Of<Number> limitedTangential(const Vec3Of<Number>& elastic, Number elasticNorm, const Vec3Of<Number>& withDashpot, Number limit)
 	{
-		return elasticNorm > limit ? Vec3(elastic * (limit / elasticNorm)) : clipped(withDashpot, limit);
+		return chosen(elasticNorm > limit, [&] { return Vec3Of<Number>(elastic * Number(limit / elasticNorm)); }, [&] { return clipped<Number>(withDashpot, limit); });
+	}
+
+	/// implicit: whether the impulses are to be found by sweeps; else they are those of explicit dashpots.
+	template <class Number> DashpotRow<Number> rowOf(const DashpotPoint<Number>& p, const DashpotBody& a, const DashpotBody& b, double step, bool implicit)
+	{
+		const Number h = step, normalImpulse = h * p.normalDamping, shearImpulse = h * p.shearDamping; // per velocity
+		Number normalTheta = 0., shearTheta = 0.;
+		DashpotRow<Number> row;
+		row.armA = p.armA;
+		row.armB = p.armB;
+		row.normal = p.normal;
+		row.before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
+		row.impulse = p.impulse;
+		row.friction = p.friction;
+		row.normalResponse = p.normalResponse;
+		row.normalGain = row.shearGain = 0.;
+		if (implicit) {
+			setDashpot<Number>(normalImpulse, p.normal.dot(p.normalResponse), normalTheta, row.normalGain);
+			setDashpot<Number>(shearImpulse, p.shearResponse, shearTheta, row.shearGain);
+		}
+		const Number vn = row.before.dot(p.normal), one = 1.;
+		row.normalRate = normalImpulse * normalTheta;
+		row.shearRate = shearImpulse * shearTheta;
+		row.elasticShear = h * p.elasticShear;
+		row.elasticShearNorm = row.elasticShear.norm();
+		row.normalTarget = h * p.elasticNormal - normalImpulse * (one - normalTheta) * vn;
+		row.shearTarget = row.elasticShear - Number(shearImpulse * (one - shearTheta)) * (row.before - vn * p.normal);
+		if (!implicit) {
+			const Number normal = most(Number(0.), row.normalTarget);
+			row.impulse = normal * row.normal + limitedTangential<Number>(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
+		}
+		return row;
+	}
+
+	void store(const DashpotRow<double>& row, DashpotRow<double>* rows, size_t) { *rows = row; }
+	void store(const DashpotRow<Lanes>& row, DashpotRow<double>* rows, size_t count)
+	{
+		using One = DashpotRow<double>;
+		const Group<One> each(rows, count);
+		each.set(&One::armA, row.armA);
+		each.set(&One::armB, row.armB);
+		each.set(&One::normal, row.normal);
+		each.set(&One::before, row.before);
+		each.set(&One::impulse, row.impulse);
+		each.set(&One::normalResponse, row.normalResponse);
+		each.set(&One::normalRate, row.normalRate);
+		each.set(&One::normalGain, row.normalGain);
+		each.set(&One::shearRate, row.shearRate);
+		each.set(&One::shearGain, row.shearGain);
+		each.set(&One::normalTarget, row.normalTarget);
+		each.set(&One::shearTarget, row.shearTarget);
+		each.set(&One::elasticShear, row.elasticShear);
+		each.set(&One::elasticShearNorm, row.elasticShearNorm);
+		each.set(&One::friction, row.friction);
 	}
 
 	/// Velocities of a pair while its points are worked on.
@@ -64,7 +106,7 @@ namespace {
 		        , spinB(b.newSpin)
 		{
 		}
-		Vec3 at(const DashpotSolver::Row& row) const { return relativeVelocity(row, velocityA, spinA, velocityB, spinB); }
+		Vec3 at(const DashpotSolver::Row& row) const { return relativeVelocity<double>(row.armA, row.armB, velocityA, spinA, velocityB, spinB); }
 		void push(const DashpotBody& a, const DashpotBody& b, const DashpotSolver::Row& row, const Vec3& impulse)
 		{
 			velocityA -= a.inverseMass * impulse;
@@ -82,7 +124,11 @@ namespace {
 
 } // namespace
 
-Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce) { return clipped(elasticShear, friction * normalForce); }
+PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const Vec3& armA, const Vec3& armB, const Vec3& normal)
+{
+	const Mat3 response = pointResponse(a, armA) + pointResponse(b, armB);
+	return { response * normal, largestShearResponse(response, normal), a.inverseMass + b.inverseMass };
+}
 
 void DashpotSolver::clear(int mostSweeps)
 {
@@ -90,42 +136,21 @@ void DashpotSolver::clear(int mostSweeps)
 	pairs.clear();
 }
 
-void DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
+size_t DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	const size_t first = pairs.empty() ? 0 : pairs.back().first + pairs.back().count;
 	pairs.push_back({ bodyA, bodyB, first, count, 0 });
 	if (rows.size() < first + count) rows.resize(first + count); // rows of the last step are overwritten by set()
+	return pairs.size() - 1;
 }
 
-void DashpotSolver::set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& p, double h)
+template <class Number> void DashpotSolver::set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h)
 {
-	const DashpotBody &a = bodies[p.bodyA], &b = bodies[p.bodyB];
-	const Vec3 before = relativeVelocity(p, a.velocity, a.spin, b.velocity, b.spin);
-	const double vn = before.dot(p.normal);
-	double normalTheta = 0, shearTheta = 0;
-	Row& row = rows[k];
-	row.armA = p.armA;
-	row.armB = p.armB;
-	row.normal = p.normal;
-	row.before = before;
-	row.impulse = p.impulse;
-	row.friction = p.friction;
-	if (sweeps > 0) {
-		if (p.response.inverseMass != a.inverseMass + b.inverseMass) p.response = responseAt(a, b, p);
-		row.normalResponse = p.response.normal;
-		setDashpot(h * p.normalDamping, p.normal.dot(row.normalResponse), normalTheta, row.normalGain);
-		setDashpot(h * p.shearDamping, p.response.shear, shearTheta, row.shearGain);
-	}
-	row.normalRate = h * p.normalDamping * normalTheta;
-	row.shearRate = h * p.shearDamping * shearTheta;
-	row.elasticShear = h * p.elasticShear;
-	row.elasticShearNorm = row.elasticShear.norm();
-	row.normalTarget = h * p.elasticNormal - h * p.normalDamping * (1 - normalTheta) * vn;
-	row.shearTarget = row.elasticShear - h * p.shearDamping * (1 - shearTheta) * (before - vn * p.normal);
-	if (sweeps > 0) return;
-	const double normal = std::max(0., row.normalTarget);
-	row.impulse = normal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
+	const Pair& pair = pairs[k];
+	store(rowOf<Number>(points, bodies[pair.bodyA], bodies[pair.bodyB], h, sweeps > 0), &rows[pair.first + first], pair.count - first);
 }
+template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<double>&, double);
+template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<Lanes>&, double);
 
 // --- islands ------------------------------------------------------------------------------------------------------------
 
@@ -181,7 +206,7 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 		v += (newNormal - normal) * row.normalResponse;
 		const Vec3 tangential = row.impulse - normal * row.normal;
 		const Vec3 shearError = tangential - row.shearTarget + row.shearRate * (v - v.dot(row.normal) * row.normal);
-		const Vec3 impulse = newNormal * row.normal + limitedTangential(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, row.friction * newNormal);
+		const Vec3 impulse = newNormal * row.normal + limitedTangential<double>(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, row.friction * newNormal);
 		const Vec3 change = impulse - row.impulse;
 		motion.push(a, b, row, change);
 		row.impulse = impulse;

@@ -11,7 +11,7 @@
 /// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
 /// not influence each other, not even by rounding, and threads may share the work.
 #pragma once
-#include "types.hpp"
+#include "lanes.hpp"
 #include <cstddef>
 #include <vector>
 
@@ -27,42 +27,61 @@ struct DashpotBody {
 /// How the relative velocity at a point answers to impulses there. It decides theta and the speed of the sweeps, and changes
 /// little in some steps: it may be kept for them, but not when a body is held, released or gets another mass.
 struct PointResponse {
-	Vec3 normal = Vec3::Zero(); ///< change of the relative velocity per unit normal impulse [1/kg]
-	double shear = 0; ///< largest change per unit tangential impulse [1/kg]
-	double inverseMass = -1; ///< of both bodies together when it was found [1/kg]; < 0: not known
+	Vec3 normalResponse = Vec3::Zero(); ///< change of the relative velocity per unit normal impulse [1/kg]
+	double shearResponse = 0; ///< largest change per unit tangential impulse [1/kg]
+	double responseMass = -1; ///< inverse mass of both bodies together when it was found [1/kg]; < 0: not known
+};
+PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const Vec3& armA, const Vec3& armB, const Vec3& normal);
+
+/// A contact point as its dashpots see it.
+template <class Number> struct DashpotPoint {
+	Vec3Of<Number> armA, armB; ///< from the centres of mass to the point [m]
+	Vec3Of<Number> normal; ///< unit, from A to B
+	Number elasticNormal; ///< e_n >= 0 [N]
+	Vec3Of<Number> elasticShear; ///< e_s on B, before Coulomb's limit [N]
+	Number normalDamping, shearDamping; ///< C_n, C_s [N s/m]
+	Number friction; ///< [-]
+	Vec3Of<Number> impulse; ///< guess of the total contact impulse on B [N s]
+	Vec3Of<Number> normalResponse; ///< PointResponse
+	Number shearResponse;
 };
 
-struct DashpotPoint {
-	int bodyA, bodyB; ///< indices of the bodies
-	Vec3 armA, armB; ///< from the centres of mass to the point [m]
-	Vec3 normal; ///< unit, from A to B
-	double elasticNormal; ///< e_n >= 0 [N]
-	Vec3 elasticShear; ///< e_s on B, before Coulomb's limit [N]
-	double normalDamping, shearDamping; ///< C_n, C_s [N s/m]
-	double friction; ///< [-]
-	Vec3 impulse; ///< guess of the total contact impulse on B [N s]
-	PointResponse response; ///< in-out: found when not known
+/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
+template <class Number> struct DashpotRow {
+	Vec3Of<Number> armA, armB, normal;
+	Vec3Of<Number> before; ///< relative velocity before the step [m/s]
+	Vec3Of<Number> impulse; ///< total contact impulse on B [N s]
+	Vec3Of<Number> normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
+	Number normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
+	Number shearRate, shearGain;
+	Number normalTarget; ///< h e_n - h C_n (1 - theta) v_n before: the dashpot's known part included [N s]
+	Vec3Of<Number> shearTarget; ///< likewise, tangential
+	Vec3Of<Number> elasticShear; ///< h e_s
+	Number elasticShearNorm, friction;
 };
+
+/// Relative velocity of B against A at a point with the given arms. [m/s]
+template <class Number>
+Vec3Of<Number> relativeVelocity(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+{
+	return wide<Number>(vB) + wide<Number>(wB).cross(armB) - wide<Number>(vA) - wide<Number>(wA).cross(armA);
+}
+
+/// v, shortened to the length if it is longer.
+template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
+{
+	using std::sqrt;
+	const Number square = v.squaredNorm();
+	return chosen(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
+}
 
 /// e_s after sliding: at most friction times the normal force. [N]
-Vec3 limitedShear(const Vec3& elasticShear, double friction, double normalForce);
+template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce) { return clipped<Number>(elasticShear, friction * normalForce); }
 
 /// Finds the impulses of all points of a step: clear(), addPair() for each pair, set() for each of their points, solve().
 class DashpotSolver {
 public:
-	/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
-	struct Row {
-		Vec3 armA, armB, normal;
-		Vec3 before; ///< relative velocity before the step [m/s]
-		Vec3 impulse; ///< total contact impulse on B [N s]
-		Vec3 normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
-		double normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
-		double shearRate, shearGain;
-		double normalTarget; ///< h e_n - h C_n (1 - theta) v_n before: the dashpot's known part included [N s]
-		Vec3 shearTarget; ///< likewise, tangential
-		Vec3 elasticShear; ///< h e_s
-		double elasticShearNorm, friction;
-	};
+	using Row = DashpotRow<double>;
 	/// Two bodies and their rows.
 	struct Pair {
 		int bodyA, bodyB;
@@ -78,11 +97,11 @@ public:
 
 	/// Starts a step. sweeps: most passes over the points, alternating in direction; 0: explicit dashpots.
 	void clear(int sweeps);
-	/// Makes room for the points of two bodies.
-	void addPair(int bodyA, int bodyB, size_t count);
-	/// Row k from a point of a step of length h [s]; finds the point's response if it is not known. May be called by several
-	/// threads, each with rows of its own.
-	void set(size_t k, const std::vector<DashpotBody>& bodies, DashpotPoint& point, double h);
+	/// Makes room for the points of two bodies. Returns the pair's number.
+	size_t addPair(int bodyA, int bodyB, size_t count);
+	/// Rows of the k-th pair from its points of a step of length h [s], from the given one on: one, or up to laneCount of them. May be called
+	/// by several threads, each for pairs of its own.
+	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
 	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
 	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
 	/// points [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
@@ -113,11 +132,5 @@ private:
 	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };
-
-/// Relative velocity of B against A at the point. [m/s]
-template <class Point> Vec3 relativeVelocity(const Point& p, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
-{
-	return vB + wB.cross(p.armB) - vA - wA.cross(p.armA);
-}
 
 } // namespace timber

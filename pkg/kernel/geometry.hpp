@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Small questions about points, segments and one convex polyhedron, all in the polyhedron's frame.
 #pragma once
+#include "lanes.hpp"
 #include "polyhedron.hpp"
 #include <algorithm>
 #include <cmath>
@@ -9,28 +10,35 @@
 
 namespace timber {
 
-inline double height(const HalfSpace& plane, const Vec3& x) { return plane.normal.dot(x) - plane.offset; }
+template <class Number> Number height(const HalfSpace& plane, const Vec3Of<Number>& x) { return wide<Number>(plane.normal).dot(x) - Number(plane.offset); }
 
 /// The foot of x lies in the face or beyond its border by at most `limit` (negative: inside it by as much) [m]. At a
 /// corner the distance along the bisector counts, too, over sqrt(2): nothing new at a right corner, but a foot beyond a
 /// sharp tip stays near it.
-inline bool isOverFace(const Face& face, const Vec3& x, double limit)
+template <class Number> auto isOverFace(const Face& face, const Vec3Of<Number>& x, Number limit)
 {
-	bool beyond = false;
+	const Number none = 0.;
+	auto over = none <= none, beyond = none < none;
 	for (const HalfSpace& border : face.borders) {
-		const double distance = height(border, x);
-		if (distance > limit) return false;
-		beyond = beyond || distance > 0;
+		const Number distance = height(border, x);
+		over = both(over, distance <= limit);
+		if (!any(over)) return over;
+		beyond = either(beyond, distance > none);
 	}
-	return !beyond || std::all_of(face.tips.begin(), face.tips.end(), [&](const HalfSpace& tip) { return height(tip, x) <= M_SQRT2 * limit; });
+	if (!any(both(over, beyond))) return over;
+	for (const HalfSpace& tip : face.tips)
+		over = both(over, either(beyond == (none < none), height(tip, x) <= Number(M_SQRT2) * limit));
+	return over;
 }
 
 /// x lies in all half-spaces but that of the given face, which is not asked; `limit` may reach beyond them or stay inside. [m]
-inline bool isInside(const Polyhedron& body, int face, const Vec3& x, double limit)
+template <class Number> auto isInside(const Polyhedron& body, int face, const Vec3Of<Number>& x, Number limit)
 {
+	const Number none = 0.;
+	auto inside = none <= none;
 	for (int f = 0; f < int(body.faces.size()); ++f)
-		if (f != face && height(body.faces[f].plane, x) > limit) return false;
-	return true;
+		if (f != face) inside = both(inside, height(body.faces[f].plane, x) <= limit);
+	return inside;
 }
 
 /// The face that looks most along a direction.

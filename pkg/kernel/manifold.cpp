@@ -15,38 +15,19 @@ namespace {
 		double distance; ///< of the cores along the normal, negative when they overlap [m]
 	};
 
-	/// Vertex x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
+	/// Vertices x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
 	/// but nearer to the border than to the face (else the face behind the border answers, too). Cores overlapping: only
 	/// the face that looks along the axis of least overlap answers, so that all points push the pair apart.
-	bool vertexOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3& x, double& distance)
+	Lanes::Mask verticesOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3s& x, Lanes& distance)
 	{
 		const Face& f = body.core.faces[face];
+		const Lanes border = pair.borderLimit();
 		distance = height(f.plane, x);
-		if (distance >= pair.touch() || distance <= -(pair.deep() ? body.coreHalfThickness : flushTolerance)) return false;
-		if (!isOverFace(f, x, pair.deep() ? pair.borderLimit() : std::min(pair.borderLimit(), distance))) return false;
-		return !pair.deep() || (face == facing && (distance >= 0 || isInside(body.core, face, x, pair.borderLimit())));
-	}
-
-	bool meetVertexFace(const Pair& pair, int vertex, int face, Meet& meet)
-	{
-		const Vec3& x = pair.a.core.vertices[vertex];
-		const Face& f = pair.b.core.faces[face];
-		if (!vertexOnFace(pair, pair.b, pair.facingB, face, pair.toB(x), meet.distance)) return false;
-		meet.normal = -(pair.rotation * f.plane.normal);
-		meet.pointA = x;
-		meet.pointB = x + meet.distance * meet.normal;
-		return true;
-	}
-
-	bool meetFaceVertex(const Pair& pair, int face, int vertex, Meet& meet)
-	{
-		const Vec3 x = pair.toA(pair.b.core.vertices[vertex]);
-		const Face& f = pair.a.core.faces[face];
-		if (!vertexOnFace(pair, pair.a, pair.facingA, face, x, meet.distance)) return false;
-		meet.normal = f.plane.normal;
-		meet.pointB = x;
-		meet.pointA = x - meet.distance * meet.normal;
-		return true;
+		Lanes::Mask on = both(distance < Lanes(pair.touch()), distance > Lanes(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
+		if (!any(on)) return on;
+		on = both(on, isOverFace(f, x, pair.deep() ? border : least(border, distance)));
+		if (!pair.deep()) return on;
+		return face == facing ? both(on, either(distance >= Lanes(0.), isInside(body.core, face, x, border))) : Lanes::Mask {};
 	}
 
 	/// The crossing must lie inside both edges, farther from their ends than the border rule reaches.
@@ -86,7 +67,7 @@ namespace {
 		const double along = (x - tail).dot(edge.along);
 		if (along < -flushTolerance || along > edge.length + flushTolerance) return false;
 		for (const int f : { edge.left, edge.right })
-			if (isOverFace(body.faces[f], x, pair.borderLimit())) return false; // the face answers
+			if (isOverFace<double>(body.faces[f], x, pair.borderLimit())) return false; // the face answers
 		foot = tail + along * edge.along;
 		const Vec3 towards = foot - x;
 		const double distance = towards.norm();
@@ -132,8 +113,6 @@ namespace {
 	bool meetFeatures(const Pair& pair, FeatureId id, Meet& meet)
 	{
 		switch (id.meeting()) {
-			case Meeting::VertexFace: return meetVertexFace(pair, id.a(), id.b(), meet);
-			case Meeting::FaceVertex: return meetFaceVertex(pair, id.a(), id.b(), meet);
 			case Meeting::EdgeEdge: return meetEdgeEdge(pair, id.a(), id.b(), meet);
 			case Meeting::VertexEdge: return meetVertexEdge(pair, id.a(), id.b(), meet);
 			case Meeting::EdgeVertex: return meetEdgeVertex(pair, id.a(), id.b(), meet);
@@ -163,11 +142,17 @@ namespace {
 		return { middle - half, middle + half, pair.axis, pair.gap };
 	}
 
+	/// Middle of the overlap in the world, from the point on core A.
+	template <class Number> Vec3Of<Number> placeOf(const Pair& pair, const Mat3& turnA, const Vec3& originA, const Vec3Of<Number>& onA, const Vec3Of<Number>& normal, Number overlap)
+	{
+		const Vec3Of<Number> middle = onA + (Number(pair.a.radius) - overlap / Number(2.)) * normal;
+		return wide<Number>(originA) + wide<Number>(turnA) * middle;
+	}
+
 	ContactPoint worldPoint(const Pair& pair, const Mat3& turnA, const Vec3& originA, FeatureId id, const Meet& meet)
 	{
 		const double overlap = pair.touch() - meet.distance;
-		const Vec3 middle = meet.pointA + (pair.a.radius - overlap / 2) * meet.normal;
-		return { id, originA + turnA * middle, turnA * meet.normal, overlap };
+		return { id, placeOf<double>(pair, turnA, originA, meet.pointA, meet.normal, overlap), turnA * meet.normal, overlap };
 	}
 
 	/// Vertices on each other, or over each other's borders, are one contact although several features name it.
@@ -181,6 +166,44 @@ namespace {
 			if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
 			return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
 		});
+	}
+
+	void add(std::vector<ContactPoint>& points, const ContactPoint& next)
+	{
+		if (!isRepeated(points, next)) points.push_back(next);
+	}
+
+	/// The face of a candidate of a vertex and a face, if it is one.
+	int faceOf(FeatureId id) { return id.meeting() == Meeting::VertexFace ? id.b() : id.meeting() == Meeting::FaceVertex ? id.a() : -1; }
+
+	/// How many candidates from `first` on are vertices of one body against the same face of the other, as far as there are lanes.
+	size_t countOnFace(const FeatureId* first, const FeatureId* end)
+	{
+		const auto other = [&](FeatureId id) { return id.meeting() != first->meeting() || faceOf(id) != faceOf(*first); };
+		return size_t(std::find_if(first, std::min(end, first + laneCount), other) - first);
+	}
+
+	/// Contacts of up to laneCount vertices of one body with the same face of the other.
+	void meetFace(const Pair& pair, const Mat3& turnA, const Vec3& originA, const FeatureId* first, size_t count, std::vector<ContactPoint>& points)
+	{
+		const bool ofB = first->meeting() == Meeting::VertexFace;
+		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
+		const int face = faceOf(*first);
+		const Vec3& outward = body.core.faces[face].plane.normal;
+		const Vec3 normal = ofB ? Vec3(-(pair.rotation * outward)) : outward;
+		if (pair.deep() && normal.dot(pair.axis) < outwardCosine) return;
+
+		const Vec3s own = Group<const Vec3>(count, [&](size_t i) -> const Vec3& { return other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
+		const Vec3s inA = ofB ? own : pair.toA(own);
+		Lanes distance;
+		const Lanes::Mask on = verticesOnFace(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB(own) : inA, distance);
+		if (!any(on)) return;
+		const Vec3s across = wide<Lanes>(normal), onA = ofB ? inA : Vec3s(inA - distance * across);
+		const Lanes overlap = Lanes(pair.touch()) - distance;
+		const Vec3s place = placeOf(pair, turnA, originA, onA, across, overlap);
+		const Vec3 worldNormal = turnA * normal;
+		for (size_t i = 0; i < count; ++i)
+			if (on[i]) add(points, { first[i], lane(place, i), worldNormal, overlap.v[i] });
 	}
 
 	/// Gap between the bodies on the axis on which the cores were apart at the last search: if it is there, the pair does not
@@ -206,19 +229,27 @@ namespace {
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
+	const bool touched = !points.empty();
 	points.clear();
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
-	if (const double gap = knownGap(pair, cache); gap > 0) return gap;
+	if (const double gap = touched ? 0 : knownGap(pair, cache); gap > 0) return gap; // what has touched will most likely touch
 	if (!cache.holds(pair.rotation, pair.translation)) searchCandidates(pair, cache);
 	if (cache.coresMayMeet) lookForOverlap(pair);
 
 	Meet meet;
-	for (const FeatureId id : cache.candidates) {
+	const FeatureId* const end = cache.candidates.data() + cache.candidates.size();
+	for (const FeatureId* next = cache.candidates.data(); next != end;) {
+		if (faceOf(*next) >= 0) {
+			const size_t count = countOnFace(next, end);
+			meetFace(pair, turnA, poseA.position, next, count, points);
+			next += count;
+			continue;
+		}
+		const FeatureId id = *next++;
 		if (!meetFeatures(pair, id, meet)) continue;
 		if (pair.deep() && meet.normal.dot(pair.axis) < outwardCosine) continue;
-		const ContactPoint point = worldPoint(pair, turnA, poseA.position, id, meet);
-		if (!isRepeated(points, point)) points.push_back(point);
+		add(points, worldPoint(pair, turnA, poseA.position, id, meet));
 	}
 	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, turnA, poseA.position, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
 	return 0;

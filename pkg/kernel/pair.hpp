@@ -2,6 +2,7 @@
 /// Two rounded polyhedra at one instant, as the manifold and the search for its candidates see them.
 #pragma once
 #include "constants.hpp"
+#include "lanes.hpp"
 #include "manifold.hpp"
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,8 @@ struct Pair {
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
 	Vec3 toB(const Vec3& x) const { return rotation.transpose() * (x - translation); }
 	Vec3 toA(const Vec3& x) const { return rotation * x + translation; }
+	Vec3s toB(const Vec3s& x) const { return wide<Lanes>(rotation).transpose() * (x - wide<Lanes>(translation)); }
+	Vec3s toA(const Vec3s& x) const { return wide<Lanes>(rotation) * x + wide<Lanes>(translation); }
 	/// Foot beyond a border by less than this still belongs to the face. [m]
 	double borderLimit() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
 };

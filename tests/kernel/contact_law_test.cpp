@@ -24,7 +24,7 @@ template <class Law> struct Spring {
 	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(), const Vec3& normal = Vec3::UnitZ())
 	{
 		const ContactPoint point { {}, Vec3::Zero(), normal, overlap };
-		elasticStep(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
+		elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
 	}
 };
 
@@ -132,7 +132,7 @@ TEST(ShearSpring, OpposesTheSlide)
 	Spring<LinearLaw> spring { { 1e6 }, pairOf(0.4) };
 	spring.step(1e-3, 1e-3, { 1e-5, 0, 0 });
 	EXPECT_LT((spring.state.shear - Vec3(-0.4 * 1e6 * 1e-5, 0, 0)).norm(), 1e-12); // rounding of 4 N
-	EXPECT_NEAR(shearEnergy(spring.state, spring.pair), 0.5 * 4e5 * 1e-10, 1e-18);
+	EXPECT_NEAR(shearEnergy<double>(spring.state, spring.pair), 0.5 * 4e5 * 1e-10, 1e-18);
 	spring.step(1e-3, 0, { 0, 2e-5, 0 });
 	EXPECT_LT((spring.state.shear - Vec3(-4, -8, 0)).norm(), 1e-12);
 	EXPECT_LT((spring.state.slide - Vec3(0, 2e-5, 0)).norm(), 1e-18);
@@ -155,12 +155,12 @@ TEST(Turning, KeepsTheLengthAndFollowsTheNormal)
 	for (int trial = 0; trial < 1000; ++trial) {
 		const Vec3 n = randomDirection(random), next = (n + 0.3 * randomVector(random, 1)).normalized();
 		const Vec3 shear = 100 * n.unitOrthogonal();
-		const Vec3 result = turned(shear, 0.01 * randomVector(random, 1), next);
+		const Vec3 result = turned<double>(shear, 0.01 * randomVector(random, 1), next);
 		EXPECT_NEAR(result.norm(), 100, 1e-11); // rescaled to the length: rounding of 100 N
 		EXPECT_NEAR(result.dot(next), 0, 1e-10);
 	}
-	EXPECT_EQ(turned(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
-	EXPECT_EQ(turned(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // nothing left in the plane
+	EXPECT_EQ(turned<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
+	EXPECT_EQ(turned<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // nothing left in the plane
 }
 
 /// A quarter of a turn about the normal, and about an axis in the plane, in small steps.
@@ -173,7 +173,7 @@ TEST(Turning, FollowsAFiniteRotation)
 		Vec3 normal = Vec3::UnitZ();
 		for (int k = 0; k < steps; ++k) {
 			normal = small * normal;
-			shear = turned(shear, axis * (M_PI / 2 / steps), normal);
+			shear = turned<double>(shear, axis * (M_PI / 2 / steps), normal);
 		}
 		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(), 1e-3); // first order in the step: 10 (pi/2)^2 / steps
 	}
@@ -190,7 +190,7 @@ template <class Law> void expectNoEnergyFromNothing(const Law& law, unsigned see
 		const Vec3 slide(uniform(random, -1e-4, 1e-4), uniform(random, -1e-4, 1e-4), 0);
 		spring.step(n, 0, slide, Vec3(0, 0, uniform(random, -1, 1)) / dt);
 		const double work = -(spring.state.shear.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm());
-		const double now = shearEnergy(spring.state, spring.pair);
+		const double now = shearEnergy<double>(spring.state, spring.pair);
 		EXPECT_LE(now, stored + work + 1e-12 * (now + stored + std::abs(work))); // rounding of the terms
 		stored = now;
 	}
@@ -224,7 +224,7 @@ TEST(ShearSpring, ClosedCyclesTakeWork)
 			work -= spring.state.shear.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm();
 			largest = std::max(largest, std::abs(work));
 		}
-		EXPECT_GE(work, shearEnergy(spring.state, spring.pair) - 1e-12 * largest) << trial; // rounding of the sum
+		EXPECT_GE(work, shearEnergy<double>(spring.state, spring.pair) - 1e-12 * largest) << trial; // rounding of the sum
 	}
 }
 

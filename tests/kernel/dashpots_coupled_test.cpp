@@ -75,7 +75,7 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 		free.segment<6>(6 * k) << b.newVelocity, b.newSpin;
 	}
 	for (int k = 0; k < count; ++k) {
-		const DashpotPoint& p = heap.points[k];
+		const HeapPoint& p = heap.points[k];
 		jacobian.block<3, 3>(3 * k, 6 * p.bodyA) -= Mat3::Identity();
 		jacobian.block<3, 3>(3 * k, 6 * p.bodyA + 3) -= cross(p.armA);
 		jacobian.block<3, 3>(3 * k, 6 * p.bodyB) += Mat3::Identity();
@@ -85,7 +85,7 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 	Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(3 * count, 3 * count), theta = damping;
 	Eigen::VectorXd elastic(3 * count);
 	for (int k = 0; k < count; ++k) {
-		const DashpotPoint& p = heap.points[k];
+		const HeapPoint& p = heap.points[k];
 		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along, own = response.block<3, 3>(3 * k, 3 * k);
 		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * own * across).eigenvalues().maxCoeff();
 		const auto weight = [](double x) { return 0.5 + x / (12 + 2 * x); };
@@ -160,7 +160,7 @@ TEST(Islands, DoNotInfluenceEachOther)
 		const int shift = int(one.bodies.size()) - 1; // body 0 is the ground of both
 		both.bodies.insert(both.bodies.end(), other.bodies.begin() + 1, other.bodies.end());
 		for (size_t k = 0; k < other.points.size(); ++k) {
-			DashpotPoint p = other.points[k];
+			HeapPoint p = other.points[k];
 			for (int* body : { &p.bodyA, &p.bodyB })
 				if (*body > 0) *body += shift;
 			both.points.insert(both.points.begin() + long(k), p);
@@ -208,7 +208,7 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed is left, x = 1e4
 	}
 	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
-	std::vector<DashpotPoint> points { central(1e7), central(1e7) }; // the heavy one falls on the light one on the ground
+	std::vector<HeapPoint> points { central(1e7), central(1e7) }; // the heavy one falls on the light one on the ground
 	points[1].bodyA = 1;
 	points[1].bodyB = 2;
 	const double before = kineticEnergy(bodies);

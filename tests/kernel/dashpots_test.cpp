@@ -40,7 +40,7 @@ TEST(SinglePair, ElasticAndOtherForcesWork)
 	std::vector<DashpotBody> bodies { body(2, { 0, 0, 0.5 }), body(3, { 0, 0, -1 }) };
 	bodies[0].newVelocity.z() = 0.4;
 	bodies[1].newVelocity.z() = -1.3;
-	std::vector<DashpotPoint> points { central(c, e) };
+	std::vector<HeapPoint> points { central(c, e) };
 	solveDashpots(bodies, points, h, 1);
 	const double x = h * c / m, theta = 0.5 + x / (12 + 2 * x);
 	const double impulse = (h * e - h * c * ((1 - theta) * -1.5 + theta * -1.7)) / (1 + theta * x);
@@ -54,12 +54,12 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 {
 	const double h = 1e-5, cn = 700, cs = 300;
 	std::vector<DashpotBody> bodies { body(2, { 0.1, 0, 0.5 }), body(3, { 0, 0.2, -1 }) };
-	DashpotPoint p = central(cn, 900);
+	HeapPoint p = central(cn, 900);
 	p.shearDamping = cs;
 	p.elasticShear = { 40, -10, 0 };
 	p.friction = 0.9;
 	p.impulse = { 1, 2, 3 }; // a guess plays no part
-	std::vector<DashpotPoint> points { p };
+	std::vector<HeapPoint> points { p };
 	solveDashpots(bodies, points, h, 0);
 	const Vec3 force(40 - cs * -0.1, -10 - cs * 0.2, 900 + cn * 1.5);
 	EXPECT_LT((points[0].impulse - h * force).norm(), rounding * h * force.norm());
@@ -70,10 +70,10 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 TEST(SinglePair, LeverArms)
 {
 	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(3, { 0, 0, -2 }) };
-	DashpotPoint p = central(500);
+	HeapPoint p = central(500);
 	p.armB = { 0.4, 0, 0 };
 	p.friction = 0;
-	std::vector<DashpotPoint> points { p };
+	std::vector<HeapPoint> points { p };
 	const double h = 1e-3, m = 1 / (1 / 3. + 0.16 / 0.3), x = h * 500 / m; // effective mass of the point
 	solveDashpots(bodies, points, h, 1);
 	const double speed = bodies[1].newVelocity.z() - 0.4 * bodies[1].newSpin.y();
@@ -85,7 +85,7 @@ TEST(Limits, NoTension)
 {
 	for (const int sweeps : { 0, 1, 4 }) {
 		std::vector<DashpotBody> bodies { body(1, Vec3::Zero()), body(1, { 0, 0, 5 }) };
-		std::vector<DashpotPoint> points { central(1e4, 10) };
+		std::vector<HeapPoint> points { central(1e4, 10) };
 		solveDashpots(bodies, points, 1e-4, sweeps);
 		EXPECT_EQ(points[0].impulse, Vec3::Zero());
 		EXPECT_EQ(bodies[1].newVelocity, Vec3(0, 0, 5));
@@ -97,9 +97,9 @@ TEST(Limits, SlidingHasNoDashpot)
 {
 	for (const int sweeps : { 0, 1, 4 }) {
 		std::vector<DashpotBody> bodies { body(1, Vec3::Zero()), body(1, { 0.3, 0.4, 0 }) };
-		DashpotPoint p = central(20, 100);
+		HeapPoint p = central(20, 100);
 		p.elasticShear = { 80, 0, 0 };
-		std::vector<DashpotPoint> points { p };
+		std::vector<HeapPoint> points { p };
 		solveDashpots(bodies, points, 1e-4, sweeps);
 		const double normal = points[0].impulse.z();
 		EXPECT_NEAR(normal, 1e-2, 1e-4); // the normal dashpot answers to the push of the spring: x / 2 = 0.2 %
@@ -111,17 +111,17 @@ TEST(Limits, SpringAndDashpotTogetherRespectCoulomb)
 {
 	for (const int sweeps : { 0, 1, 4 }) {
 		std::vector<DashpotBody> bodies { body(1, Vec3::Zero()), body(1, { -3, 4, 0 }) };
-		DashpotPoint p = central(200, 100);
+		HeapPoint p = central(200, 100);
 		p.elasticShear = { 10, 0, 0 };
-		std::vector<DashpotPoint> points { p };
+		std::vector<HeapPoint> points { p };
 		solveDashpots(bodies, points, 1e-4, sweeps);
 		EXPECT_NEAR(points[0].impulse.head<2>().norm(), 0.5 * points[0].impulse.z(), rounding);
 		EXPECT_GT(points[0].impulse.x(), 0); // against the slide
 		EXPECT_LT(points[0].impulse.y(), 0);
 	}
-	EXPECT_EQ(limitedShear({ 3, 4, 0 }, 0.5, 20), Vec3(3, 4, 0));
-	EXPECT_LT((limitedShear({ 3, 4, 0 }, 0.5, 5) - Vec3(1.5, 2, 0)).norm(), rounding);
-	EXPECT_EQ(limitedShear({ 3, 4, 0 }, 0.5, 0), Vec3::Zero());
+	EXPECT_EQ(limitedShear<double>({ 3, 4, 0 }, 0.5, 20), Vec3(3, 4, 0));
+	EXPECT_LT((limitedShear<double>({ 3, 4, 0 }, 0.5, 5) - Vec3(1.5, 2, 0)).norm(), rounding);
+	EXPECT_EQ(limitedShear<double>({ 3, 4, 0 }, 0.5, 0), Vec3::Zero());
 }
 
 TEST(Limits, HoldInHeaps)
@@ -147,7 +147,7 @@ TEST(ZeroDamping, GivesTheElasticImpulses)
 		const Heap start = heap;
 		heap.solve(1e-4, sweeps);
 		for (size_t k = 0; k < heap.points.size(); ++k) {
-			const DashpotPoint& p = start.points[k];
+			const HeapPoint& p = start.points[k];
 			const Vec3 elastic = 1e-4 * (p.elasticNormal * p.normal + p.elasticShear);
 			EXPECT_LT((heap.points[k].impulse - elastic).norm(), rounding); // impulses of 0.1 N s
 		}

@@ -16,10 +16,14 @@ inline DashpotBody body(double mass, const Vec3& velocity)
 	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0, mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
 }
 
+struct HeapPoint : DashpotPoint<double> {
+	int bodyA = 0, bodyB = 0; ///< indices of the bodies
+};
+
 /// A point between bodies 0 and 1 on the line through their centres; the normal is z.
-inline DashpotPoint central(double damping, double elastic = 0)
+inline HeapPoint central(double damping, double elastic = 0)
 {
-	DashpotPoint p {};
+	HeapPoint p;
 	p.bodyB = 1;
 	p.armA = p.armB = p.elasticShear = p.impulse = Vec3::Zero();
 	p.normal = Vec3::UnitZ();
@@ -30,17 +34,24 @@ inline DashpotPoint central(double damping, double elastic = 0)
 }
 
 /// One step of points whose pairs stand next to each other. Returns the number of passes.
-inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	DashpotSolver solver;
 	solver.clear(sweeps);
+	std::vector<std::pair<size_t, size_t>> places; // of each point: its pair, and which of its points it is
 	for (auto p = points.begin(); p != points.end();) {
-		const auto end = std::find_if_not(p, points.end(), [&](const DashpotPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; });
-		solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
-		p = end;
+		const auto end = std::find_if_not(p, points.end(), [&](const HeapPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; });
+		const size_t pair = solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
+		for (size_t i = 0; p != end; ++i, ++p)
+			places.emplace_back(pair, i);
 	}
-	for (size_t k = 0; k < points.size(); ++k)
-		solver.set(k, bodies, points[k], h);
+	for (size_t k = 0; k < points.size(); ++k) {
+		HeapPoint& p = points[k];
+		const PointResponse response = responseAt(bodies[size_t(p.bodyA)], bodies[size_t(p.bodyB)], p.armA, p.armB, p.normal);
+		p.normalResponse = response.normalResponse;
+		p.shearResponse = response.shearResponse;
+		solver.set<double>(places[k].first, places[k].second, bodies, p, h);
+	}
 	const int done = solver.solve(bodies, tolerance);
 	for (size_t k = 0; k < points.size(); ++k)
 		points[k].impulse = solver.row(k).impulse;
@@ -51,7 +62,7 @@ inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<DashpotPo
 inline double after(double massA, double massB, double speed, double damping, double h, int sweeps)
 {
 	std::vector<DashpotBody> bodies { body(massA, Vec3::Zero()), body(massB, { 0, 0, -speed }) };
-	std::vector<DashpotPoint> points { central(damping) };
+	std::vector<HeapPoint> points { central(damping) };
 	solveDashpots(bodies, points, h, sweeps);
 	return (bodies[1].newVelocity - bodies[0].newVelocity).z();
 }
@@ -67,7 +78,7 @@ inline double kineticEnergy(const std::vector<DashpotBody>& bodies)
 /// Some bodies (the first one fixed) and many points between random pairs of them.
 struct Heap {
 	std::vector<DashpotBody> bodies;
-	std::vector<DashpotPoint> points;
+	std::vector<HeapPoint> points;
 
 	Heap(unsigned seed, int bodyCount, int pointCount, double damping, double friction, double elastic = 0)
 	{
@@ -94,7 +105,7 @@ private:
 	}
 	void add(Random& random, int a, int b, double damping, double friction, double elastic)
 	{
-		DashpotPoint p = central(damping * std::pow(10, uniform(random, -1, 1)), elastic * uniform(random, 0.5, 1));
+		HeapPoint p = central(damping * std::pow(10, uniform(random, -1, 1)), elastic * uniform(random, 0.5, 1));
 		p.bodyA = a;
 		p.bodyB = b;
 		p.armA = randomVector(random, 0.5);

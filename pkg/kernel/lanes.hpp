@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Several numbers worked on at once, one in each lane of the processor's vectors: the points of a contact, the springs of a
+/// joint. A lane does what the same formula does with a double, to the last bit; formulas are written once, for any Number.
+#pragma once
+#include "types.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace timber {
+
+#if defined(__AVX2__)
+constexpr int laneCount = 4;
+#else
+constexpr int laneCount = 2;
+#endif
+
+struct Lanes {
+	typedef double Vector __attribute__((vector_size(laneCount * sizeof(double))));
+	typedef std::int64_t Mask __attribute__((vector_size(laneCount * sizeof(double)))); ///< of a lane all bits or none
+
+	Vector v;
+
+	Lanes() = default;
+	Lanes(double x)
+	        : v(x - Vector {})
+	{
+	}
+	explicit Lanes(Vector x)
+	        : v(x)
+	{
+	}
+	Lanes& operator+=(Lanes o) { return v += o.v, *this; }
+	Lanes& operator-=(Lanes o) { return v -= o.v, *this; }
+	Lanes& operator*=(Lanes o) { return v *= o.v, *this; }
+	friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
+	friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
+	friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
+	friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
+	friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v); }
+	friend Mask operator<(Lanes a, Lanes b) { return a.v < b.v; }
+	friend Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
+	friend Mask operator<=(Lanes a, Lanes b) { return a.v <= b.v; }
+	friend Mask operator>=(Lanes a, Lanes b) { return a.v >= b.v; }
+	friend Lanes sqrt(Lanes a)
+	{
+#if defined(__AVX2__)
+		return Lanes(Vector(_mm256_sqrt_pd(a.v)));
+#elif defined(__SSE2__)
+		return Lanes(Vector(_mm_sqrt_pd(a.v)));
+#else
+		for (int i = 0; i < laneCount; ++i)
+			a.v[i] = std::sqrt(a.v[i]);
+		return a;
+#endif
+	}
+};
+
+} // namespace timber
+
+namespace Eigen {
+template <> struct NumTraits<timber::Lanes> : GenericNumTraits<double> {
+	using Real = timber::Lanes;
+	using NonInteger = timber::Lanes;
+	using Nested = timber::Lanes;
+};
+}
+
+namespace timber {
+
+template <class Number> using Vec3Of = Eigen::Matrix<Number, 3, 1>;
+using Vec3s = Vec3Of<Lanes>;
+
+/// a where the condition holds, b elsewhere. Both are worked out.
+inline double where(bool condition, double a, double b) { return condition ? a : b; }
+inline Lanes where(Lanes::Mask condition, Lanes a, Lanes b) { return Lanes(condition ? a.v : b.v); }
+template <class Condition, class Number> Vec3Of<Number> where(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
+{
+	return { where(condition, a.x(), b.x()), where(condition, a.y(), b.y()), where(condition, a.z(), b.z()) };
+}
+
+inline bool both(bool a, bool b) { return a && b; }
+inline bool either(bool a, bool b) { return a || b; }
+inline Lanes::Mask both(Lanes::Mask a, Lanes::Mask b) { return a & b; }
+inline Lanes::Mask either(Lanes::Mask a, Lanes::Mask b) { return a | b; }
+
+/// Whether the condition holds in any lane.
+inline bool any(bool condition) { return condition; }
+inline bool any(Lanes::Mask condition)
+{
+#if defined(__AVX2__)
+	return !_mm256_testz_si256(__m256i(condition), __m256i(condition));
+#else
+	std::int64_t bits = 0;
+	for (int i = 0; i < laneCount; ++i)
+		bits |= condition[i];
+	return bits != 0;
+#endif
+}
+
+/// The same, for costly values: first() and other() are worked out only where they are needed.
+template <class First, class Other> auto chosen(bool condition, First first, Other other) -> decltype(other()) { return condition ? first() : other(); }
+template <class First, class Other> auto chosen(Lanes::Mask condition, First first, Other other) -> decltype(other())
+{
+	return any(condition) ? where(condition, first(), other()) : other();
+}
+
+/// As std::min and std::max.
+template <class Number> Number least(Number a, Number b) { return where(b < a, b, a); }
+template <class Number> Number most(Number a, Number b) { return where(a < b, b, a); }
+
+/// The same vector or matrix in all lanes.
+template <class Number> Vec3Of<Number> wide(const Vec3& v) { return { Number(v.x()), Number(v.y()), Number(v.z()) }; }
+template <class Number> Eigen::Matrix<Number, 3, 3> wide(const Mat3& m)
+{
+	Eigen::Matrix<Number, 3, 3> all;
+	for (int k = 0; k < 9; ++k)
+		all(k) = Number(m(k));
+	return all;
+}
+
+/// Vector of one of the lanes.
+inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
+
+/// Adds up the first lanes, at most `count` of them, in their order, as a loop over doubles would.
+inline void addUp(double& sum, Lanes x, size_t count)
+{
+	for (size_t i = 0; i < std::min<size_t>(count, laneCount); ++i)
+		sum += x.v[i];
+}
+inline void addUp(Vec3& sum, const Vec3s& x, size_t count)
+{
+	for (int c = 0; c < 3; ++c)
+		addUp(sum[c], x[c], count);
+}
+
+/// Structures, numbers or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare repeat the last one.
+template <class Item> class Group {
+	Item* item[laneCount];
+
+	template <class Read> [[gnu::always_inline]] static Lanes gathered(Read read)
+	{
+		if constexpr (laneCount == 4) return Lanes(Lanes::Vector { read(0), read(1), read(2), read(3) });
+		else return Lanes(Lanes::Vector { read(0), read(1) });
+	}
+
+public:
+	/// count >= 1: how many there are from `first` on; those beyond the number of lanes are left out.
+	Group(Item* first, size_t count)
+	{
+		for (size_t i = 0; i < laneCount; ++i)
+			item[i] = first + std::min(i, count - 1);
+	}
+	/// at(i): where the i-th of `count` is.
+	template <class Where> Group(size_t count, Where at)
+	{
+		for (size_t i = 0; i < laneCount; ++i)
+			item[i] = &at(std::min(i, count - 1));
+	}
+	[[gnu::always_inline]] Lanes numbers() const
+	{
+		return gathered([&](int i) { return double(*item[i]); });
+	}
+	[[gnu::always_inline]] Vec3s vectors() const
+	{
+		const auto component = [&](int c) { return gathered([&](int i) { return (*item[i])[c]; }); };
+		return { component(0), component(1), component(2) };
+	}
+	[[gnu::always_inline]] void set(const Vec3s& x) const
+	{
+		for (int i = 0; i < laneCount; ++i)
+			*item[i] = lane(x, i);
+	}
+	template <class Class> [[gnu::always_inline]] Lanes get(double Class::*member) const
+	{
+		return gathered([&](int i) { return item[i]->*member; });
+	}
+	template <class Class> [[gnu::always_inline]] Vec3s get(Vec3 Class::*member) const
+	{
+		const auto component = [&](int c) { return gathered([&](int i) { return (item[i]->*member)[c]; }); };
+		return { component(0), component(1), component(2) };
+	}
+	template <class Class> [[gnu::always_inline]] void set(double Class::*member, Lanes x) const
+	{
+		for (int i = 0; i < laneCount; ++i)
+			item[i]->*member = x.v[i];
+	}
+	template <class Class> [[gnu::always_inline]] void set(Vec3 Class::*member, const Vec3s& x) const
+	{
+		for (int i = 0; i < laneCount; ++i)
+			item[i]->*member = lane(x, i);
+	}
+};
+
+} // namespace timber

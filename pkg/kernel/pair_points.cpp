@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_points.hpp"
+
+namespace timber {
+namespace {
+
+	using Points = std::vector<ContactPoint>;
+	using States = std::vector<PointState>;
+
+	/// Relative motion at a contact point, from the velocities that led to the present placement. They belong to the middle of
+	/// the last step, and so do the arms: with those of now, a pair that turns as a whole would seem to slide, by h/2 omega^2 per
+	/// metre between the centres.
+	template <class Number> PointMotion<Number> motionAt(const Vec3Of<Number>& x, const BodyMotion& a, const BodyMotion& b, double h)
+	{
+		const auto velocity = [&](const BodyMotion& body) {
+			const Vec3Of<Number> arm = x - wide<Number>(body.position), spin = wide<Number>(body.spin);
+			return Vec3Of<Number>(wide<Number>(body.velocity) + spin.cross(arm - Number(h / 2) * spin.cross(arm)));
+		};
+		return { velocity(b) - velocity(a), (a.spin + b.spin) / 2 };
+	}
+
+	bool sameFeatures(const Points& points, const States& states)
+	{
+		return std::equal(points.begin(), points.end(), states.begin(), states.end(), [](const auto& p, const auto& s) { return p.id == s.id; });
+	}
+
+	template <class Law> class ElasticPair {
+		const Law& law;
+		const PairProperties& pair;
+		const BodyMotion &a, &b;
+		const double h;
+		const NormalForm form;
+
+		void step(const ContactPoint& point, PointState& state) const { elasticStep<Law, ContactPoint, double>(law, pair, point, motionAt<double>(point.position, a, b, h), h, form, state); }
+		/// Energy that goes with a point. Its normal spring has given its own back when the bodies simply parted. [J]
+		double leaving(const PointState& s) const { return (s.overlap + s.closing > 0 ? s.energy : 0) + shearEnergy<double>(s, pair); }
+
+		/// Gives a new point the overlap it may start with; returns what it takes of `energy`. [J]
+		double bear(const ContactPoint& point, double energy, PointState& state) const
+		{
+			const double approach = std::max(0., -motionAt<double>(point.position, a, b, h).velocity.dot(point.normal) * h);
+			const double counted = bornOverlap(law, point.overlap, approach, energy);
+			state.excess = point.overlap - counted;
+			return law.energy(counted) - law.energy(std::min(counted, approach));
+		}
+
+	public:
+		ElasticPair(const Law& l, const PairProperties& p, const BodyMotion& motionA, const BodyMotion& motionB, double step, NormalForm f)
+		        : law(l)
+		        , pair(p)
+		        , a(motionA)
+		        , b(motionB)
+		        , h(step)
+		        , form(f)
+		{
+		}
+
+		/// The same features meet as in the last step.
+		void run(const Points& points, States& states) const
+		{
+			using Kept = Springs<double>;
+			struct Place {
+				Vec3s normal;
+				Lanes overlap;
+			};
+			for (size_t k = 0; k < points.size(); k += laneCount) {
+				const Group<const ContactPoint> at(&points[k], points.size() - k);
+				const Group<PointState> kept(&states[k], points.size() - k);
+				Springs<Lanes> s;
+				s.excess = kept.get(&Kept::excess);
+				s.overlap = kept.get(&Kept::overlap);
+				s.stiffness = kept.get(&Kept::stiffness);
+				if (form == NormalForm::Increment) s.normal = kept.get(&Kept::normal);
+				s.shear = kept.get(&Kept::shear);
+				const Place place { at.get(&ContactPoint::normal), at.get(&ContactPoint::overlap) };
+				elasticStep<Law, Place, Lanes>(law, pair, place, motionAt<Lanes>(at.get(&ContactPoint::position), a, b, h), h, form, s);
+				kept.set(&Kept::excess, s.excess);
+				kept.set(&Kept::overlap, s.overlap);
+				kept.set(&Kept::stiffness, s.stiffness);
+				kept.set(&Kept::normal, s.normal);
+				kept.set(&Kept::energy, s.energy);
+				kept.set(&Kept::shear, s.shear);
+				kept.set(&Kept::closing, s.closing);
+				kept.set(&Kept::slide, s.slide);
+				kept.set(&Kept::shearBefore, s.shearBefore);
+				kept.set(&Kept::shearEnergyBefore, s.shearEnergyBefore);
+			}
+		}
+
+		/// Other features meet than in the last step. Returns the energy lost.
+		double runChanged(const Points& points, States& states, bool placed) const
+		{
+			States next(points.size());
+			double lost = 0;
+			auto old = states.begin();
+			for (size_t k = 0; k < next.size(); ++k) {
+				for (; old != states.end() && old->id < points[k].id; ++old)
+					lost += leaving(*old);
+				if (old != states.end() && old->id == points[k].id) next[k] = *old++;
+			}
+			for (; old != states.end(); ++old)
+				lost += leaving(*old);
+			for (size_t k = 0; k < next.size(); ++k) {
+				if (!placed && !(next[k].id == points[k].id)) lost -= bear(points[k], lost, next[k]);
+				next[k].id = points[k].id;
+				step(points[k], next[k]);
+			}
+			states.swap(next);
+			return lost;
+		}
+	};
+
+} // namespace
+
+template <class Law>
+double elasticPair(const Law& law, const PairProperties& pair, const BodyMotion& a, const BodyMotion& b, double h, NormalForm form, bool placed, const Points& points, States& states)
+{
+	const ElasticPair<Law> step(law, pair, a, b, h, form);
+	if (!sameFeatures(points, states)) return step.runChanged(points, states, placed);
+	step.run(points, states);
+	return 0;
+}
+template double elasticPair(const HertzLaw&, const PairProperties&, const BodyMotion&, const BodyMotion&, double, NormalForm, bool, const Points&, States&);
+template double elasticPair(const LinearLaw&, const PairProperties&, const BodyMotion&, const BodyMotion&, double, NormalForm, bool, const Points&, States&);
+
+void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const Vec3& positionA, const Vec3& positionB, const PairProperties& pair, double dampingRatio,
+        double h, bool refresh, const Points& points, States& states)
+{
+	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
+	for (size_t i = 0; i < points.size(); ++i)
+		if (refresh || states[i].responseMass != a.inverseMass + b.inverseMass)
+			static_cast<PointResponse&>(states[i]) = responseAt(a, b, points[i].position - positionA, points[i].position - positionB, points[i].normal);
+	for (size_t i = 0; i < points.size(); i += laneCount) {
+		const Group<const ContactPoint> at(&points[i], points.size() - i);
+		const Group<const PointState> kept(&states[i], points.size() - i);
+		const Vec3s position = at.get(&ContactPoint::position);
+		DashpotPoint<Lanes> p;
+		p.armA = position - wide<Lanes>(positionA);
+		p.armB = position - wide<Lanes>(positionB);
+		p.normal = at.get(&ContactPoint::normal);
+		p.elasticNormal = kept.get(&PointState::normal);
+		p.elasticShear = kept.get(&PointState::shear);
+		p.normalDamping = Lanes(2 * dampingRatio) * sqrt(Lanes(pair.mass) * kept.get(&PointState::stiffness));
+		p.shearDamping = p.normalDamping * Lanes(std::sqrt(pair.shearRatio));
+		p.friction = pair.friction;
+		p.impulse = Lanes(h) * (p.elasticNormal * p.normal + p.elasticShear + kept.get(&PointState::dashpot));
+		p.normalResponse = kept.get(&PointState::normalResponse);
+		p.shearResponse = kept.get(&PointState::shearResponse);
+		solver.set<Lanes>(k, i, bodies, p, h);
+	}
+}
+
+PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const PairProperties& pair, double h, States& states, PairEnergies* energies)
+{
+	using Row = DashpotSolver::Row;
+	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
+	PairForce sum;
+	for (size_t i = 0; i < states.size(); i += laneCount) {
+		const size_t count = states.size() - i;
+		const Group<const Row> row(&solver.row(solver.pair(k).first + i), count);
+		const Group<PointState> kept(&states[i], count);
+		const Vec3s normal = row.get(&Row::normal), force = row.get(&Row::impulse) / Lanes(h), armA = row.get(&Row::armA), armB = row.get(&Row::armB);
+		const Lanes elasticNormal = kept.get(&PointState::normal);
+		const Vec3s shear = limitedShear<Lanes>(kept.get(&PointState::shear), Lanes(pair.friction), force.dot(normal));
+		const Vec3s dashpot = force - elasticNormal * normal - shear;
+		kept.set(&PointState::shear, shear);
+		kept.set(&PointState::dashpot, dashpot);
+		addUp(sum.onB, force, count);
+		addUp(sum.torqueA, -armA.cross(force), count);
+		addUp(sum.torqueB, armB.cross(force), count);
+		if (!energies) continue;
+		const Vec3s after = relativeVelocity<Lanes>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		const Vec3s mean = (row.get(&Row::before) + after) / Lanes(2.);
+		const Lanes along = dashpot.dot(normal), shearStored = shearEnergy<Lanes>(shear, Lanes(pair.shearRatio) * kept.get(&PointState::stiffness));
+		addUp(energies->dashpotNormal, -(Lanes(h) * along * mean.dot(normal)), count);
+		addUp(energies->dashpotShear, -(Lanes(h) * (dashpot - along * normal).dot(mean)), count);
+		addUp(energies->friction, -(kept.get(&PointState::slide).dot(kept.get(&PointState::shearBefore) + shear) / Lanes(2.) + shearStored - kept.get(&PointState::shearEnergyBefore)), count);
+		addUp(energies->elasticNormal, kept.get(&PointState::energy), count);
+		addUp(energies->elasticShear, shearStored, count);
+		addUp(energies->elasticPower, -(elasticNormal * normal + shear).dot(after), count);
+	}
+	return sum;
+}
+
+} // namespace timber
