@@ -13,6 +13,8 @@ endif()
 
 # Reproducible results: no fused multiply-add behind the source's back, no -ffast-math. Neither errno nor floating-point traps are used: dropping them changes no number.
 add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# What GCC makes of three neighbouring numbers by itself costs more than it gains: a fifth of the sweeps' time. pkg/kernel/lanes.hpp says where vectors pay.
+add_compile_options(-fno-tree-slp-vectorize)
 
 # Four numbers at a time instead of two (pkg/kernel/lanes.hpp), the same to the last bit. A module built so is refused by the loader of a machine that
 # has no such processor.

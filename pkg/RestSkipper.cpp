@@ -50,6 +50,14 @@ bool RestSkipper::groundIsQuiet() const
 	return true;
 }
 
+/// Neither the step `last` nor where YADE's O.run(n) or O.stopAtTime ends is skipped over: YADE stops at just that step, or never.
+bool RestSkipper::mayGoOn() const
+{
+	const long next = scene->iter + grain;
+	const auto isBefore = [next](long end) { return end <= 0 || next < end; };
+	return isBefore(last) && isBefore(scene->stopAtIter) && (scene->stopAtTime <= 0 || scene->time + grain * scene->dt < scene->stopAtTime);
+}
+
 void RestSkipper::action()
 {
 	if (scene->iter % grain != 0) return;
@@ -57,8 +65,7 @@ void RestSkipper::action()
 	const size_t count = math::max(Real(2), math::round(hold / (grain * scene->dt)));
 	speeds.push_back(fastest());
 	if (speeds.size() > count) speeds.erase(speeds.begin(), speeds.end() - count);
-	if (speeds.size() < count || !resting() || !groundIsQuiet()) return;
-	if (last > 0 && scene->iter + grain >= last) return;
+	if (speeds.size() < count || !resting() || !groundIsQuiet() || !mayGoOn()) return;
 	scene->iter += grain - 1; // the step that ends now makes it a whole grain
 	scene->time += (grain - 1) * scene->dt;
 	skipped += (grain - 1) * scene->dt;

@@ -11,6 +11,7 @@ class RestSkipper : public GlobalEngine {
 	void watchAnew();
 	bool resting() const;
 	bool groundIsQuiet() const;
+	bool mayGoOn() const;
 
 public:
 	void action() override;

@@ -51,7 +51,7 @@ const std::vector<Field>& fields()
 		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal), POINTER(Interaction, geom, IGeom),
 		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
 		VALUE(Engine, dead), VALUE(Engine, ompThreads),
-		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody),
+		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter), VALUE(Scene, stopAtTime),
 	};
 	return table;
 }

@@ -21,9 +21,9 @@ namespace {
 		{
 			out.clear();
 			for (const Vec3& v : p.a.core.vertices)
-				verticesA.push_back({ p.toB(v), motionAt(v) });
+				verticesA.push_back({ p.toB<double>(v), motionAt(v) });
 			for (const Vec3& v : p.b.core.vertices) {
-				const Vec3 x = p.toA(v);
+				const Vec3 x = p.toA<double>(v);
 				verticesB.push_back({ x, motionAt(x) });
 			}
 			for (const Edge& e : p.b.core.edges)
@@ -186,7 +186,7 @@ void searchCandidates(const Pair& pair, CandidateCache& cache)
 			cache.coresMayMeet = whole.coresMayMeet || cache.coresMayMeet;
 		}
 	}
-	cache.centreB = pair.toB(cache.centre);
+	cache.centreB = pair.toB<double>(cache.centre);
 }
 
 } // namespace timber

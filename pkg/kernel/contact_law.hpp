@@ -28,9 +28,8 @@ inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
-	template <class Number> Number root(Number n) const { using std::sqrt; return sqrt(Number(radius) * n); }
-	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * root(n) * n; } ///< [N] (Eq. 37)
-	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * root(n); } ///< [N/m] (Eq. 39)
+	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * root(Number(radius) * n) * n; } ///< [N] (Eq. 37)
+	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * root(Number(radius) * n); } ///< [N/m] (Eq. 39)
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
 	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
 };
@@ -96,12 +95,11 @@ template <class Number> Number shearEnergy(const Springs<Number>& s, const PairP
 /// Its length stays.
 template <class Number> Vec3Of<Number> turned(const Vec3Of<Number>& shear, const Vec3& turn, const Vec3Of<Number>& normal)
 {
-	using std::sqrt;
 	const Number length = shear.squaredNorm();
 	Vec3Of<Number> t = shear + wide<Number>(turn).cross(shear);
 	t -= t.dot(normal) * normal;
 	const Number left = t.squaredNorm(), none = 0.;
-	return t * chosen(left > none, [&] { return Number(sqrt(Number(length / left))); }, [&] { return none; });
+	return t * chosen(left > none, [&] { return root(Number(length / left)); }, [&] { return none; });
 }
 
 /// Force of a point that comes or goes within a step: its overlap n [m] is below its displacement d in a step [m]. Before

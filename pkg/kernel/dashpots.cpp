@@ -73,11 +73,10 @@ namespace {
 		return row;
 	}
 
-	void store(const DashpotRow<double>& row, DashpotRow<double>* rows, size_t) { *rows = row; }
-	void store(const DashpotRow<Lanes>& row, DashpotRow<double>* rows, size_t count)
+	template <class Number> void store(const DashpotRow<Number>& row, DashpotRow<double>* rows, size_t count)
 	{
 		using One = DashpotRow<double>;
-		const Group<One> each(rows, count);
+		const Group<Number, One> each(rows, count);
 		each.set(&One::armA, row.armA);
 		each.set(&One::armB, row.armB);
 		each.set(&One::normal, row.normal);
@@ -106,7 +105,7 @@ namespace {
 		        , spinB(b.newSpin)
 		{
 		}
-		Vec3 at(const DashpotSolver::Row& row) const { return relativeVelocity<double>(row.armA, row.armB, velocityA, spinA, velocityB, spinB); }
+		Vec3 at(const DashpotSolver::Row& row) const { return velocityB + spinB.cross(row.armB) - velocityA - spinA.cross(row.armA); } // relativeVelocity(), but in registers
 		void push(const DashpotBody& a, const DashpotBody& b, const DashpotSolver::Row& row, const Vec3& impulse)
 		{
 			velocityA -= a.inverseMass * impulse;

@@ -70,9 +70,8 @@ Vec3Of<Number> relativeVelocity(const Vec3Of<Number>& armA, const Vec3Of<Number>
 /// v, shortened to the length if it is longer.
 template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
 {
-	using std::sqrt;
 	const Number square = v.squaredNorm();
-	return chosen(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
+	return chosen(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / root(square))); }, [&] { return v; });
 }
 
 /// e_s after sliding: at most friction times the normal force. [N]

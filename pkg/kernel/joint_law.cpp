@@ -8,25 +8,26 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& place, cons
 {
 	JointPull pull;
 	const Vec3 worldNormal = place.axesA * normal;
-	const Vec3s apart = wide<Lanes>(place.apart), none = Vec3s::Constant(Lanes(0.));
-	for (size_t i = 0; i < broken.size(); i += laneCount) {
+	inLanes(broken.size(), [&](auto number, size_t i) {
+		using Number = decltype(number);
+		using Vec = Vec3Of<Number>;
 		const size_t count = broken.size() - i;
-		const auto vectors = [&](const std::vector<Vec3>& of) { return Group<const Vec3>(&of[i], count).vectors(); };
-		const Lanes::Mask whole = Group<const int>(&broken[i], count).numbers() <= Lanes(0.);
-		const Vec3s armB = wide<Lanes>(place.axesB) * vectors(anchorsB);
-		const Vec3s stretch = where(whole, Vec3s(apart + armB - wide<Lanes>(place.axesA) * vectors(anchorsA)), none);
-		const SpringForce<Lanes> f = springForce<Lanes>(k, stretch, worldNormal);
-		Group<Vec3>(&stretches[i], count).set(stretch);
-		Group<Vec3>(&forces[i], count).set(f.force);
-		const Lanes square = f.force.squaredNorm(), size = sqrt(square);
+		const auto vectors = [&](const std::vector<Vec3>& of) -> Vec { return Group<Number, const Vec3>(&of[i], count).vectors(); };
+		const auto whole = Group<Number, const int>(&broken[i], count).numbers() <= Number(0.);
+		const Vec armB = wide<Number>(place.axesB) * vectors(anchorsB), armA = wide<Number>(place.axesA) * vectors(anchorsA), end = wide<Number>(place.apart) + armB;
+		const Vec stretch = where(whole, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
+		const SpringForce<Number> f = springForce<Number>(k, stretch, worldNormal);
+		Group<Number, Vec3>(&stretches[i], count).set(stretch);
+		Group<Number, Vec3>(&forces[i], count).set(f.force);
+		const Number square = f.force.squaredNorm();
 		addUp(pull.energy, f.energy, count);
-		addUp(pull.force, f.force, count);
-		addUp(pull.torqueA, (apart + armB).cross(f.force), count); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
-		addUp(pull.torqueB, -armB.cross(f.force), count);
-		addUp(pull.sum, size, count);
-		for (int lane = 0; lane < laneCount; ++lane)
-			pull.largest = std::max(pull.largest, square.v[lane]);
-	}
+		addUp<Number>(pull.force, f.force, count);
+		addUp<Number>(pull.torqueA, end.cross(f.force), count); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
+		addUp<Number>(pull.torqueB, -armB.cross(f.force), count);
+		addUp(pull.sum, root(square), count);
+		for (size_t l = 0; l < laneCount; ++l)
+			pull.largest = std::max(pull.largest, lane(square, l));
+	});
 	return pull;
 }
 

@@ -46,7 +46,7 @@ struct Lanes {
 	friend Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
 	friend Mask operator<=(Lanes a, Lanes b) { return a.v <= b.v; }
 	friend Mask operator>=(Lanes a, Lanes b) { return a.v >= b.v; }
-	friend Lanes sqrt(Lanes a)
+	friend Lanes root(Lanes a)
 	{
 #if defined(__AVX2__)
 		return Lanes(Vector(_mm256_sqrt_pd(a.v)));
@@ -71,6 +71,9 @@ template <> struct NumTraits<timber::Lanes> : GenericNumTraits<double> {
 }
 
 namespace timber {
+
+inline double root(double x) { return std::sqrt(x); }
+inline Lanes sqrt(Lanes x) { return root(x); } // for Eigen's norms
 
 template <class Number> using Vec3Of = Eigen::Matrix<Number, 3, 1>;
 using Vec3s = Vec3Of<Lanes>;
@@ -113,33 +116,55 @@ template <class First, class Other> auto chosen(Lanes::Mask condition, First fir
 template <class Number> Number least(Number a, Number b) { return where(b < a, b, a); }
 template <class Number> Number most(Number a, Number b) { return where(a < b, b, a); }
 
-/// The same vector or matrix in all lanes.
-template <class Number> Vec3Of<Number> wide(const Vec3& v) { return { Number(v.x()), Number(v.y()), Number(v.z()) }; }
-template <class Number> Eigen::Matrix<Number, 3, 3> wide(const Mat3& m)
+/// The same vector or matrix in all lanes; of a double's one lane, itself.
+template <class Number> decltype(auto) wide(const Vec3& v)
 {
-	Eigen::Matrix<Number, 3, 3> all;
-	for (int k = 0; k < 9; ++k)
-		all(k) = Number(m(k));
-	return all;
+	if constexpr (std::is_same_v<Number, double>) return (v);
+	else return Vec3Of<Number>(Number(v.x()), Number(v.y()), Number(v.z()));
+}
+template <class Number> decltype(auto) wide(const Mat3& m)
+{
+	if constexpr (std::is_same_v<Number, double>) return (m);
+	else {
+		Eigen::Matrix<Number, 3, 3> all;
+		for (int k = 0; k < 9; ++k)
+			all(k) = Number(m(k));
+		return all;
+	}
 }
 
-/// Vector of one of the lanes.
+/// One of the lanes.
+inline double lane(double x, size_t) { return x; }
+inline double lane(Lanes x, size_t i) { return x.v[i]; }
+inline bool lane(bool x, size_t) { return x; }
+inline bool lane(Lanes::Mask x, size_t i) { return x[i] != 0; }
+inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
 /// Adds up the first lanes, at most `count` of them, in their order, as a loop over doubles would.
-inline void addUp(double& sum, Lanes x, size_t count)
+inline void addUp(double& sum, double x, size_t) { sum += x; }
+[[gnu::always_inline]] inline void addUp(double& sum, Lanes x, size_t count)
 {
-	for (size_t i = 0; i < std::min<size_t>(count, laneCount); ++i)
+	for (size_t i = 0; i < laneCount && i < count; ++i)
 		sum += x.v[i];
 }
-inline void addUp(Vec3& sum, const Vec3s& x, size_t count)
+template <class Number> [[gnu::always_inline]] inline void addUp(Vec3& sum, const Vec3Of<Number>& x, size_t count)
 {
 	for (int c = 0; c < 3; ++c)
 		addUp(sum[c], x[c], count);
 }
 
-/// Structures, numbers or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare repeat the last one.
-template <class Item> class Group {
+/// work(number, k) for `count` items, laneCount at a time: k is the first of them, and the type of `number` the Number to work with:
+/// Lanes, but double where there is only one item left.
+template <class Work> void inLanes(size_t count, Work work)
+{
+	for (size_t k = 0; k < count; k += laneCount)
+		if (count - k == 1) work(double(), k);
+		else work(Lanes(), k);
+}
+
+/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare repeat the last one.
+template <class Number, class Item> class Group {
 	Item* item[laneCount];
 
 	template <class Read> [[gnu::always_inline]] static Lanes gathered(Read read)
@@ -151,16 +176,17 @@ template <class Item> class Group {
 public:
 	/// count >= 1: how many there are from `first` on; those beyond the number of lanes are left out.
 	Group(Item* first, size_t count)
+	        : Group(count, [first](size_t i) { return first + i; })
 	{
-		for (size_t i = 0; i < laneCount; ++i)
-			item[i] = first + std::min(i, count - 1);
 	}
 	/// at(i): where the i-th of `count` is.
 	template <class Where> Group(size_t count, Where at)
 	{
-		for (size_t i = 0; i < laneCount; ++i)
-			item[i] = &at(std::min(i, count - 1));
+		item[0] = at(0);
+		for (size_t i = 1; i < laneCount; ++i)
+			item[i] = i < count ? at(i) : item[i - 1];
 	}
+	/// The items themselves.
 	[[gnu::always_inline]] Lanes numbers() const
 	{
 		return gathered([&](int i) { return double(*item[i]); });
@@ -175,6 +201,7 @@ public:
 		for (int i = 0; i < laneCount; ++i)
 			*item[i] = lane(x, i);
 	}
+	/// A member of each.
 	template <class Class> [[gnu::always_inline]] Lanes get(double Class::*member) const
 	{
 		return gathered([&](int i) { return item[i]->*member; });
@@ -184,16 +211,32 @@ public:
 		const auto component = [&](int c) { return gathered([&](int i) { return (item[i]->*member)[c]; }); };
 		return { component(0), component(1), component(2) };
 	}
-	template <class Class> [[gnu::always_inline]] void set(double Class::*member, Lanes x) const
-	{
-		for (int i = 0; i < laneCount; ++i)
-			item[i]->*member = x.v[i];
-	}
-	template <class Class> [[gnu::always_inline]] void set(Vec3 Class::*member, const Vec3s& x) const
+	template <class Value, class Class, class Wide> [[gnu::always_inline]] void set(Value Class::*member, const Wide& x) const
 	{
 		for (int i = 0; i < laneCount; ++i)
 			item[i]->*member = lane(x, i);
 	}
+};
+
+/// A single one.
+template <class Item> class Group<double, Item> {
+	Item& item;
+
+public:
+	Group(Item* first, size_t)
+	        : item(*first)
+	{
+	}
+	template <class Where>
+	Group(size_t, Where at)
+	        : item(*at(0))
+	{
+	}
+	double numbers() const { return double(item); }
+	const Vec3& vectors() const { return item; }
+	void set(const Vec3& x) const { item = x; }
+	template <class Value, class Class> const Value& get(Value Class::*member) const { return item.*member; }
+	template <class Value, class Class> void set(Value Class::*member, const Value& x) const { item.*member = x; }
 };
 
 } // namespace timber

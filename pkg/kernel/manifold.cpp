@@ -18,16 +18,16 @@ namespace {
 	/// Vertices x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
 	/// but nearer to the border than to the face (else the face behind the border answers, too). Cores overlapping: only
 	/// the face that looks along the axis of least overlap answers, so that all points push the pair apart.
-	Lanes::Mask verticesOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3s& x, Lanes& distance)
+	template <class Number> auto verticesOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3Of<Number>& x, Number& distance)
 	{
 		const Face& f = body.core.faces[face];
-		const Lanes border = pair.borderLimit();
+		const Number border = pair.borderLimit(), none = 0.;
 		distance = height(f.plane, x);
-		Lanes::Mask on = both(distance < Lanes(pair.touch()), distance > Lanes(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
+		auto on = both(distance < Number(pair.touch()), distance > Number(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
 		if (!any(on)) return on;
 		on = both(on, isOverFace(f, x, pair.deep() ? border : least(border, distance)));
 		if (!pair.deep()) return on;
-		return face == facing ? both(on, either(distance >= Lanes(0.), isInside(body.core, face, x, border))) : Lanes::Mask {};
+		return face == facing ? both(on, either(distance >= none, isInside(body.core, face, x, border))) : none < none;
 	}
 
 	/// The crossing must lie inside both edges, farther from their ends than the border rule reaches.
@@ -35,7 +35,7 @@ namespace {
 	{
 		const Edge &ea = pair.a.core.edges[edgeA], &eb = pair.b.core.edges[edgeB];
 		const Vec3& tailA = pair.a.core.vertices[ea.tail];
-		const Vec3 tailB = pair.toA(pair.b.core.vertices[eb.tail]), alongB = pair.rotation * eb.along;
+		const Vec3 tailB = pair.toA<double>(pair.b.core.vertices[eb.tail]), alongB = pair.rotation * eb.along;
 		Crossing c = crossing(tailA, ea.along, tailB, alongB);
 		if (c.sine < parallelSine) return false;
 		const double end = flushTolerance / c.sine;
@@ -87,22 +87,22 @@ namespace {
 	{
 		const Vec3& x = pair.a.core.vertices[vertex];
 		Vec3 foot;
-		if (!vertexOnEdge(pair, pair.a.core, pair.rotation.transpose(), vertex, pair.b.core, pair.b.core.edges[edge], pair.toB(x), foot)) return false;
+		if (!vertexOnEdge(pair, pair.a.core, pair.rotation.transpose(), vertex, pair.b.core, pair.b.core.edges[edge], pair.toB<double>(x), foot)) return false;
 		meet.pointA = x;
-		meet.pointB = pair.toA(foot);
+		meet.pointB = pair.toA<double>(foot);
 		return finish(meet);
 	}
 
 	bool meetEdgeVertex(const Pair& pair, int edge, int vertex, Meet& meet)
 	{
-		meet.pointB = pair.toA(pair.b.core.vertices[vertex]);
+		meet.pointB = pair.toA<double>(pair.b.core.vertices[vertex]);
 		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], meet.pointB, meet.pointA) && finish(meet);
 	}
 
 	bool meetVertexVertex(const Pair& pair, int vertexA, int vertexB, Meet& meet)
 	{
 		meet.pointA = pair.a.core.vertices[vertexA];
-		meet.pointB = pair.toA(pair.b.core.vertices[vertexB]);
+		meet.pointB = pair.toA<double>(pair.b.core.vertices[vertexB]);
 		const Vec3 way = meet.pointB - meet.pointA;
 		const double distance = way.norm();
 		if (distance >= pair.touch() || distance <= flushTolerance) return false;
@@ -184,7 +184,7 @@ namespace {
 	}
 
 	/// Contacts of up to laneCount vertices of one body with the same face of the other.
-	void meetFace(const Pair& pair, const Mat3& turnA, const Vec3& originA, const FeatureId* first, size_t count, std::vector<ContactPoint>& points)
+	template <class Number> void meetFace(const Pair& pair, const Mat3& turnA, const Vec3& originA, const FeatureId* first, size_t count, std::vector<ContactPoint>& points)
 	{
 		const bool ofB = first->meeting() == Meeting::VertexFace;
 		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
@@ -193,17 +193,18 @@ namespace {
 		const Vec3 normal = ofB ? Vec3(-(pair.rotation * outward)) : outward;
 		if (pair.deep() && normal.dot(pair.axis) < outwardCosine) return;
 
-		const Vec3s own = Group<const Vec3>(count, [&](size_t i) -> const Vec3& { return other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
-		const Vec3s inA = ofB ? own : pair.toA(own);
-		Lanes distance;
-		const Lanes::Mask on = verticesOnFace(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB(own) : inA, distance);
+		using Vec = Vec3Of<Number>;
+		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
+		const Vec inA = ofB ? own : pair.toA<Number>(own);
+		Number distance;
+		const auto on = verticesOnFace<Number>(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB<Number>(own) : inA, distance);
 		if (!any(on)) return;
-		const Vec3s across = wide<Lanes>(normal), onA = ofB ? inA : Vec3s(inA - distance * across);
-		const Lanes overlap = Lanes(pair.touch()) - distance;
-		const Vec3s place = placeOf(pair, turnA, originA, onA, across, overlap);
+		const Vec across = wide<Number>(normal), onA = ofB ? inA : Vec(inA - distance * across);
+		const Number overlap = Number(pair.touch()) - distance;
+		const Vec place = placeOf<Number>(pair, turnA, originA, onA, across, overlap);
 		const Vec3 worldNormal = turnA * normal;
 		for (size_t i = 0; i < count; ++i)
-			if (on[i]) add(points, { first[i], lane(place, i), worldNormal, overlap.v[i] });
+			if (lane(on, i)) add(points, { first[i], lane(place, i), worldNormal, lane(overlap, i) });
 	}
 
 	/// Gap between the bodies on the axis on which the cores were apart at the last search: if it is there, the pair does not
@@ -242,7 +243,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	for (const FeatureId* next = cache.candidates.data(); next != end;) {
 		if (faceOf(*next) >= 0) {
 			const size_t count = countOnFace(next, end);
-			meetFace(pair, turnA, poseA.position, next, count, points);
+			count == 1 ? meetFace<double>(pair, turnA, poseA.position, next, count, points) : meetFace<Lanes>(pair, turnA, poseA.position, next, count, points);
 			next += count;
 			continue;
 		}

@@ -23,10 +23,8 @@ struct Pair {
 	bool deep() const { return gap < 0; }
 	double touch() const { return a.radius + b.radius; }
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
-	Vec3 toB(const Vec3& x) const { return rotation.transpose() * (x - translation); }
-	Vec3 toA(const Vec3& x) const { return rotation * x + translation; }
-	Vec3s toB(const Vec3s& x) const { return wide<Lanes>(rotation).transpose() * (x - wide<Lanes>(translation)); }
-	Vec3s toA(const Vec3s& x) const { return wide<Lanes>(rotation) * x + wide<Lanes>(translation); }
+	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return wide<Number>(rotation).transpose() * (x - wide<Number>(translation)); }
+	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return wide<Number>(rotation) * x + wide<Number>(translation); }
 	/// Foot beyond a border by less than this still belongs to the face. [m]
 	double borderLimit() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
 };

@@ -59,21 +59,22 @@ namespace {
 		void run(const Points& points, States& states) const
 		{
 			using Kept = Springs<double>;
-			struct Place {
-				Vec3s normal;
-				Lanes overlap;
-			};
-			for (size_t k = 0; k < points.size(); k += laneCount) {
-				const Group<const ContactPoint> at(&points[k], points.size() - k);
-				const Group<PointState> kept(&states[k], points.size() - k);
-				Springs<Lanes> s;
+			inLanes(points.size(), [&](auto number, size_t k) {
+				using Number = decltype(number);
+				struct Place {
+					Vec3Of<Number> normal;
+					Number overlap;
+				};
+				const Group<Number, const ContactPoint> at(&points[k], points.size() - k);
+				const Group<Number, PointState> kept(&states[k], points.size() - k);
+				Springs<Number> s;
 				s.excess = kept.get(&Kept::excess);
 				s.overlap = kept.get(&Kept::overlap);
 				s.stiffness = kept.get(&Kept::stiffness);
 				if (form == NormalForm::Increment) s.normal = kept.get(&Kept::normal);
 				s.shear = kept.get(&Kept::shear);
 				const Place place { at.get(&ContactPoint::normal), at.get(&ContactPoint::overlap) };
-				elasticStep<Law, Place, Lanes>(law, pair, place, motionAt<Lanes>(at.get(&ContactPoint::position), a, b, h), h, form, s);
+				elasticStep<Law, Place, Number>(law, pair, place, motionAt<Number>(at.get(&ContactPoint::position), a, b, h), h, form, s);
 				kept.set(&Kept::excess, s.excess);
 				kept.set(&Kept::overlap, s.overlap);
 				kept.set(&Kept::stiffness, s.stiffness);
@@ -84,7 +85,7 @@ namespace {
 				kept.set(&Kept::slide, s.slide);
 				kept.set(&Kept::shearBefore, s.shearBefore);
 				kept.set(&Kept::shearEnergyBefore, s.shearEnergyBefore);
-			}
+			});
 		}
 
 		/// Other features meet than in the last step. Returns the energy lost.
@@ -130,24 +131,25 @@ void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bo
 	for (size_t i = 0; i < points.size(); ++i)
 		if (refresh || states[i].responseMass != a.inverseMass + b.inverseMass)
 			static_cast<PointResponse&>(states[i]) = responseAt(a, b, points[i].position - positionA, points[i].position - positionB, points[i].normal);
-	for (size_t i = 0; i < points.size(); i += laneCount) {
-		const Group<const ContactPoint> at(&points[i], points.size() - i);
-		const Group<const PointState> kept(&states[i], points.size() - i);
-		const Vec3s position = at.get(&ContactPoint::position);
-		DashpotPoint<Lanes> p;
-		p.armA = position - wide<Lanes>(positionA);
-		p.armB = position - wide<Lanes>(positionB);
+	inLanes(points.size(), [&](auto number, size_t i) {
+		using Number = decltype(number);
+		const Group<Number, const ContactPoint> at(&points[i], points.size() - i);
+		const Group<Number, const PointState> kept(&states[i], points.size() - i);
+		const Vec3Of<Number> position = at.get(&ContactPoint::position);
+		DashpotPoint<Number> p;
+		p.armA = position - wide<Number>(positionA);
+		p.armB = position - wide<Number>(positionB);
 		p.normal = at.get(&ContactPoint::normal);
 		p.elasticNormal = kept.get(&PointState::normal);
 		p.elasticShear = kept.get(&PointState::shear);
-		p.normalDamping = Lanes(2 * dampingRatio) * sqrt(Lanes(pair.mass) * kept.get(&PointState::stiffness));
-		p.shearDamping = p.normalDamping * Lanes(std::sqrt(pair.shearRatio));
+		p.normalDamping = Number(2 * dampingRatio) * root(Number(pair.mass) * kept.get(&PointState::stiffness));
+		p.shearDamping = p.normalDamping * Number(std::sqrt(pair.shearRatio));
 		p.friction = pair.friction;
-		p.impulse = Lanes(h) * (p.elasticNormal * p.normal + p.elasticShear + kept.get(&PointState::dashpot));
+		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + kept.get(&PointState::dashpot));
 		p.normalResponse = kept.get(&PointState::normalResponse);
 		p.shearResponse = kept.get(&PointState::shearResponse);
-		solver.set<Lanes>(k, i, bodies, p, h);
-	}
+		solver.set<Number>(k, i, bodies, p, h);
+	});
 }
 
 PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const PairProperties& pair, double h, States& states, PairEnergies* energies)
@@ -155,30 +157,32 @@ PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<Da
 	using Row = DashpotSolver::Row;
 	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
 	PairForce sum;
-	for (size_t i = 0; i < states.size(); i += laneCount) {
+	inLanes(states.size(), [&](auto number, size_t i) {
+		using Number = decltype(number);
+		using Vec = Vec3Of<Number>;
 		const size_t count = states.size() - i;
-		const Group<const Row> row(&solver.row(solver.pair(k).first + i), count);
-		const Group<PointState> kept(&states[i], count);
-		const Vec3s normal = row.get(&Row::normal), force = row.get(&Row::impulse) / Lanes(h), armA = row.get(&Row::armA), armB = row.get(&Row::armB);
-		const Lanes elasticNormal = kept.get(&PointState::normal);
-		const Vec3s shear = limitedShear<Lanes>(kept.get(&PointState::shear), Lanes(pair.friction), force.dot(normal));
-		const Vec3s dashpot = force - elasticNormal * normal - shear;
+		const Group<Number, const Row> row(&solver.row(solver.pair(k).first + i), count);
+		const Group<Number, PointState> kept(&states[i], count);
+		const Vec normal = row.get(&Row::normal), armA = row.get(&Row::armA), armB = row.get(&Row::armB), force = row.get(&Row::impulse) / Number(h);
+		const Number elasticNormal = kept.get(&PointState::normal);
+		const Vec shear = limitedShear<Number>(kept.get(&PointState::shear), Number(pair.friction), force.dot(normal));
+		const Vec dashpot = force - elasticNormal * normal - shear;
 		kept.set(&PointState::shear, shear);
 		kept.set(&PointState::dashpot, dashpot);
-		addUp(sum.onB, force, count);
-		addUp(sum.torqueA, -armA.cross(force), count);
-		addUp(sum.torqueB, armB.cross(force), count);
-		if (!energies) continue;
-		const Vec3s after = relativeVelocity<Lanes>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-		const Vec3s mean = (row.get(&Row::before) + after) / Lanes(2.);
-		const Lanes along = dashpot.dot(normal), shearStored = shearEnergy<Lanes>(shear, Lanes(pair.shearRatio) * kept.get(&PointState::stiffness));
-		addUp(energies->dashpotNormal, -(Lanes(h) * along * mean.dot(normal)), count);
-		addUp(energies->dashpotShear, -(Lanes(h) * (dashpot - along * normal).dot(mean)), count);
-		addUp(energies->friction, -(kept.get(&PointState::slide).dot(kept.get(&PointState::shearBefore) + shear) / Lanes(2.) + shearStored - kept.get(&PointState::shearEnergyBefore)), count);
+		addUp<Number>(sum.onB, force, count);
+		addUp<Number>(sum.torqueA, -armA.cross(force), count);
+		addUp<Number>(sum.torqueB, armB.cross(force), count);
+		if (!energies) return;
+		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		const Vec mean = (row.get(&Row::before) + after) / Number(2.);
+		const Number along = dashpot.dot(normal), stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * kept.get(&PointState::stiffness));
+		addUp(energies->dashpotNormal, -(Number(h) * along * mean.dot(normal)), count);
+		addUp(energies->dashpotShear, -(Number(h) * (dashpot - along * normal).dot(mean)), count);
+		addUp(energies->friction, -(kept.get(&PointState::slide).dot(kept.get(&PointState::shearBefore) + shear) / Number(2.) + stored - kept.get(&PointState::shearEnergyBefore)), count);
 		addUp(energies->elasticNormal, kept.get(&PointState::energy), count);
-		addUp(energies->elasticShear, shearStored, count);
+		addUp(energies->elasticShear, stored, count);
 		addUp(energies->elasticPower, -(elasticNormal * normal + shear).dot(after), count);
-	}
+	});
 	return sum;
 }
 

@@ -243,7 +243,7 @@ TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 		std::vector<Vec3> points(laneCount);
 		for (Vec3& x : points)
 			x = Vec3(0.5, 0.05, 0.15) + randomVector(random, 0.7);
-		const Group<const Vec3> all(points.data(), points.size());
+		const Group<Lanes, const Vec3> all(points.data(), points.size());
 		const double limit = uniform(random, -0.05, 0.05);
 		for (int f = 0; f < int(wedge.faces.size()); ++f) {
 			const Lanes::Mask over = isOverFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInside(wedge, f, all.vectors(), Lanes(limit));

@@ -62,3 +62,23 @@ def test_the_last_step_is_not_skipped_over():
     scene.find_engine(yt.RestSkipper).last = round(6.01 / O.dt)
     run_to(6.01)
     assert O.iter == round(6.01 / O.dt)
+
+
+def test_a_run_of_some_steps_ends():
+    """YADE stops at just the step that O.run(n) asks for, or never."""
+    block_on_plate(GRAIN, amplitude=0.0)
+    run_to(5.0)
+    assert scene.find_engine(yt.RestSkipper).skipped > 0
+    step = O.iter
+    for steps in (1, GRAIN - 1, GRAIN, 7 * GRAIN + 3):
+        step += steps
+        O.run(steps, True)
+        assert O.iter == step
+
+
+def test_a_time_to_stop_at_is_not_skipped_over():
+    block_on_plate(GRAIN, amplitude=0.0)
+    run_to(5.0)
+    O.stopAtTime = 6.01
+    O.run(-1, True)
+    assert O.time == pytest.approx(6.01, abs=2 * O.dt)
