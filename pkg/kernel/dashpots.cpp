@@ -50,7 +50,6 @@ namespace {
 		row.armA = p.armA;
 		row.armB = p.armB;
 		row.normal = p.normal;
-		row.before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
 		row.impulse = p.impulse;
 		row.friction = p.friction;
 		row.normalResponse = p.normalResponse;
@@ -59,13 +58,14 @@ namespace {
 			setDashpot<Number>(normalImpulse, p.normal.dot(p.normalResponse), normalTheta, row.normalGain);
 			setDashpot<Number>(shearImpulse, p.shearResponse, shearTheta, row.shearGain);
 		}
-		const Number vn = row.before.dot(p.normal), one = 1.;
+		const Vec3Of<Number> before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
+		const Number vn = before.dot(p.normal), one = 1.;
 		row.normalRate = normalImpulse * normalTheta;
 		row.shearRate = shearImpulse * shearTheta;
 		row.elasticShear = h * p.elasticShear;
 		row.elasticShearNorm = row.elasticShear.norm();
 		row.normalTarget = h * p.elasticNormal - normalImpulse * (one - normalTheta) * vn;
-		row.shearTarget = row.elasticShear - Number(shearImpulse * (one - shearTheta)) * (row.before - vn * p.normal);
+		row.shearTarget = row.elasticShear - Number(shearImpulse * (one - shearTheta)) * (before - vn * p.normal);
 		if (!implicit) {
 			const Number normal = most(Number(0.), row.normalTarget);
 			row.impulse = normal * row.normal + limitedTangential<Number>(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
@@ -80,7 +80,6 @@ namespace {
 		each.set(&One::armA, row.armA);
 		each.set(&One::armB, row.armB);
 		each.set(&One::normal, row.normal);
-		each.set(&One::before, row.before);
 		each.set(&One::impulse, row.impulse);
 		each.set(&One::normalResponse, row.normalResponse);
 		each.set(&One::normalRate, row.normalRate);

@@ -49,7 +49,6 @@ template <class Number> struct DashpotPoint {
 /// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
 template <class Number> struct DashpotRow {
 	Vec3Of<Number> armA, armB, normal;
-	Vec3Of<Number> before; ///< relative velocity before the step [m/s]
 	Vec3Of<Number> impulse; ///< total contact impulse on B [N s]
 	Vec3Of<Number> normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
 	Number normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]

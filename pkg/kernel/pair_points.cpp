@@ -173,8 +173,9 @@ PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<Da
 		addUp<Number>(sum.torqueA, -armA.cross(force), count);
 		addUp<Number>(sum.torqueB, armB.cross(force), count);
 		if (!energies) return;
+		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-		const Vec mean = (row.get(&Row::before) + after) / Number(2.);
+		const Vec mean = (before + after) / Number(2.);
 		const Number along = dashpot.dot(normal), stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * kept.get(&PointState::stiffness));
 		addUp(energies->dashpotNormal, -(Number(h) * along * mean.dot(normal)), count);
 		addUp(energies->dashpotShear, -(Number(h) * (dashpot - along * normal).dot(mean)), count);

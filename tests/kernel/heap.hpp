@@ -25,7 +25,8 @@ inline HeapPoint central(double damping, double elastic = 0)
 {
 	HeapPoint p;
 	p.bodyB = 1;
-	p.armA = p.armB = p.elasticShear = p.impulse = Vec3::Zero();
+	p.armA = p.armB = p.elasticShear = p.impulse = p.normalResponse = Vec3::Zero();
+	p.shearResponse = 0;
 	p.normal = Vec3::UnitZ();
 	p.elasticNormal = elastic;
 	p.normalDamping = p.shearDamping = damping;
