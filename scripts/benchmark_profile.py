@@ -29,7 +29,7 @@ STEP = "Scene::moveToNextTimeStep()"
 PARTS = {  # part -> functions that it consists of, and those within them that are parts of their own
     "contact points: search for candidates": (("timber::searchCandidates(",), ()),
     "contact points: of the candidates": (("timber::updateManifold(",), ("timber::searchCandidates(",)),
-    "elastic law": (("::lawStep<",), ()),
+    "elastic law": (("Law2_ManifoldGeom_TimberPhys_Hertz::go(", "Law2_ManifoldGeom_SnowPhys_Linear::go("), ()),
     "dashpots: rows": (("ContactForces::collectPairs()", "ContactForces::collectBodies()", "ContactForces::collectPoints()"), ()),
     "dashpots: sweeps": (("DashpotSolver::solve(",), ()),
     "forces and energies of the points": (("ContactForces::storePoints(",), ()),
