@@ -65,19 +65,6 @@ void expectSame(const PointState& a, const PointState& b)
 	EXPECT_EQ(a.shearEnergyBefore, b.shearEnergyBefore);
 }
 
-/// One whole step of a pair. Returns the total force on B.
-Vec3 step(MovingPair& p, NormalForm form, int sweeps)
-{
-	elasticPair(p.law, properties, p.motion(0), p.motion(1), p.h, form, false, p.points, p.states);
-	DashpotSolver solver;
-	solver.clear(sweeps);
-	solver.addPair(0, 1, p.points.size());
-	setRows(solver, 0, p.bodies, p.positionA, p.positionB, properties, 1, p.h, false, p.points, p.states);
-	solver.solve(p.bodies);
-	PairEnergies energies;
-	return takeForces(solver, 0, p.bodies, properties, p.h, p.states, &energies).onB;
-}
-
 } // namespace
 
 /// Elastic forces: all points of a pair together, and one by one as the formula is tested elsewhere.
@@ -185,16 +172,6 @@ TEST(LanesOfAPair, ABadPointKeepsToItself)
 		elasticPair(p->law, properties, p->motion(0), p->motion(1), p->h, NormalForm::Closed, false, p->points, p->states);
 	for (const size_t k : { 0, 1, 3 })
 		expectSame(good.states[k], bad.states[k]);
-}
-
-/// Newton's third law and repeatability of a whole step with any number of points.
-TEST(LanesOfAPair, WholeStepRepeats)
-{
-	for (size_t count = 1; count <= 9; ++count) {
-		MovingPair first(5, count), second(5, count);
-		EXPECT_EQ(step(first, NormalForm::Closed, 50), step(second, NormalForm::Closed, 50));
-		EXPECT_TRUE(first.bodies[0].newVelocity.allFinite());
-	}
 }
 
 TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
