@@ -44,12 +44,12 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit dashpots; 0: explicit dashpots, as in the paper, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once one changes its impulses by less than this share. [-]"))
+		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit springs and dashpots; 0: explicit ones, as in the paper, stable only for very small steps. [-]"))
+		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once one changes its impulses by less than this share, both as root mean squares. [-]"))
 		((long, sweepsDone, 0, , "Sweeps of all steps so far, each those of the island that took most. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
-		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
-		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
+		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots, and what Newmark's term has taken. [J]"))
+		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots, and what Newmark's term has taken. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
 		((Real, lost, 0, , "Elastic energy of loaded points that ceased to exist, minus that of points born under load. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))

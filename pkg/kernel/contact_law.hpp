@@ -68,7 +68,7 @@ template <class Number> struct Springs {
 /// What a contact point remembers between steps.
 struct PointState : Springs<double>, PointResponse {
 	FeatureId id;
-	Vec3 dashpot = Vec3::Zero(); ///< dashpot force of the last step, on B [N]
+	Vec3 dashpot = Vec3::Zero(); ///< what the force of the last step had besides the elastic one, on B [N]
 };
 
 /// Motion of B against A at a contact point.

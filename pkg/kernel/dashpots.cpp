@@ -26,51 +26,56 @@ namespace {
 		return (tt + uu) / 2 + std::sqrt((tt - uu) * (tt - uu) / 4 + tu * tu);
 	}
 
-	/// theta of the step and the gain of a correction, for a dashpot of rate h C against the response a.
-	template <class Number> void setDashpot(Number rate, Number a, Number& theta, Number& gain)
-	{
-		const Number x = rate * a;
-		theta = Number(0.5) + x / (Number(12.) + Number(2.) * x);
-		gain = Number(1.) / (Number(1.) + theta * x);
-	}
+	/// One direction of a point: p = h e - h C ((1 - theta) v_before + theta v_after) - beta h2 K (v_after - v_before).
+	template <class Number> struct Direction {
+		Number before; ///< what v_before is multiplied with in it [kg]
+		Number kept, gain, share; ///< a visit makes kept p + share (what is known) - gain v of an impulse p that acted on v [-, kg, -]
 
-	/// Tangential impulse under a Coulomb limit [N s]: the spring slides when it alone exceeds the limit, and then has no
-	/// dashpot; spring and dashpot together never exceed it.
-	template <class Number> Vec3Of<Number> limitedTangential(const Vec3Of<Number>& elastic, Number elasticNorm, const Vec3Of<Number>& withDashpot, Number limit)
-	{
-		return chosen(elasticNorm > limit, [&] { return Vec3Of<Number>(elastic * Number(limit / elasticNorm)); }, [&] { return clipped<Number>(withDashpot, limit); });
-	}
+		/// rate: h C; stiff: h2 K [kg]; a: response of the velocity to an impulse [1/kg].
+		Direction(Number rate, Number stiff, Number a)
+		{
+			const Number x = rate * a, theta = Number(0.5) + x / (Number(12.) + Number(2.) * x);
+			const Number y = stiff * a, inertia = stiff * (y / (Number(4.) * y + Number(2.)));
+			const Number after = rate * theta + inertia;
+			before = inertia - rate * (Number(1.) - theta);
+			share = Number(1.) / (Number(1.) + after * a);
+			gain = share * after;
+			kept = gain * a;
+		}
+	};
 
-	/// implicit: whether the impulses are to be found by sweeps; else they are those of explicit dashpots.
-	template <class Number> DashpotRow<Number> rowOf(const DashpotPoint<Number>& p, const DashpotBody& a, const DashpotBody& b, double step, bool implicit)
+	template <class Number> DashpotRow<Number> rowOf(const DashpotPoint<Number>& p, const DashpotBody& a, const DashpotBody& b, double step)
 	{
-		const Number h = step, normalImpulse = h * p.normalDamping, shearImpulse = h * p.shearDamping; // per velocity
-		Number normalTheta = 0., shearTheta = 0.;
+		const Number h = step, square = step * step;
+		const Direction<Number> along(h * p.normalDamping, square * p.normalStiffness, p.normal.dot(p.normalResponse));
+		const Direction<Number> across(h * p.shearDamping, square * p.shearStiffness, p.shearResponse);
+		const Vec3Of<Number> before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
+		const Number vn = before.dot(p.normal);
 		DashpotRow<Number> row;
 		row.armA = p.armA;
 		row.armB = p.armB;
 		row.normal = p.normal;
 		row.impulse = p.impulse;
 		row.friction = p.friction;
-		row.normalResponse = p.normalResponse;
-		row.normalGain = row.shearGain = 0.;
-		if (implicit) {
-			setDashpot<Number>(normalImpulse, p.normal.dot(p.normalResponse), normalTheta, row.normalGain);
-			setDashpot<Number>(shearImpulse, p.shearResponse, shearTheta, row.shearGain);
-		}
-		const Vec3Of<Number> before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Number vn = before.dot(p.normal), one = 1.;
-		row.normalRate = normalImpulse * normalTheta;
-		row.shearRate = shearImpulse * shearTheta;
-		row.elasticShear = h * p.elasticShear;
-		row.elasticShearNorm = row.elasticShear.norm();
-		row.normalTarget = h * p.elasticNormal - normalImpulse * (one - normalTheta) * vn;
-		row.shearTarget = row.elasticShear - Number(shearImpulse * (one - shearTheta)) * (before - vn * p.normal);
-		if (!implicit) {
-			const Number normal = most(Number(0.), row.normalTarget);
-			row.impulse = normal * row.normal + limitedTangential<Number>(row.elasticShear, row.elasticShearNorm, row.shearTarget, row.friction * normal);
-		}
+		row.normalKept = along.kept;
+		row.normalGain = along.gain;
+		row.normalDrive = along.share * (h * p.elasticNormal + along.before * vn);
+		row.shearKept = across.kept;
+		row.shearGain = across.gain;
+		row.shearDrive = across.share * Vec3Of<Number>(h * p.elasticShear + across.before * (before - vn * p.normal));
+		row.coupling = across.gain * Vec3Of<Number>(p.normalResponse - p.normal.dot(p.normalResponse) * p.normal);
 		return row;
+	}
+
+	/// Impulse of explicit springs and dashpots. As the paper has it, the elastic force alone decides whether a point slides, and one
+	/// that slides has no dashpot; with long steps loaded light members would chatter from limit to limit.
+	template <class Number> Vec3Of<Number> explicitImpulse(const DashpotPoint<Number>& p, const DashpotBody& a, const DashpotBody& b, double h)
+	{
+		const Vec3Of<Number> v = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
+		const Number vn = v.dot(p.normal), normal = most(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normal;
+		const Vec3Of<Number> dashpot = p.shearDamping * (v - vn * p.normal);
+		const Vec3Of<Number> shear = chosen(p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
+		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
 	template <class Number> void store(const DashpotRow<Number>& row, DashpotRow<double>* rows, size_t count)
@@ -81,15 +86,13 @@ namespace {
 		each.set(&One::armB, row.armB);
 		each.set(&One::normal, row.normal);
 		each.set(&One::impulse, row.impulse);
-		each.set(&One::normalResponse, row.normalResponse);
-		each.set(&One::normalRate, row.normalRate);
+		each.set(&One::normalKept, row.normalKept);
+		each.set(&One::normalDrive, row.normalDrive);
 		each.set(&One::normalGain, row.normalGain);
-		each.set(&One::shearRate, row.shearRate);
+		each.set(&One::shearKept, row.shearKept);
 		each.set(&One::shearGain, row.shearGain);
-		each.set(&One::normalTarget, row.normalTarget);
-		each.set(&One::shearTarget, row.shearTarget);
-		each.set(&One::elasticShear, row.elasticShear);
-		each.set(&One::elasticShearNorm, row.elasticShearNorm);
+		each.set(&One::shearDrive, row.shearDrive);
+		each.set(&One::coupling, row.coupling);
 		each.set(&One::friction, row.friction);
 	}
 
@@ -137,15 +140,22 @@ void DashpotSolver::clear(int mostSweeps)
 size_t DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	const size_t first = pairs.empty() ? 0 : pairs.back().first + pairs.back().count;
-	pairs.push_back({ bodyA, bodyB, first, count, 0 });
-	if (rows.size() < first + count) rows.resize(first + count); // rows of the last step are overwritten by set()
+	pairs.push_back({ bodyA, bodyB, first, count });
+	if (rows.size() < first + count) { // what the last step left is overwritten
+		rows.resize(first + count);
+		changes.resize(first + count);
+		directions.resize(first + count);
+	}
 	return pairs.size() - 1;
 }
 
 template <class Number> void DashpotSolver::set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h)
 {
 	const Pair& pair = pairs[k];
-	store(rowOf<Number>(points, bodies[pair.bodyA], bodies[pair.bodyB], h, sweeps > 0), &rows[pair.first + first], pair.count - first);
+	const DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
+	DashpotRow<Number> row = rowOf<Number>(points, a, b, h);
+	if (sweeps == 0) row.impulse = explicitImpulse<Number>(points, a, b, h);
+	store(row, &rows[pair.first + first], pair.count - first);
 }
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<double>&, double);
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<Lanes>&, double);
@@ -189,80 +199,83 @@ void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
 
 // --- sweeps -------------------------------------------------------------------------------------------------------------
 
-void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards)
+/// Returns the squared change of the pair's impulses. [N2 s2]
+double DashpotSolver::relax(std::vector<DashpotBody>& bodies, const Pair& pair, bool forwards)
 {
 	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
 	Motion motion(a, b);
-	pair.change = 0;
-	for (size_t k = 0; k < pair.count; ++k) {
-		Row& row = rows[pair.first + (forwards ? k : pair.count - 1 - k)];
-		Vec3 v = motion.at(row);
-		const double normal = row.impulse.dot(row.normal);
-		const double normalError = normal - row.normalTarget + row.normalRate * v.dot(row.normal);
-		const double newNormal = std::max(0., normal - row.normalGain * normalError);
-
-		v += (newNormal - normal) * row.normalResponse;
-		const Vec3 tangential = row.impulse - normal * row.normal;
-		const Vec3 shearError = tangential - row.shearTarget + row.shearRate * (v - v.dot(row.normal) * row.normal);
-		const Vec3 impulse = newNormal * row.normal + limitedTangential<double>(row.elasticShear, row.elasticShearNorm, tangential - row.shearGain * shearError, row.friction * newNormal);
-		const Vec3 change = impulse - row.impulse;
-		motion.push(a, b, row, change);
+	double size = 0;
+	for (size_t i = 0; i < pair.count; ++i) {
+		const size_t k = pair.first + (forwards ? i : pair.count - 1 - i);
+		Row& row = rows[k];
+		const Vec3 v = motion.at(row);
+		const double vn = v.dot(row.normal), normal = row.impulse.dot(row.normal);
+		const double newNormal = std::max(0., row.normalKept * normal + row.normalDrive - row.normalGain * vn);
+		const Vec3 tangential = row.shearKept * (row.impulse - normal * row.normal) + row.shearDrive - row.shearGain * (v - vn * row.normal);
+		const Vec3 impulse = newNormal * row.normal + clipped<double>(tangential - (newNormal - normal) * row.coupling, row.friction * newNormal);
+		changes[k] = impulse - row.impulse;
+		motion.push(a, b, row, changes[k]);
 		row.impulse = impulse;
-		pair.change += change.squaredNorm();
+		size += changes[k].squaredNorm();
 	}
 	motion.store(a, b);
+	return size;
 }
 
-/// Squared change of a point's impulse that counts as none. [N2 s2]
-double DashpotSolver::threshold(Island island, double tolerance) const
+double DashpotSolver::sweep(std::vector<DashpotBody>& bodies, Island island, bool forwards)
+{
+	const size_t count = size_t(island.last - island.first);
+	double size = 0;
+	for (size_t k = 0; k < count; ++k)
+		size += relax(bodies, pairs[island.first[forwards ? k : count - 1 - k]], forwards);
+	return size;
+}
+
+/// Sum of the squared impulses. [N2 s2]
+double DashpotSolver::squaredSize(Island island) const
 {
 	double size = 0;
-	size_t count = 0;
-	for (const int k : island) {
+	for (const int k : island)
 		for (size_t row = pairs[k].first; row < pairs[k].first + pairs[k].count; ++row)
 			size += rows[row].impulse.squaredNorm();
-		count += pairs[k].count;
-	}
-	return tolerance * tolerance * size / double(count);
+	return size;
 }
 
-/// Has the neighbours of a pair looked at in this sweep (if their turn is still to come) and in the next one, if the pair
-/// has changed by more than `allowed` per point.
-bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep)
+/// Moves the impulses by `share` of the last direction, and adds the last sweep's changes to it for the next time.
+void DashpotSolver::moveOn(std::vector<DashpotBody>& bodies, Island island, double share)
 {
-	if (pair.change <= allowed * double(pair.count)) return false;
-	for (const int body : { pair.bodyA, pair.bodyB })
-		if (bodies[body].inverseMass > 0) awake[body] = sweep + 1;
-	return true;
-}
-
-/// Returns whether another sweep is needed.
-bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep)
-{
-	const bool forwards = sweep % 2 == 0;
-	const size_t count = size_t(island.last - island.first);
-	bool changed = false;
-	for (size_t k = 0; k < count; ++k) {
-		Pair& pair = pairs[island.first[forwards ? k : count - 1 - k]];
-		if (awake[pair.bodyA] < sweep && awake[pair.bodyB] < sweep) continue;
-		relax(bodies, pair, forwards);
-		changed = wake(bodies, pair, allowed, sweep) || changed;
+	for (const int k : island) {
+		const Pair& pair = pairs[k];
+		DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
+		Motion motion(a, b);
+		for (size_t row = pair.first; row < pair.first + pair.count; ++row) {
+			const Vec3 way = share * directions[row];
+			directions[row] = way + changes[row];
+			motion.push(a, b, rows[row], way);
+			rows[row].impulse += way;
+		}
+		motion.store(a, b);
 	}
-	return changed;
 }
 
+/// Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe, Erleben 2010, Visual Computer 26, 893): a sweep's changes stand for the
+/// gradient, in Fletcher and Reeves' formula; where the changes grow, the direction is given up. The last word has a sweep, after which all limits hold.
 /// Returns the number of sweeps.
 int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance)
 {
-	for (const int k : island)
-		relax(bodies, pairs[k], true);
-	const double allowed = threshold(island, tolerance);
-	bool changed = false;
-	for (const int k : island)
-		changed = wake(bodies, pairs[k], allowed, 0) || changed;
+	double size = sweep(bodies, island, true);
+	const double allowed = tolerance * tolerance * squaredSize(island);
 	int done = 1;
-	while (changed && done < sweeps)
-		changed = sweepOn(bodies, island, allowed, done++);
+	for (double share = 0; size > allowed && done < sweeps; ++done) {
+		if (done == 1 || share > 1)
+			for (const int k : island)
+				std::copy_n(&changes[pairs[k].first], pairs[k].count, &directions[pairs[k].first]);
+		else
+			moveOn(bodies, island, share);
+		const double before = size;
+		size = sweep(bodies, island, done % 2 == 0);
+		share = size / before;
+	}
 	return done;
 }
 
@@ -282,7 +295,6 @@ int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, 
 int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 {
 	findIslands(bodies);
-	awake.assign(bodies.size(), 0);
 	const int count = int(islandCount());
 	if (count == 1) return solveIsland(bodies, island(0), tolerance); // a parallel region costs as much as a contact, even on one thread
 	int done = 0;

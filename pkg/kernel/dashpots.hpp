@@ -6,8 +6,13 @@
 /// dashpot impulses of all points act on the mean of the velocities before and after the step,
 ///     p = -h C ((1 - theta) v_before + theta v_after),    theta = 1/2 + x/(12 + 2x),  x = h C / m_eff,
 /// which is second order for slow dashpots (theta -> 1/2) and strongly damped for fast ones (theta -> 1; the exact decay
-/// exp(-x) gives this theta to 1 %). The coupled equations are solved by projected Gauss-Seidel sweeps over the points,
-/// started from the last step's dashpots, until they change little. No sweeps: explicit dashpots, as the paper has them.
+/// exp(-x) gives this theta to 1 %). Springs of heavily loaded light members are too stiff for the step as well: with the stiffness K
+/// at hand, a point's impulse has a further part (Newmark's method),
+///     -beta h2 K (v_after - v_before),    beta = y / (4 y + 2),  y = h2 K / m_eff,
+/// next to nothing for springs that the step resolves (leapfrog) and 1/4 for stiff ones, which up to eight of them on one member keep
+/// stable at any step. Spring and dashpot together have at most the force of friction.
+/// The coupled equations are solved by projected Gauss-Seidel sweeps over the points, started from the last step's dashpots and
+/// accelerated by conjugate gradients, until they change little. No sweeps: explicit springs and dashpots, as the paper has them.
 /// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
 /// not influence each other, not even by rounding, and threads may share the work.
 #pragma once
@@ -37,26 +42,28 @@ PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const Vec3&
 template <class Number> struct DashpotPoint {
 	Vec3Of<Number> armA, armB; ///< from the centres of mass to the point [m]
 	Vec3Of<Number> normal; ///< unit, from A to B
-	Number elasticNormal; ///< e_n >= 0 [N]
-	Vec3Of<Number> elasticShear; ///< e_s on B, before Coulomb's limit [N]
+	Number elasticNormal; ///< e_n >= 0 at the placement [N]
+	Vec3Of<Number> elasticShear; ///< e_s on B at the placement, before Coulomb's limit [N]
 	Number normalDamping, shearDamping; ///< C_n, C_s [N s/m]
 	Number friction; ///< [-]
 	Vec3Of<Number> impulse; ///< guess of the total contact impulse on B [N s]
 	Vec3Of<Number> normalResponse; ///< PointResponse
 	Number shearResponse;
+	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 };
 
-/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done.
+/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done. A visit finds the impulses that solve
+/// the point's own equations for the relative velocity v that the other points leave it:
+///     normal     p_n = max(0, normalKept p_n + normalDrive - normalGain v_n)
+///     tangential p_s = normalised to friction p_n if it is longer: shearKept p_s + shearDrive - shearGain v_s - coupling (change of p_n)
 template <class Number> struct DashpotRow {
 	Vec3Of<Number> armA, armB, normal;
 	Vec3Of<Number> impulse; ///< total contact impulse on B [N s]
-	Vec3Of<Number> normalResponse; ///< change of relative velocity per unit normal impulse [1/kg]
-	Number normalRate, normalGain; ///< theta h C_n [kg]; 1 / (1 + theta h C_n a_n) [-]
-	Number shearRate, shearGain;
-	Number normalTarget; ///< h e_n - h C_n (1 - theta) v_n before: the dashpot's known part included [N s]
-	Vec3Of<Number> shearTarget; ///< likewise, tangential
-	Vec3Of<Number> elasticShear; ///< h e_s
-	Number elasticShearNorm, friction;
+	Number normalKept, normalDrive, normalGain; ///< [-, N s, kg]
+	Number shearKept, shearGain; ///< [-, kg]
+	Vec3Of<Number> shearDrive; ///< [N s]
+	Vec3Of<Number> coupling; ///< tangential impulse that answers the slip which a unit normal impulse causes [-]
+	Number friction;
 };
 
 /// Relative velocity of B against A at a point with the given arms. [m/s]
@@ -84,7 +91,6 @@ public:
 	struct Pair {
 		int bodyA, bodyB;
 		size_t first, count;
-		double change; ///< squared change of the impulses in the last sweep [N2 s2]
 	};
 	/// Indices of the pairs of an island, ascending.
 	struct Island {
@@ -100,10 +106,10 @@ public:
 	/// Rows of the k-th pair from its points of a step of length h [s], from the given one on: one, or up to laneCount of them. May be called
 	/// by several threads, each for pairs of its own.
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
-	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
-	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
-	/// points [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
-	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
+	/// Impulses of all rows, and the bodies' velocities with them. The sweeps of an island end when one changes the impulses by less than
+	/// `tolerance` of their size, both as root mean squares [-]. Few fixed passes would do for a standing house, but between heavy and
+	/// light members in an impact they are far from the solution, and what is left of the start would create energy. Returns the
+	/// number of passes, of the island that took most.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
@@ -118,17 +124,18 @@ private:
 	std::vector<int> order; ///< pairs by island
 	std::vector<size_t> islandStarts; ///< in `order`, and its end
 	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
-	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
+	std::vector<Vec3> changes; ///< of the rows' impulses in the last sweep [N s]
+	std::vector<Vec3> directions; ///< conjugate ones, in which the impulses are moved between sweeps [N s]
 
 	int root(int body);
 	int islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair);
 	void findIslands(const std::vector<DashpotBody>& bodies);
-	double threshold(Island island, double tolerance) const;
-	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
-	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
+	double squaredSize(Island island) const;
+	double sweep(std::vector<DashpotBody>& bodies, Island island, bool forwards);
+	void moveOn(std::vector<DashpotBody>& bodies, Island island, double share);
 	int sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
-	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
+	double relax(std::vector<DashpotBody>& bodies, const Pair& pair, bool forwards);
 };
 
 } // namespace timber

@@ -148,6 +148,8 @@ void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bo
 		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + kept.get(&PointState::dashpot));
 		p.normalResponse = kept.get(&PointState::normalResponse);
 		p.shearResponse = kept.get(&PointState::shearResponse);
+		p.normalStiffness = kept.get(&PointState::stiffness);
+		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
 		solver.set<Number>(k, i, bodies, p, h);
 	});
 }

@@ -43,7 +43,7 @@ def engines(
     flush_supports whether a vertex exactly over a face's border is supported
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
     damping_ratio  share of critical damping [-]
-    sweeps         most Gauss-Seidel sweeps of the implicit dashpots; 0: explicit dashpots as in the paper
+    sweeps         most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper
     tolerance      share of an island's contact impulses that the last sweep may change [-]
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
@@ -212,8 +212,9 @@ def stable_dt(safety=0.5):
     """Largest stable time step of the elastic contacts and joints as they are now, times `safety`. [s]
 
     2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
-    M^-1 K by power iteration over all contact points and joint springs. The implicit dashpots set no limit. Contacts that do
-    not touch yet do not count: ask after a few steps, or leave a safety for impacts. Infinite when nothing touches.
+    M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0)
+    and for joints; implicit contacts (the default) are stable beyond it. Contacts that do not touch yet do not count: ask after a
+    few steps, or leave a safety for impacts. Infinite when nothing touches.
     """
     solver = find_engine(yw.ContactForces)
     if solver is None:

@@ -108,14 +108,13 @@ TEST(LanesOfAPair, RowsAreThoseOfEachPoint)
 				const Vec3 armA = p.points[k].position - p.positionA, armB = p.points[k].position - p.positionB, normal = p.points[k].normal;
 				const PointResponse r = responseAt(p.bodies[0], p.bodies[1], armA, armB, normal);
 				const DashpotPoint<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio), properties.friction,
-					p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse };
+					p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness, properties.shearRatio * s.stiffness };
 				each.set<double>(0, k, p.bodies, one, p.h);
 				const DashpotSolver::Row &x = together.row(k), &y = each.row(k);
-				for (const auto member : { &DashpotSolver::Row::armA, &DashpotSolver::Row::armB, &DashpotSolver::Row::normal, &DashpotSolver::Row::impulse,
-				             &DashpotSolver::Row::normalResponse, &DashpotSolver::Row::shearTarget, &DashpotSolver::Row::elasticShear })
+				using Row = DashpotSolver::Row;
+				for (const auto member : { &Row::armA, &Row::armB, &Row::normal, &Row::impulse, &Row::shearDrive, &Row::coupling })
 					EXPECT_EQ(x.*member, y.*member) << seed;
-				for (const auto member : { &DashpotSolver::Row::normalRate, &DashpotSolver::Row::normalGain, &DashpotSolver::Row::shearRate, &DashpotSolver::Row::shearGain,
-				             &DashpotSolver::Row::normalTarget, &DashpotSolver::Row::elasticShearNorm, &DashpotSolver::Row::friction })
+				for (const auto member : { &Row::normalKept, &Row::normalDrive, &Row::normalGain, &Row::shearKept, &Row::shearGain, &Row::friction })
 					EXPECT_EQ(x.*member, y.*member) << seed;
 			}
 		}

@@ -37,9 +37,9 @@ def strong_part(duration):
     return GroundMotion(motion.dt, np.tile(strong, (int(np.ceil(duration / 10.0)), 1)), "strong part, repeated")
 
 
-def shaken(house, motion, duration, scale=1.0, snow_depth=0.0):
+def shaken(house, motion, duration, scale=1.0, snow_depth=0.0, dt=scenario.DEFAULT_DT):
     """Run a house; returns (largest share of its speed bound that a body had, in a look each 0.05 s [-], energy that appeared, of all that went in [-])."""
-    scenario.build(scenario.Scenario("hardship", house, motion, snow_depth, scale=scale))
+    scenario.build(scenario.Scenario("hardship", house, motion, snow_depth, scale=scale, dt=dt))
     bounds = speed_bounds(motion, duration, scale)
     fastest = 0.0
     while O.time < duration - O.dt / 2:

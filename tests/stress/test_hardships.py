@@ -9,6 +9,7 @@ from compare import assert_close
 from hardships import expect_sound, float32_house, rough_record, shaken, single_precision, strong_part
 from yade import O
 from yade_timber import scene
+from yade_timber.scenario import DEFAULT_DT
 
 
 @pytest.mark.parametrize("build", [limits.hung_block, limits.stack, limits.house, limits.stiff_house])
@@ -23,6 +24,12 @@ def test_stable_below_the_predicted_limit(build):
 def test_unstable_above_it(build, share, damped):
     """Just above the limit where no dashpots act; they and loss of contact hold the motion back for a while."""
     assert not limits.is_stable(build, share * limits.settled(build), damped)
+
+
+@pytest.mark.parametrize("house", ["B2", "C1", "C2"])
+def test_twice_the_default_step(house):
+    """Braces under snow, where explicit springs and friction by the elastic force alone created energy: houses are stable at twice the default step."""
+    expect_sound(shaken(house, strong_part(8.0), 8.0, snow_depth=1.0, dt=2 * DEFAULT_DT))
 
 
 @pytest.mark.parametrize("house", ["A", "B", "C"])
