@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 import yade.wrapper as yw  # noqa: E402
 
 ROOT = Path(sys.argv[0]).resolve().parent.parent  # YADE runs a script without setting __file__
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "stress")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("scripts", "tests", "tests/stress")]
 
 import hardships  # noqa: E402
 import limits  # noqa: E402

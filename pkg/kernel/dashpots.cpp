@@ -140,12 +140,8 @@ void DashpotSolver::clear(int mostSweeps)
 size_t DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	const size_t first = pairs.empty() ? 0 : pairs.back().first + pairs.back().count;
-	pairs.push_back({ bodyA, bodyB, first, count });
-	if (rows.size() < first + count) { // what the last step left is overwritten
-		rows.resize(first + count);
-		changes.resize(first + count);
-		directions.resize(first + count);
-	}
+	pairs.push_back({ bodyA, bodyB, first, count, 0 });
+	if (rows.size() < first + count) rows.resize(first + count); // rows of the last step are overwritten by set()
 	return pairs.size() - 1;
 }
 
@@ -199,83 +195,76 @@ void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
 
 // --- sweeps -------------------------------------------------------------------------------------------------------------
 
-/// Returns the squared change of the pair's impulses. [N2 s2]
-double DashpotSolver::relax(std::vector<DashpotBody>& bodies, const Pair& pair, bool forwards)
+void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards)
 {
 	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
 	Motion motion(a, b);
-	double size = 0;
-	for (size_t i = 0; i < pair.count; ++i) {
-		const size_t k = pair.first + (forwards ? i : pair.count - 1 - i);
-		Row& row = rows[k];
+	pair.change = 0;
+	for (size_t k = 0; k < pair.count; ++k) {
+		Row& row = rows[pair.first + (forwards ? k : pair.count - 1 - k)];
 		const Vec3 v = motion.at(row);
 		const double vn = v.dot(row.normal), normal = row.impulse.dot(row.normal);
 		const double newNormal = std::max(0., row.normalKept * normal + row.normalDrive - row.normalGain * vn);
 		const Vec3 tangential = row.shearKept * (row.impulse - normal * row.normal) + row.shearDrive - row.shearGain * (v - vn * row.normal);
 		const Vec3 impulse = newNormal * row.normal + clipped<double>(tangential - (newNormal - normal) * row.coupling, row.friction * newNormal);
-		changes[k] = impulse - row.impulse;
-		motion.push(a, b, row, changes[k]);
+		const Vec3 change = impulse - row.impulse;
+		motion.push(a, b, row, change);
 		row.impulse = impulse;
-		size += changes[k].squaredNorm();
+		pair.change += change.squaredNorm();
 	}
 	motion.store(a, b);
-	return size;
 }
 
-double DashpotSolver::sweep(std::vector<DashpotBody>& bodies, Island island, bool forwards)
-{
-	const size_t count = size_t(island.last - island.first);
-	double size = 0;
-	for (size_t k = 0; k < count; ++k)
-		size += relax(bodies, pairs[island.first[forwards ? k : count - 1 - k]], forwards);
-	return size;
-}
-
-/// Sum of the squared impulses. [N2 s2]
-double DashpotSolver::squaredSize(Island island) const
+/// Squared change of a point's impulse that counts as none. [N2 s2]
+double DashpotSolver::threshold(Island island, double tolerance) const
 {
 	double size = 0;
-	for (const int k : island)
+	size_t count = 0;
+	for (const int k : island) {
 		for (size_t row = pairs[k].first; row < pairs[k].first + pairs[k].count; ++row)
 			size += rows[row].impulse.squaredNorm();
-	return size;
-}
-
-/// Moves the impulses by `share` of the last direction, and adds the last sweep's changes to it for the next time.
-void DashpotSolver::moveOn(std::vector<DashpotBody>& bodies, Island island, double share)
-{
-	for (const int k : island) {
-		const Pair& pair = pairs[k];
-		DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
-		Motion motion(a, b);
-		for (size_t row = pair.first; row < pair.first + pair.count; ++row) {
-			const Vec3 way = share * directions[row];
-			directions[row] = way + changes[row];
-			motion.push(a, b, rows[row], way);
-			rows[row].impulse += way;
-		}
-		motion.store(a, b);
+		count += pairs[k].count;
 	}
+	return tolerance * tolerance * size / double(count);
 }
 
-/// Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe, Erleben 2010, Visual Computer 26, 893): a sweep's changes stand for the
-/// gradient, in Fletcher and Reeves' formula; where the changes grow, the direction is given up. The last word has a sweep, after which all limits hold.
+/// Has the neighbours of a pair looked at in this sweep (if their turn is still to come) and in the next one, if the pair
+/// has changed by more than `allowed` per point.
+bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep)
+{
+	if (pair.change <= allowed * double(pair.count)) return false;
+	for (const int body : { pair.bodyA, pair.bodyB })
+		if (bodies[body].inverseMass > 0) awake[body] = sweep + 1;
+	return true;
+}
+
+/// Returns whether another sweep is needed.
+bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep)
+{
+	const bool forwards = sweep % 2 == 0;
+	const size_t count = size_t(island.last - island.first);
+	bool changed = false;
+	for (size_t k = 0; k < count; ++k) {
+		Pair& pair = pairs[island.first[forwards ? k : count - 1 - k]];
+		if (awake[pair.bodyA] < sweep && awake[pair.bodyB] < sweep) continue;
+		relax(bodies, pair, forwards);
+		changed = wake(bodies, pair, allowed, sweep) || changed;
+	}
+	return changed;
+}
+
 /// Returns the number of sweeps.
 int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance)
 {
-	double size = sweep(bodies, island, true);
-	const double allowed = tolerance * tolerance * squaredSize(island);
+	for (const int k : island)
+		relax(bodies, pairs[k], true);
+	const double allowed = threshold(island, tolerance);
+	bool changed = false;
+	for (const int k : island)
+		changed = wake(bodies, pairs[k], allowed, 0) || changed;
 	int done = 1;
-	for (double share = 0; size > allowed && done < sweeps; ++done) {
-		if (done == 1 || share > 1)
-			for (const int k : island)
-				std::copy_n(&changes[pairs[k].first], pairs[k].count, &directions[pairs[k].first]);
-		else
-			moveOn(bodies, island, share);
-		const double before = size;
-		size = sweep(bodies, island, done % 2 == 0);
-		share = size / before;
-	}
+	while (changed && done < sweeps)
+		changed = sweepOn(bodies, island, allowed, done++);
 	return done;
 }
 
@@ -295,6 +284,7 @@ int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, 
 int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 {
 	findIslands(bodies);
+	awake.assign(bodies.size(), 0);
 	const int count = int(islandCount());
 	if (count == 1) return solveIsland(bodies, island(0), tolerance); // a parallel region costs as much as a contact, even on one thread
 	int done = 0;

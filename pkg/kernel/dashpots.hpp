@@ -11,8 +11,8 @@
 ///     -beta h2 K (v_after - v_before),    beta = y / (4 y + 2),  y = h2 K / m_eff,
 /// next to nothing for springs that the step resolves (leapfrog) and 1/4 for stiff ones, which up to eight of them on one member keep
 /// stable at any step. Spring and dashpot together have at most the force of friction.
-/// The coupled equations are solved by projected Gauss-Seidel sweeps over the points, started from the last step's dashpots and
-/// accelerated by conjugate gradients, until they change little. No sweeps: explicit springs and dashpots, as the paper has them.
+/// The coupled equations are solved by projected Gauss-Seidel sweeps over the points, started from the last step's dashpots,
+/// until they change little. No sweeps: explicit springs and dashpots, as the paper has them.
 /// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
 /// not influence each other, not even by rounding, and threads may share the work.
 #pragma once
@@ -91,6 +91,7 @@ public:
 	struct Pair {
 		int bodyA, bodyB;
 		size_t first, count;
+		double change; ///< squared change of the impulses in the last sweep [N2 s2]
 	};
 	/// Indices of the pairs of an island, ascending.
 	struct Island {
@@ -106,10 +107,10 @@ public:
 	/// Rows of the k-th pair from its points of a step of length h [s], from the given one on: one, or up to laneCount of them. May be called
 	/// by several threads, each for pairs of its own.
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
-	/// Impulses of all rows, and the bodies' velocities with them. The sweeps of an island end when one changes the impulses by less than
-	/// `tolerance` of their size, both as root mean squares [-]. Few fixed passes would do for a standing house, but between heavy and
-	/// light members in an impact they are far from the solution, and what is left of the start would create energy. Returns the
-	/// number of passes, of the island that took most.
+	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
+	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
+	/// points [-] changes nobody. Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
+	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
@@ -124,18 +125,17 @@ private:
 	std::vector<int> order; ///< pairs by island
 	std::vector<size_t> islandStarts; ///< in `order`, and its end
 	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
-	std::vector<Vec3> changes; ///< of the rows' impulses in the last sweep [N s]
-	std::vector<Vec3> directions; ///< conjugate ones, in which the impulses are moved between sweeps [N s]
+	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
 
 	int root(int body);
 	int islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair);
 	void findIslands(const std::vector<DashpotBody>& bodies);
-	double squaredSize(Island island) const;
-	double sweep(std::vector<DashpotBody>& bodies, Island island, bool forwards);
-	void moveOn(std::vector<DashpotBody>& bodies, Island island, double share);
+	double threshold(Island island, double tolerance) const;
+	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
+	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
 	int sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
-	double relax(std::vector<DashpotBody>& bodies, const Pair& pair, bool forwards);
+	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };
 
 } // namespace timber
