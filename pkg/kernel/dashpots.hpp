@@ -9,8 +9,8 @@
 /// exp(-x) gives this theta to 1 %). Springs of heavily loaded light members are too stiff for the step as well: with the stiffness K
 /// at hand, a point's impulse has a further part (Newmark's method),
 ///     -beta h2 K (v_after - v_before),    beta = y / (4 y + 2),  y = h2 K / m_eff,
-/// next to nothing for springs that the step resolves (leapfrog) and 1/4 for stiff ones, which up to eight of them on one member keep
-/// stable at any step. Spring and dashpot together have at most the force of friction.
+/// next to nothing for springs that the step resolves (leapfrog) and 1/4 for stiff ones: up to eight of them on one member are stable
+/// at any step. Spring and dashpot together have at most the force of friction.
 /// The coupled equations are solved by projected Gauss-Seidel sweeps over the points, started from the last step's dashpots,
 /// until they change little. No sweeps: explicit springs and dashpots, as the paper has them.
 /// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
@@ -55,7 +55,7 @@ template <class Number> struct DashpotPoint {
 /// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done. A visit finds the impulses that solve
 /// the point's own equations for the relative velocity v that the other points leave it:
 ///     normal     p_n = max(0, normalKept p_n + normalDrive - normalGain v_n)
-///     tangential p_s = normalised to friction p_n if it is longer: shearKept p_s + shearDrive - shearGain v_s - coupling (change of p_n)
+///     tangential p_s = shearKept p_s + shearDrive - shearGain v_s - coupling (change of p_n), shortened to friction p_n if it is longer
 template <class Number> struct DashpotRow {
 	Vec3Of<Number> armA, armB, normal;
 	Vec3Of<Number> impulse; ///< total contact impulse on B [N s]
