@@ -46,8 +46,8 @@ namespace {
 
 	template <class Number> DashpotRow<Number> rowOf(const DashpotPoint<Number>& p, const DashpotBody& a, const DashpotBody& b, double step)
 	{
-		const Number h = step, square = step * step;
-		const Direction<Number> along(h * p.normalDamping, square * p.normalStiffness, p.normal.dot(p.normalResponse));
+		const Number h = step, square = step * step, response = p.normal.dot(p.normalResponse);
+		const Direction<Number> along(h * p.normalDamping, square * p.normalStiffness, response);
 		const Direction<Number> across(h * p.shearDamping, square * p.shearStiffness, p.shearResponse);
 		const Vec3Of<Number> before = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Number vn = before.dot(p.normal);
@@ -63,7 +63,7 @@ namespace {
 		row.shearKept = across.kept;
 		row.shearGain = across.gain;
 		row.shearDrive = across.share * Vec3Of<Number>(h * p.elasticShear + across.before * (before - vn * p.normal));
-		row.coupling = across.gain * Vec3Of<Number>(p.normalResponse - p.normal.dot(p.normalResponse) * p.normal);
+		row.coupling = across.gain * Vec3Of<Number>(p.normalResponse - response * p.normal);
 		return row;
 	}
 

@@ -69,29 +69,29 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 
 namespace {
 
-/// A mass that a spring presses against the ground: its velocity normal and tangential to it, and its displacement since the spring
-/// had the force of the load.
+/// A mass that `points` equal springs press against the ground: its velocity normal and tangential to it, and its displacement since
+/// the springs had the force of the load.
 struct Pressed {
 	double mass = 4, load, friction, stiffness, damping, h;
+	size_t points = 1;
 	Vec3 velocity = Vec3::Zero(), displacement = Vec3::Zero(), shear = Vec3::Zero();
 
-	/// A step: the placement's elastic forces and the load, then the contact. Returns the contact's impulse.
-	Vec3 step(int sweeps)
+	/// A step: the placement's elastic forces and the load, then the contact.
+	void step(int sweeps)
 	{
 		std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(mass, velocity) };
 		bodies[1].inverseInertia.setZero();
 		bodies[1].newVelocity.z() -= h * load / mass;
-		HeapPoint p = central(damping, std::max(0., load - stiffness * displacement.z()));
+		HeapPoint p = central(damping, std::max(0., load / double(points) - stiffness * displacement.z()));
 		p.elasticShear = shear;
 		p.friction = friction;
 		p.normalStiffness = p.shearStiffness = stiffness;
-		std::vector<HeapPoint> points { p };
-		solveDashpots(bodies, points, h, sweeps);
+		std::vector<HeapPoint> all(points, p);
+		solveDashpots(bodies, all, h, sweeps);
 		velocity = bodies[1].newVelocity;
 		displacement += h * velocity;
-		shear = limitedShear<double>(shear, friction, points[0].impulse.z() / h);
+		shear = limitedShear<double>(shear, friction, all[0].impulse.z() / h);
 		shear -= h * stiffness * Vec3(velocity.x(), velocity.y(), 0);
-		return points[0].impulse;
 	}
 };
 
@@ -111,6 +111,30 @@ TEST(SinglePair, SpringsSetNoLimitToTheStep)
 			EXPECT_NEAR(m.displacement.z(), start * std::cos(phase * k), 1e-7 * start * std::max(1., turn)) << turn << " " << k; // rounding of the load adds up
 		}
 	}
+}
+
+/// Each point takes only its own stiffness for its beta. Eight on one member keep its amplitude at any step, sixteen do not: n of them
+/// are stable while n y / (8 y + 4) <= 1, y that of one.
+TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
+{
+	const double start = 1e-3;
+	for (const double turn : { 0.3, 1., 3. }) // at 10 the phase of eight is within 0.01 of pi, and rounding shows
+		for (const size_t points : { 8, 16 }) {
+			Pressed m { 4, 2e5, 0, 4e6, 0, turn / 1e3 };
+			m.points = points;
+			m.displacement.z() = start;
+			const double y = turn * turn, all = double(points) * y;
+			m.velocity.z() = start * all / (2 + 2 * all * y / (4 * y + 2)) / m.h; // on the orbit of start cos(phase k), as above
+			double largest = 0;
+			for (int k = 0; k < 200 && largest < 0.1; ++k) {
+				m.step(2000); // coupled points: linear convergence of the sweeps
+				largest = std::max(largest, std::abs(m.displacement.z()));
+			}
+			if (all <= 8 * y + 4)
+				EXPECT_LT(largest, 1.001 * start) << turn << " " << points;
+			else
+				EXPECT_GT(largest, 10 * start) << turn << " " << points;
+		}
 }
 
 /// A light member under a heavy load begins to slip, on springs far stiffer than the step resolves: omega h is 1 and 4.5. With a sliding
