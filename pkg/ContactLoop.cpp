@@ -59,13 +59,13 @@ void ContactLoop::lookAtAll(const CollisionTrigger* trigger)
 
 void ContactLoop::look(Pair& pair, const CollisionTrigger& trigger) const
 {
-	const Real motion = trigger.motions[pair.id1] + trigger.motions[pair.id2];
-	if (motion < pair.shut) return;
+	const Real approach = trigger.approach(pair.id1, pair.id2);
+	if (approach < pair.shut) return;
 	const shared_ptr<Interaction>& I = pair.interaction;
 	const Body &                   b1 = *(*scene->bodies)[pair.id1], &b2 = *(*scene->bodies)[pair.id2];
 	I->functorCache.geom->go(b1.shape, b2.shape, *b1.state, *b2.state, Vector3r::Zero(), false, I);
 	if (!I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
-	pair.shut = static_cast<ManifoldPhys*>(I->phys.get())->isIdle() ? static_cast<ManifoldGeom*>(I->geom.get())->gap - motion : 0;
+	pair.shut = static_cast<ManifoldPhys*>(I->phys.get())->isIdle() ? static_cast<ManifoldGeom*>(I->geom.get())->gap - approach : 0;
 }
 
 void ContactLoop::action()

@@ -11,7 +11,7 @@ class ContactLoop : public GlobalEngine {
 	struct Pair {
 		shared_ptr<Interaction> interaction;
 		Body::id_t              id1, id2;
-		Real                    shut; ///< it cannot touch while the motions of its bodies since the collider ran add up to less [m]
+		Real                    shut; ///< it cannot touch while its bodies' approach since the collider ran is less [m]
 	};
 	std::vector<Pair> pairs; ///< those that have geometry and physics
 	std::vector<Pair> held; ///< those of two held bodies, which have none
@@ -28,7 +28,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ContactLoop, GlobalEngine,
 		"Wraps an :yref:`InteractionLoop`, which runs when the collider has run or pairs came or went. In all other steps the functors that it has found for each pair are called at once, and only where bodies may touch: "
-		"a pair is left alone as long as its bodies have moved by less than the gap between them. The result is that of the InteractionLoop, which may stand here by itself. "
+		"a pair is left alone as long as its bodies have moved against each other by less than the gap between them. The result is that of the InteractionLoop, which may stand here by itself. "
 		"The InteractionLoop runs in each step of a scene that has no :yref:`CollisionTrigger`, is periodic, or has pairs of other shapes than :yref:`RoundedPolyhedron`. One with callbacks must stand by itself.",
 		((shared_ptr<Engine>, loop, , , "The InteractionLoop. [-]"))
 		((long, runs, 0, Attr::readonly, "How often the InteractionLoop ran. [-]")));

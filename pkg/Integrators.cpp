@@ -42,21 +42,23 @@ void SymplecticIntegrator::action()
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) move(*b);
 }
 
-/// Bound of the way of the body's points since the collider ran. [m]
-Real CollisionTrigger::motionOf(const Body& b) const
+CollisionTrigger::Motion CollisionTrigger::motionOf(const Body& b) const
 {
 	const Seen& then = seen[b.getId()];
-	return (b.state->pos - then.place).norm() + timber::turnedWay(then.turn.conjugate() * b.state->ori, then.span);
+	return { b.state->pos - then.place, timber::turnedWay(then.turn.conjugate() * b.state->ori, then.span) };
 }
 
-Real CollisionTrigger::largestMotion()
+/// Whether any body has gone farther than its box reaches.
+bool CollisionTrigger::mayHaveLeft()
 {
 	const int count = int(scene->bodies->size());
-	motions.assign(count, 0);
+	motions.assign(count, { Vector3r::Zero(), 0 });
 #pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int id = 0; id < count; ++id)
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
-	return count > 0 ? *std::max_element(motions.begin(), motions.end()) : 0;
+	for (int id = 0; id < count; ++id)
+		if (motions[id].way.norm() + motions[id].turned >= seen[id].margin && (*scene->bodies)[id]) return true;
+	return false;
 }
 
 void CollisionTrigger::remember()
@@ -65,7 +67,7 @@ void CollisionTrigger::remember()
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
 		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-		seen[b->getId()] = { b->state->pos, b->state->ori, shape ? shape->geometry->span : Vector3r(Vector3r::Zero()) };
+		seen[b->getId()] = { b->state->pos, b->state->ori, shape ? shape->geometry->span : Vector3r(Vector3r::Zero()), boxMargin(*b, margin, scene->dt) };
 	}
 }
 
@@ -75,8 +77,7 @@ void CollisionTrigger::action()
 	const auto collider   = std::find_if(scene->engines.begin(), scene->engines.end(), isCollider);
 	if (collider == scene->engines.end()) return;
 	const bool changed = seen.size() != scene->bodies->size() || scene->interactions->dirty;
-	moved              = changed ? NaN : largestMotion();
-	(*collider)->dead  = moved < margin;
+	(*collider)->dead  = !changed && !mayHaveLeft();
 	if ((*collider)->dead) return;
 	remember();
 	++runs;

@@ -25,20 +25,27 @@ class CollisionTrigger : public GlobalEngine {
 		Vector3r    place;
 		Quaternionr turn;
 		Vector3r    span; ///< largest distance of its core's points from the centre along its axes; 0 for other shapes [m]
+		Real        margin; ///< of its box [m]
 	};
-	std::vector<Seen> seen; ///< by id
-	Real motionOf(const Body&) const;
-	Real largestMotion();
+	/// How a body has moved since then.
+	struct Motion {
+		Vector3r way; ///< of its centre [m]
+		Real     turned; ///< bound of the way of its points against the centre [m]
+	};
+	std::vector<Seen>   seen; ///< by id
+	std::vector<Motion> motions; ///< by id
+	Motion motionOf(const Body&) const;
+	bool mayHaveLeft();
 	void remember();
 
 public:
-	std::vector<Real> motions; ///< bounds of how far any point of a body is away from where it was when the collider ran, by id [m]
 	void action() override;
+	/// Bound of how much nearer any points of two bodies can be than they were when the collider ran. [m]
+	Real approach(Body::id_t id1, Body::id_t id2) const { return (motions[id2].way - motions[id1].way).norm() + motions[id1].turned + motions[id2].turned; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(CollisionTrigger, GlobalEngine,
 		"Lets the collider behind it run only when a body may have left its bounding box, or bodies came or went. Stands right before the collider.",
-		((Real, margin, 5e-3, , "Distance by which the bounding boxes are larger than the bodies, see :yref:`Bo1_RoundedPolyhedron_Aabb.margin<Bo1_RoundedPolyhedron_Aabb>`. [m]"))
-		((Real, moved, NaN, Attr::readonly, "Largest bound of how far a point of a body is away from where it was when the collider ran. [m]"))
+		((Real, margin, 5e-3, , "That of the boxes of slow bodies, :yref:`Bo1_RoundedPolyhedron_Aabb.margin<Bo1_RoundedPolyhedron_Aabb>`. [m]"))
 		((int, runs, 0, Attr::readonly, "How often the collider ran. [-]")));
 	// clang-format on
 };

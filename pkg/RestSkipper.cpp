@@ -7,6 +7,14 @@ namespace yade {
 
 YADE_PLUGIN((RestSkipper));
 
+vector<Vector3r> RestSkipper::places() const
+{
+	vector<Vector3r> all(scene->bodies->size(), Vector3r::Zero());
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b) all[b->getId()] = b->state->pos;
+	return all;
+}
+
 Real RestSkipper::fastest() const
 {
 	Real most = 0;
@@ -15,28 +23,37 @@ Real RestSkipper::fastest() const
 	return most;
 }
 
-Real RestSkipper::farthest() const
+Real RestSkipper::farthest(const vector<Vector3r>& from) const
 {
 	Real most = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) most = math::max(most, (b->state->pos - places[b->getId()]).norm());
+		if (b) most = math::max(most, (b->state->pos - from[b->getId()]).norm());
 	return most;
 }
 
 void RestSkipper::watchAnew()
 {
-	speeds.clear();
-	places.assign(scene->bodies->size(), Vector3r::Zero());
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) places[b->getId()] = b->state->pos;
+	start   = places();
+	watched = 0;
 }
 
-bool RestSkipper::resting() const
+long RestSkipper::grainsOfHalf() const { return math::max(1L, std::lround(hold / (2 * grain * scene->dt))); }
+
+/// Ways are compared, not speeds: light members tremble by what the sweeps over the dashpots leave over, and go nowhere.
+void RestSkipper::watch()
 {
-	const auto half  = speeds.begin() + speeds.size() / 2;
-	const Real early = *std::max_element(speeds.begin(), half), late = *std::max_element(half, speeds.end());
-	return math::max(early, late) < speed && late <= growth * early;
+	if (start.size() != scene->bodies->size() || fastest() > speed || farthest(start) > way) return watchAnew();
+	const long half = grainsOfHalf();
+	++watched;
+	const bool grows = watched >= 2 * half && farthest(middle) > growth * early; // its second half may be the first of a rest
+	if (watched != half && !grows) return;
+	if (grows) start = middle;
+	middle  = places();
+	early   = farthest(start);
+	watched = half;
 }
+
+bool RestSkipper::resting() const { return watched >= 2 * grainsOfHalf(); }
 
 bool RestSkipper::groundIsQuiet() const
 {
@@ -61,11 +78,8 @@ bool RestSkipper::mayGoOn() const
 void RestSkipper::action()
 {
 	if (scene->iter % grain != 0) return;
-	if (places.size() != scene->bodies->size() || farthest() > way) watchAnew();
-	const size_t count = math::max(Real(2), math::round(hold / (grain * scene->dt)));
-	speeds.push_back(fastest());
-	if (speeds.size() > count) speeds.erase(speeds.begin(), speeds.end() - count);
-	if (speeds.size() < count || !resting() || !groundIsQuiet() || !mayGoOn()) return;
+	watch();
+	if (!resting() || !groundIsQuiet() || !mayGoOn()) return;
 	scene->iter += grain - 1; // the step that ends now makes it a whole grain
 	scene->time += (grain - 1) * scene->dt;
 	skipped += (grain - 1) * scene->dt;

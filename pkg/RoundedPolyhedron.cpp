@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <RoundedPolyhedron.hpp>
+#include <kernel/rotation.hpp>
 #include <map>
 #include <mutex>
 
@@ -87,7 +88,20 @@ boost::python::list RoundedPolyhedron::faces() const
 	return all;
 }
 
-void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
+/// Steps that a fast body's box lasts, and how many times wider than a slow one's its margin gets for that.
+constexpr int  boxSteps  = 32;
+constexpr Real boxWidest = 20;
+
+Real boxMargin(const Body& b, Real margin, Real dt)
+{
+	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
+	if (!shape) return margin;
+	const State& s   = *b.state;
+	const Real   way = dt * (s.vel.norm() + timber::turningSpeed(s.ori.conjugate() * s.angVel, shape->geometry->span));
+	return math::max(margin, math::min(boxWidest * margin, boxSteps * way));
+}
+
+void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)
 {
 	const timber::RoundedPolyhedron& body = *static_cast<RoundedPolyhedron*>(shape.get())->geometry;
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
@@ -98,7 +112,7 @@ void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<B
 		low              = low.cwiseMin(x);
 		high             = high.cwiseMax(x);
 	}
-	const Vector3r grow = Vector3r::Constant(body.radius + margin);
+	const Vector3r grow = Vector3r::Constant(body.radius + (b ? boxMargin(*b, margin, scene->dt) : margin));
 	bound->min          = se3.position + low - grow;
 	bound->max          = se3.position + high + grow;
 }

@@ -59,7 +59,6 @@ template <class Number> struct Springs {
 	Number normal = 0.; ///< elastic normal force e_n [N]
 	Number energy = 0.; ///< stored by the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
 	Vec3Of<Number> shear = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
-	Number closing = 0.; ///< closing displacement of the last step [m]
 	Vec3Of<Number> slide = Vec3Of<Number>::Constant(Number(0.)); ///< tangential displacement of B against A in the last step [m]
 	Vec3Of<Number> shearBefore = Vec3Of<Number>::Constant(Number(0.)); ///< e_s before that displacement [N]
 	Number shearEnergyBefore = 0.; ///< [J]
@@ -69,6 +68,7 @@ template <class Number> struct Springs {
 struct PointState : Springs<double>, PointResponse {
 	FeatureId id;
 	Vec3 dashpot = Vec3::Zero(); ///< what the force of the last step had besides the elastic one, on B [N]
+	double closing = 0; ///< closing displacement of the step that has begun with it [m]
 };
 
 /// Motion of B against A at a contact point.
@@ -77,11 +77,16 @@ template <class Number> struct PointMotion {
 	Vec3 spin; ///< mean angular velocity of the two bodies: the contact turns with it [rad/s]
 };
 
+/// Overlap that an approach within a step explains: its way, but no more than its kinetic energy can press. A stiff contact
+/// stops a fast light member before the step has ended.
+/// mass: equivalent [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
+template <class Law> double approachOverlap(const Law& law, double mass, double speed, double h) { return std::min(speed * h, law.overlapOf(mass / 2 * speed * speed)); }
+
 /// Overlap with which a new point may start: what its approach in the last step explains, or what the energy that the pair
 /// lost with other points in that step can pay for (a vertex that slides over a border hands its load to the crossing
 /// edges). The patterns that the paper ignores (vertex on edge) let a vertex come deep before a face answers; answering at
 /// once with the full force would create energy.
-/// overlap [m] > 0, approach: closing displacement [m], energy [J] >= 0; returns [m].
+/// overlap [m] > 0, approach: approachOverlap() [m], energy [J] >= 0; returns [m].
 template <class Law> double bornOverlap(const Law& law, double overlap, double approach, double energy) { return std::min(overlap, std::max(approach, law.overlapOf(std::max(0., energy)))); }
 
 /// Energy that a tangential spring stores with a force. [J]
@@ -120,15 +125,14 @@ enum class NormalForm { Closed, Increment };
 template <class Law, class Point, class Number>
 void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const PointMotion<Number>& motion, double dt, NormalForm form, Springs<Number>& state)
 {
-	const Number h = dt, none = 0., limit = pair.overlapLimit;
-	state.closing = -motion.velocity.dot(point.normal) * h;
+	const Number h = dt, none = 0., limit = pair.overlapLimit, closing = -motion.velocity.dot(point.normal) * h;
 	state.excess = least(state.excess, point.overlap);
 	const Number before = state.overlap, stiffnessBefore = state.stiffness, whole = point.overlap - state.excess;
 	state.overlap = least(whole, limit);
 	state.stiffness = law.stiffness(state.overlap);
 	if (form == NormalForm::Closed) {
 		state.normal = law.force(state.overlap);
-		const Number way = most(state.closing, Number(-state.closing));
+		const Number way = most(closing, Number(-closing));
 		const auto grazes = both(none < state.overlap, state.overlap < least(way, limit));
 		state.normal = chosen(grazes, [&] { return grazingForce(law, state.overlap, way); }, [&] { return state.normal; });
 	} else
@@ -140,7 +144,7 @@ void elasticStep(const Law& law, const PairProperties& pair, const Point& point,
 	state.shearBefore = state.shear;
 	state.shearEnergyBefore = shearEnergy<Number>(state.shear, Number(pair.shearRatio) * stiffnessBefore);
 	state.shear *= chosen(state.stiffness < stiffnessBefore, [&] { return Number(state.stiffness / stiffnessBefore); }, [] { return Number(1.); });
-	state.slide = (motion.velocity + Number(state.closing / h) * point.normal) * h;
+	state.slide = (motion.velocity + Number(closing / h) * point.normal) * h;
 	state.shear -= shearStiffness * state.slide;
 }
 

@@ -212,18 +212,22 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 		row.impulse = impulse;
 		pair.change += change.squaredNorm();
 	}
+	pair.change *= a.inverseMass + b.inverseMass;
 	motion.store(a, b);
 }
 
-/// Squared change of a point's impulse that counts as none. [N2 s2]
-double DashpotSolver::threshold(Island island, double tolerance) const
+/// Change of a point, as in Pair::change, that counts as none. [J]
+double DashpotSolver::threshold(const std::vector<DashpotBody>& bodies, Island island, double tolerance) const
 {
 	double size = 0;
 	size_t count = 0;
 	for (const int k : island) {
-		for (size_t row = pairs[k].first; row < pairs[k].first + pairs[k].count; ++row)
-			size += rows[row].impulse.squaredNorm();
-		count += pairs[k].count;
+		const Pair& pair = pairs[k];
+		double squares = 0;
+		for (size_t row = pair.first; row < pair.first + pair.count; ++row)
+			squares += rows[row].impulse.squaredNorm();
+		size += squares * (bodies[pair.bodyA].inverseMass + bodies[pair.bodyB].inverseMass);
+		count += pair.count;
 	}
 	return tolerance * tolerance * size / double(count);
 }
@@ -258,7 +262,7 @@ int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, dou
 {
 	for (const int k : island)
 		relax(bodies, pairs[k], true);
-	const double allowed = threshold(island, tolerance);
+	const double allowed = threshold(bodies, island, tolerance);
 	bool changed = false;
 	for (const int k : island)
 		changed = wake(bodies, pairs[k], allowed, 0) || changed;

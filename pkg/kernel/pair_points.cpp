@@ -32,13 +32,17 @@ namespace {
 		const NormalForm form;
 
 		void step(const ContactPoint& point, PointState& state) const { elasticStep<Law, ContactPoint, double>(law, pair, point, motionAt<double>(point.position, a, b, h), h, form, state); }
-		/// Energy that goes with a point. Its normal spring has given its own back when the bodies simply parted. [J]
-		double leaving(const PointState& s) const { return (s.overlap + s.closing > 0 ? s.energy : 0) + shearEnergy<double>(s, pair); }
+		/// Energy that goes with a point. What its normal spring has given back on the way is not lost, when the bodies simply parted all of it. [J]
+		double leaving(const PointState& s) const
+		{
+			const double normal = s.closing < 0 ? std::min(s.energy, law.energy(std::max(0., s.overlap + s.closing))) : s.energy;
+			return normal + shearEnergy<double>(s, pair);
+		}
 
 		/// Gives a new point the overlap it may start with; returns what it takes of `energy`. [J]
 		double bear(const ContactPoint& point, double energy, PointState& state) const
 		{
-			const double approach = std::max(0., -motionAt<double>(point.position, a, b, h).velocity.dot(point.normal) * h);
+			const double speed = std::max(0., -motionAt<double>(point.position, a, b, h).velocity.dot(point.normal)), approach = approachOverlap(law, pair.mass, speed, h);
 			const double counted = bornOverlap(law, point.overlap, approach, energy);
 			state.excess = point.overlap - counted;
 			return law.energy(counted) - law.energy(std::min(counted, approach));
@@ -81,7 +85,6 @@ namespace {
 				kept.set(&Kept::normal, s.normal);
 				kept.set(&Kept::energy, s.energy);
 				kept.set(&Kept::shear, s.shear);
-				kept.set(&Kept::closing, s.closing);
 				kept.set(&Kept::slide, s.slide);
 				kept.set(&Kept::shearBefore, s.shearBefore);
 				kept.set(&Kept::shearEnergyBefore, s.shearEnergyBefore);
@@ -174,9 +177,10 @@ PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<Da
 		addUp<Number>(sum.onB, force, count);
 		addUp<Number>(sum.torqueA, -armA.cross(force), count);
 		addUp<Number>(sum.torqueB, armB.cross(force), count);
+		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		kept.set(&PointState::closing, Number(-after.dot(normal) * Number(h)));
 		if (!energies) return;
 		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 		const Vec mean = (before + after) / Number(2.);
 		const Number along = dashpot.dot(normal), stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * kept.get(&PointState::stiffness));
 		addUp(energies->dashpotNormal, -(Number(h) * along * mean.dot(normal)), count);

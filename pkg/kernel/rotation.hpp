@@ -49,13 +49,18 @@ inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& in
 	return orientation * body.cwiseProduct(inverse).eval();
 }
 
-/// Bound of the way that points of a body go when it turns: a point at x goes |(R - I) x| = 2 |q x x|, q the vector part of the
-/// rotation's quaternion. A slender member that spins about its axis goes a short way.
-/// turn: of the body, in its own frame; span: largest |x| along each axis [m]. Returns [m].
-inline double turnedWay(const Quat& turn, const Vec3& span)
+/// Bound of |w x x| over the points x of a body: of their speeds when it spins with w [m/s]. A slender member that spins about its
+/// axis is slow.
+/// spin: in the body's frame; span: largest |x| along each axis [m].
+inline double turningSpeed(const Vec3& spin, const Vec3& span)
 {
-	const Vec3 q = turn.vec().cwiseAbs();
-	return 2 * Vec3(q.y() * span.z() + q.z() * span.y(), q.z() * span.x() + q.x() * span.z(), q.x() * span.y() + q.y() * span.x()).norm();
+	const Vec3 w = spin.cwiseAbs();
+	return Vec3(w.y() * span.z() + w.z() * span.y(), w.z() * span.x() + w.x() * span.z(), w.x() * span.y() + w.y() * span.x()).norm();
 }
+
+/// Bound of the way that points of a body go when it turns: a point at x goes |(R - I) x| = 2 |q x x|, q the vector part of the
+/// rotation's quaternion.
+/// turn: of the body, in its own frame; span: largest |x| along each axis [m]. Returns [m].
+inline double turnedWay(const Quat& turn, const Vec3& span) { return 2 * turningSpeed(turn.vec(), span); }
 
 } // namespace timber

@@ -252,6 +252,20 @@ TEST(Birth, OverlapIsWhatApproachOrEnergyExplain)
 	EXPECT_EQ(bornOverlap(timberLaw, 5e-3, 0, -1e-20), 0); // rounding of the energy that is left
 }
 
+/// Within a step, a fast light member cannot press more than it has energy for, however far it would go.
+TEST(Birth, AnApproachExplainsNoMoreThanItsEnergy)
+{
+	constexpr double mass = 2.5, h = 4e-4, rounding = 1e-12;
+	for (const double speed : { 0., 0.1, 1., 10., 60. }) {
+		const double overlap = approachOverlap(timberLaw, mass, speed, h), energy = mass / 2 * speed * speed;
+		EXPECT_LE(overlap, speed * h);
+		EXPECT_LE(timberLaw.energy(overlap), energy * (1 + rounding));
+		EXPECT_TRUE(overlap == speed * h || timberLaw.energy(overlap) > energy * (1 - rounding)) << speed;
+	}
+	EXPECT_EQ(approachOverlap(timberLaw, 1e6, 1., h), h); // a heavy one goes on
+	EXPECT_NEAR(approachOverlap(LinearLaw { 1e8 }, 1., 10., 1.), 1e-3, 1e-3 * rounding); // v sqrt(m / K)
+}
+
 TEST(Birth, ExcessShrinksWithTheOverlapAndStaysAway)
 {
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };

@@ -144,6 +144,7 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			torqueB += row.armB.cross(f);
 			EXPECT_LE(s.shear.norm(), properties.friction * f.dot(row.normal) * (1 + rounding));
 			EXPECT_EQ(s.dashpot, Vec3(f - s.normal * row.normal - s.shear));
+			EXPECT_EQ(s.closing, -after.dot(row.normal) * p.h);
 			const Vec3 before = relativeVelocity<double>(row.armA, row.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
 			const Vec3 mean = (before + after) / 2, along = s.dashpot.dot(row.normal) * row.normal;
 			const double shearEnergy = s.stiffness > 0 ? s.shear.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;

@@ -76,6 +76,24 @@ def test_bodies_put_elsewhere_or_taken_out():
     assert O.bodies[upper].state.vel[2] == speed > 0
 
 
+def test_boxes_of_fast_bodies_last_for_some_steps():
+    """A block flies half a metre at 40 m/s, 1 cm a step, against a wall: it is expected there and comes back no faster."""
+    O.reset()
+    O.bodies.append(yt.box((0.1, 2, 2), (0, 0, 0), fixed=True))
+    flying = O.bodies.append(yt.box((0.2, 0.1, 0.1), (0.65, 0, 0)))
+    yt.set_velocity(O.bodies[flying], (-40, 0, 0))
+    start(2.5e-4)
+    touched, state = 0, O.bodies[flying].state
+    trigger = scene.find_engine(yw.CollisionTrigger)
+    O.run(45, True)
+    assert not yt.contacts(0, flying) and trigger.runs <= 6  # one in boxWidest * margin = 0.1 m
+    for _ in range(40):
+        O.step()
+        touched += bool(yt.contacts(0, flying))
+        assert state.vel.norm() < 40.1 and state.pos[0] > 0.1
+    assert touched and state.vel[0] > 0
+
+
 def test_pairs_that_were_reset_by_hand():
     O.reset()
     box(0.1, fixed=True)

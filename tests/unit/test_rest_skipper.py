@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import yade_timber as yt
 from yade import O
-from yade_timber import scene
+from yade_timber import scenario, scene
 from yade_timber.motion import GroundMotion
 
 GRAIN = 250
@@ -55,6 +55,39 @@ def test_slow_growth_is_no_rest():
     run_to(6.0)
     assert O.bodies[block].state.vel[0] == pytest.approx(6e-4, rel=1e-3)
     assert scene.find_engine(yt.RestSkipper).skipped == 0
+
+
+def test_growing_ways_are_no_rest():
+    """Gravity of 2e-6 m/s2: for three seconds slower and shorter on the way than rest allows, but on the move."""
+    O.reset()
+    O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0)))
+    O.engines = yt.engines(gravity=(2e-6, 0, 0), skip_rest=GRAIN)
+    O.dt = 2e-4
+    skipper = scene.find_engine(yt.RestSkipper)
+    run_to(3.0)
+    assert O.bodies[0].state.pos[0] < skipper.way and O.bodies[0].state.vel[0] < skipper.speed
+    assert skipper.skipped == 0
+
+
+def test_trembling_on_the_spot_is_rest():
+    """A body that creeps by 1 um a second, and goes to and fro: below the speed of rest, but faster than before."""
+    O.reset()
+    O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0)))
+    O.engines = yt.engines(gravity=(0, 0, 0), skip_rest=GRAIN)
+    O.dt = 2e-4
+    direction = 1
+    while O.time < 3.0:
+        O.bodies[0].state.vel = (1e-6 + direction * (1e-5 if O.time < 1.0 else 4e-4), 0, 0)
+        direction = -direction
+        O.step()
+    assert scene.find_engine(yt.RestSkipper).skipped > 1.0
+
+
+def test_a_house_under_snow_comes_to_rest():
+    """With the default step; light members are held by the sweeps over the dashpots, too."""
+    scenario.build(scenario.Scenario("rest", "B", snow_depth=1.0))
+    run_to(4.0)
+    assert scene.find_engine(yt.RestSkipper).skipped > 0.5
 
 
 def test_the_last_step_is_not_skipped_over():
