@@ -45,7 +45,7 @@ public:
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit springs and dashpots; 0: explicit ones, as in the paper, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once none of its pairs changes its impulses by more than this share of the island's root mean square. [-]"))
+		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once none of its pairs changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass. [-]"))
 		((long, sweepsDone, 0, , "Sweeps of all steps so far, each those of the island that took most. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots, and what Newmark's term has taken. [J]"))

@@ -56,14 +56,13 @@ bool CollisionTrigger::mayHaveLeft()
 #pragma omp parallel for schedule(static) if (count > smallLoop)
 	for (int id = 0; id < count; ++id)
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
-	for (int id = 0; id < count; ++id)
-		if (motions[id].way.norm() + motions[id].turned >= seen[id].margin && (*scene->bodies)[id]) return true;
-	return false;
+	const auto isInside = [](const Motion& m, const Seen& then) { return m.way.norm() + m.turned < then.margin; };
+	return !std::equal(motions.begin(), motions.end(), seen.begin(), isInside);
 }
 
 void CollisionTrigger::remember()
 {
-	seen.resize(scene->bodies->size());
+	seen.assign(scene->bodies->size(), { Vector3r::Zero(), Quaternionr::Identity(), Vector3r::Zero(), std::numeric_limits<Real>::infinity() }); // as of bodies that are gone
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
 		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());

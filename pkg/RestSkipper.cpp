@@ -35,6 +35,7 @@ void RestSkipper::watchAnew()
 {
 	start   = places();
 	watched = 0;
+	middle.clear();
 }
 
 long RestSkipper::grainsOfHalf() const { return math::max(1L, std::lround(hold / (2 * grain * scene->dt))); }
@@ -45,15 +46,16 @@ void RestSkipper::watch()
 	if (start.size() != scene->bodies->size() || fastest() > speed || farthest(start) > way) return watchAnew();
 	const long half = grainsOfHalf();
 	++watched;
-	const bool grows = watched >= 2 * half && farthest(middle) > growth * early; // its second half may be the first of a rest
-	if (watched != half && !grows) return;
+	const bool halfway = middle.empty() && watched >= half;
+	const bool grows   = !middle.empty() && watched >= 2 * half && farthest(middle) > growth * early; // its second half may be the first of a rest
+	if (!halfway && !grows) return;
 	if (grows) start = middle;
 	middle  = places();
 	early   = farthest(start);
 	watched = half;
 }
 
-bool RestSkipper::resting() const { return watched >= 2 * grainsOfHalf(); }
+bool RestSkipper::resting() const { return !middle.empty() && watched >= 2 * grainsOfHalf(); }
 
 bool RestSkipper::groundIsQuiet() const
 {

@@ -4,7 +4,7 @@
     yade -n -x scripts/benchmark_parts.py [results/*/frames.h5] [--out FOLDER]
 
 A part is what contacts and unbroken joints hold together; fixed elements join nothing. It rests, as in RestSkipper, when the ground is quiet
-and none of its elements has moved or been fast for three seconds. Costs of a step are counted as its contact points, and as many as a
+and none of its elements has moved or been fast for its `hold`. Costs of a step are counted as its contact points, and as many as a
 house has joints and members for all else.
 """
 import argparse
@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 from bench_tools import markdown_table, publish  # noqa: E402
 from yade_timber import frames  # noqa: E402
 
-HOLD, SPEED, WAY, QUIET = 3.0, 1e-3, 2e-5, 1e-2
+HOLD, SPEED, WAY, QUIET = 1.5, 1e-3, 2e-5, 1e-2
 """As RestSkipper's, [s], [m/s], [m], [m/s2]; the way is wider by the rounding of recorded places."""
 HEADS = ("run", "whole scene at rest [% of the cost]", "parts at rest while others move [% of the cost]")
 
@@ -89,7 +89,8 @@ def main():
     if not rows:
         sys.exit("error: no recorded runs in results/*/frames.h5; name some")
     text = (
-        "## Parts at rest\n\nHow much of a run's cost belongs to parts (what contacts and joints hold together) that have rested for three seconds while others move, the ground being quiet: "
+        "## Parts at rest\n\nHow much of a run's cost belongs to parts (what contacts and joints hold together) that have rested for "
+        f"{HOLD:g} s while others move, the ground being quiet: "
         "the most that putting parts to sleep could gain. Scenes that rest as a whole are what RestSkipper is for.\n\n"
         + markdown_table(HEADS, [(name, f"{whole:.1f}", f"{parts:.2f}") for name, whole, parts in rows])
     )

@@ -68,7 +68,7 @@ template <class Number> struct Springs {
 struct PointState : Springs<double>, PointResponse {
 	FeatureId id;
 	Vec3 dashpot = Vec3::Zero(); ///< what the force of the last step had besides the elastic one, on B [N]
-	double closing = 0; ///< closing displacement of the step that has begun with it [m]
+	double closing = 0; ///< closing displacement of the step that follows, by its velocities [m]
 };
 
 /// Motion of B against A at a contact point.
@@ -77,8 +77,8 @@ template <class Number> struct PointMotion {
 	Vec3 spin; ///< mean angular velocity of the two bodies: the contact turns with it [rad/s]
 };
 
-/// Overlap that an approach within a step explains: its way, but no more than its kinetic energy can press. A stiff contact
-/// stops a fast light member before the step has ended.
+/// Overlap that an approach within a step explains at a point: its way, but no more than its kinetic energy can press there. A stiff
+/// contact stops a fast light member before the step has ended.
 /// mass: equivalent [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
 template <class Law> double approachOverlap(const Law& law, double mass, double speed, double h) { return std::min(speed * h, law.overlapOf(mass / 2 * speed * speed)); }
 

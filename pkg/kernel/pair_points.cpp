@@ -32,11 +32,12 @@ namespace {
 		const NormalForm form;
 
 		void step(const ContactPoint& point, PointState& state) const { elasticStep<Law, ContactPoint, double>(law, pair, point, motionAt<double>(point.position, a, b, h), h, form, state); }
-		/// Energy that goes with a point. What its normal spring has given back on the way is not lost, when the bodies simply parted all of it. [J]
+		/// Energy that goes with a point. What its normal spring has given back on the way is not lost: all of it, when the bodies simply parted. [J]
 		double leaving(const PointState& s) const
 		{
-			const double normal = s.closing < 0 ? std::min(s.energy, law.energy(std::max(0., s.overlap + s.closing))) : s.energy;
-			return normal + shearEnergy<double>(s, pair);
+			const double beyond = s.normal > 0 ? (s.energy - law.energy(s.overlap)) / s.normal : 0; // the limit, from where on the force is constant
+			const double left = std::max(0., s.overlap + beyond + std::min(0., s.closing)), pressed = std::min(left, s.overlap);
+			return law.energy(pressed) + (left - pressed) * s.normal + shearEnergy<double>(s, pair);
 		}
 
 		/// Gives a new point the overlap it may start with; returns what it takes of `energy`. [J]

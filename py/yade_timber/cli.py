@@ -136,7 +136,7 @@ def _is_number(word):
 def _check_numbers(given):
     """Ranges of all numbers; NaN is in none of them."""
     if not 0 < given.dt <= MAX_DT:
-        raise RunError(f"--dt {given.dt:g}: the time step must be > 0 and at most {MAX_DT:g} s, beyond which contacts are unstable")
+        raise RunError(f"--dt {given.dt:g}: the time step must be > 0 and at most {MAX_DT:g} s, beyond which joints of floors and roofs are unstable")
     for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
         if value is not None and not 0 <= value < math.inf:
             raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")

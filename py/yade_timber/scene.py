@@ -44,7 +44,7 @@ def engines(
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
     damping_ratio  share of critical damping [-]
     sweeps         most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper
-    tolerance      share of an island's contact impulses that the last sweep may change [-]
+    tolerance      share of an island's contact impulses, each over the root of its equivalent mass, that the last sweep may change [-]
     track_energy   whether `energy()` can be asked
     health_check   steps between checks for finite numbers; 0: none
     skip_rest      steps to skip at a time while the scene rests and the ground is quiet (RestSkipper); 0: none

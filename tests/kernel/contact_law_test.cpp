@@ -263,6 +263,7 @@ TEST(Birth, AnApproachExplainsNoMoreThanItsEnergy)
 		EXPECT_TRUE(overlap == speed * h || timberLaw.energy(overlap) > energy * (1 - rounding)) << speed;
 	}
 	EXPECT_EQ(approachOverlap(timberLaw, 1e6, 1., h), h); // a heavy one goes on
+	EXPECT_EQ(approachOverlap(timberLaw, std::numeric_limits<double>::infinity(), 0., h), 0);
 	EXPECT_NEAR(approachOverlap(LinearLaw { 1e8 }, 1., 10., 1.), 1e-3, 1e-3 * rounding); // v sqrt(m / K)
 }
 

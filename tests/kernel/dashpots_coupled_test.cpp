@@ -201,6 +201,28 @@ TEST(Stiff, HeapComesToRest)
 		}
 }
 
+/// A tower of light bodies on a heavy one that has the large impulses: what the sweeps leave over is small for the light ones.
+TEST(Stiff, LightMembersDecideWhenSweepsEnd)
+{
+	constexpr double h = 1e-4, heavy = 1e5, light = 1, gravity = 10;
+	constexpr int tower = 8;
+	const auto solved = [&](int sweeps, double tolerance) {
+		std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(heavy, Vec3::Zero()) };
+		std::vector<HeapPoint> points { central(1e7, heavy * gravity) };
+		for (int k = 0; k < tower; ++k) {
+			bodies.push_back(body(light, { 0, 0, k == tower - 1 ? -1. : 0. }));
+			points.push_back(central(1e5));
+			points.back().bodyA = k + 1;
+			points.back().bodyB = k + 2;
+		}
+		solveDashpots(bodies, points, h, sweeps, tolerance);
+		return bodies;
+	};
+	const std::vector<DashpotBody> converged = solved(10000, 0), found = solved(10000, 1e-3);
+	for (int k = 2; k < tower + 2; ++k)
+		EXPECT_NEAR(found[k].newVelocity.z(), converged[k].newVelocity.z(), 1e-3) << k; // of 1 m/s
+}
+
 TEST(Stiff, MassRatioOfAMillion)
 {
 	for (const double light : { 1e-3, 1. }) {

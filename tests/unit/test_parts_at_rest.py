@@ -17,7 +17,7 @@ BASE, SOUTHWEST, SOUTHEAST = 1, 2, 3
 
 
 def sample(folder, pairs, shaking=False, moves=True):
-    """A run of 81 frames, 21 of them after three seconds; all joints broken; at most the south-west column moves."""
+    """A run of 81 frames, 51 of them after 1.5 s; all joints broken; at most the south-west column moves."""
     run = frames_sample.run()
     run.position = np.repeat(run.elements.position[None], len(run.time), axis=0)
     run.position[:, SOUTHWEST, 0] += 0.1 * run.time * moves
@@ -46,11 +46,11 @@ def shares(folder):
 )
 def test_parts(tmp_path, pairs, calm_points, calm_elements):
     sample(tmp_path, pairs)
-    assert shares(tmp_path) == pytest.approx((0, 21 * (calm_points + calm_elements) / (81 * (5 + OTHERS))))
+    assert shares(tmp_path) == pytest.approx((0, 51 * (calm_points + calm_elements) / (81 * (5 + OTHERS))))
 
 
 def test_whole_scene_and_shaking(tmp_path):
     sample(tmp_path, [(BASE, SOUTHWEST)], moves=False)
-    assert shares(tmp_path) == pytest.approx((21 / 81, 0))
+    assert shares(tmp_path) == pytest.approx((51 / 81, 0))
     sample(tmp_path, [(BASE, SOUTHWEST)], moves=False, shaking=True)
     assert shares(tmp_path) == (0, 0)
