@@ -73,6 +73,13 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
             stand(path, 0.0)
 
 
+@pytest.mark.parametrize("house", ["A", "B", "C", "B1", "B2", "C1", "C2"])
+def test_the_papers_houses_take_the_largest_step(house):
+    """Their stiffest joints leave two per cent: `check_step` does not refuse what the command line allows."""
+    scenario.build(scenario.Scenario("step", house, dt=scenario.MAX_DT))
+    assert O.dt == scenario.MAX_DT < yt.stable_dt(1.0)
+
+
 def test_drift_refers_to_the_height_of_its_own_storey():
     """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; a level that comes down by half its storey has collapsed."""
     O.reset()
