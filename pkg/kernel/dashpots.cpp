@@ -128,7 +128,7 @@ namespace {
 PointResponse responseAt(const DashpotBody& a, const DashpotBody& b, const Vec3& armA, const Vec3& armB, const Vec3& normal)
 {
 	const Mat3 response = pointResponse(a, armA) + pointResponse(b, armB);
-	return { response * normal, largestShearResponse(response, normal), a.inverseMass + b.inverseMass };
+	return { response * normal, largestShearResponse(response, normal), inverseMass(a, b) };
 }
 
 void DashpotSolver::clear(int mostSweeps)
@@ -212,7 +212,7 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 		row.impulse = impulse;
 		pair.change += change.squaredNorm();
 	}
-	pair.change *= a.inverseMass + b.inverseMass;
+	pair.change *= inverseMass(a, b);
 	motion.store(a, b);
 }
 
@@ -226,7 +226,7 @@ double DashpotSolver::threshold(const std::vector<DashpotBody>& bodies, Island i
 		double squares = 0;
 		for (size_t row = pair.first; row < pair.first + pair.count; ++row)
 			squares += rows[row].impulse.squaredNorm();
-		size += squares * (bodies[pair.bodyA].inverseMass + bodies[pair.bodyB].inverseMass);
+		size += squares * inverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
 		count += pair.count;
 	}
 	return tolerance * tolerance * size / double(count);

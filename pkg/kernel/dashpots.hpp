@@ -29,6 +29,9 @@ struct DashpotBody {
 	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
 };
 
+/// Of the equivalent mass of two bodies (Eq. 43). [1/kg]
+inline double inverseMass(const DashpotBody& a, const DashpotBody& b) { return a.inverseMass + b.inverseMass; }
+
 /// How the relative velocity at a point answers to impulses there. It decides theta and the speed of the sweeps, and changes
 /// little in some steps: it may be kept for them, but not when a body is held, released or gets another mass.
 struct PointResponse {
@@ -109,8 +112,9 @@ public:
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
 	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
 	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
-	/// points [-], each over the root of its equivalent mass, changes nobody. Few fixed passes would do for a standing house, but between heavy and light members in an impact they are far from the
-	/// solution, and what is left of the start would create energy. Returns the number of passes, of the island that took most.
+	/// points [-], each over the root of its equivalent mass, changes nobody. Few fixed passes would do for a standing house, but
+	/// between heavy and light members in an impact they are far from the solution, and what is left of the start would create
+	/// energy. Returns the number of passes, of the island that took most.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }

@@ -133,7 +133,7 @@ void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bo
 {
 	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
 	for (size_t i = 0; i < points.size(); ++i)
-		if (refresh || states[i].responseMass != a.inverseMass + b.inverseMass)
+		if (refresh || states[i].responseMass != inverseMass(a, b))
 			static_cast<PointResponse&>(states[i]) = responseAt(a, b, points[i].position - positionA, points[i].position - positionB, points[i].normal);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
