@@ -23,11 +23,13 @@ class TimberPair {
 
 	void damped()
 	{
+		bodies[0].position = poseA.position;
+		bodies[1].position = poseB.position;
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
 		bodies[1].newSpin = bodies[1].spin;
 		solver.clear(50);
 		solver.addPair(0, 1, points.size());
-		setRows(solver, 0, bodies, poseA.position, poseB.position, properties, 1, h, false, points, states);
+		setRows(solver, 0, bodies, properties, 1, h, false, points, states);
 		passes += solver.solve(bodies, 1e-3);
 		++steps;
 		takeForces(solver, 0, bodies, properties, h, states, nullptr);

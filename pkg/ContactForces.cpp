@@ -48,14 +48,17 @@ void ContactForces::collectBody(Body::id_t id)
 	if (!b) return;
 	const State&         s   = *b->state;
 	timber::DashpotBody& own = bodies[id];
+	own.position = s.pos;
 	own.velocity = own.newVelocity = s.vel;
 	own.spin = own.newSpin = s.angVel;
 	own.inverseMass        = 0;
 	own.inverseInertia.setZero();
 	if (!isFree(s)) return;
-	const Matrix3r axes = s.ori.toRotationMatrix();
+	const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
 	own.inverseMass     = 1 / s.mass;
-	own.inverseInertia  = axes * s.inertia.cwiseInverse().asDiagonal() * axes.transpose();
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < 3; ++j)
+			own.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j)); // as a product of matrices Eigen calls a function for each
 	own.newVelocity += scene->dt * own.inverseMass * scene->forces.getForce(id);
 	own.newSpin += scene->dt * own.inverseInertia * scene->forces.getTorque(id);
 }
@@ -76,8 +79,7 @@ void ContactForces::collectPoints(size_t k)
 	const Pair& pair = pairs[k];
 	const int   id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
 	const bool  refresh = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-	timber::setRows(solver, k, bodies, Body::byId(id1, scene)->state->pos, Body::byId(id2, scene)->state->pos, pair.phys->properties(), pair.phys->dampingRatio, scene->dt, refresh,
-	        pair.geom->contactPoints, pair.phys->states);
+	timber::setRows(solver, k, bodies, pair.phys->properties(), pair.phys->dampingRatio, scene->dt, refresh, pair.geom->contactPoints, pair.phys->states);
 }
 
 void ContactForces::collectPoints()

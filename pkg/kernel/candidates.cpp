@@ -16,7 +16,7 @@ namespace {
 		        : pair(p)
 		        , cache(c)
 		        , out(o)
-		        , turn(candidateSkin / c.region)
+		        , turn(c.skin / c.region)
 		        , gap(g)
 		{
 			out.clear();
@@ -68,7 +68,7 @@ namespace {
 		std::vector<Turned> edgesB;
 
 		/// Bound of the relative motion near x (frame of A) while the cache holds. [m]
-		double motionAt(const Vec3& x) const { return candidateSkin * std::max(1., (x - cache.centre).norm() / cache.region); }
+		double motionAt(const Vec3& x) const { return cache.skin * std::max(1., (x - cache.centre).norm() / cache.region); }
 
 		double behindB(int vertex) const { return verticesB[vertex].place.dot(cache.axis) - (cache.farA + gap); }
 		/// Distance along the axis from the edge to what of B is nearest. [m]
@@ -96,7 +96,7 @@ namespace {
 		void edgeEdge(FeatureId id, const Edge& ea, const Edge& eb, const Turned& turnedB)
 		{
 			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &tailB = verticesB[eb.tail].place;
-			const Crossing c = crossing(tailA, ea.along, tailB, turnedB.along);
+			const Crossing<double> c = crossing<double>(tailA, ea.along, tailB, turnedB.along);
 			if (c.sine < steadySine) return nearlyParallel(id, ea, eb, c.sine);
 			const Vec3 place = tailA + c.alongA * ea.along;
 			const double motion = motionAt(place), range = std::max(pair.touch(), pair.depthLimit()) + motion;
@@ -147,7 +147,7 @@ namespace {
 	void centreOnSmallerBody(const Pair& pair, CandidateCache& cache)
 	{
 		cache.centre = pair.b.reach <= pair.a.reach ? pair.translation : Vec3(Vec3::Zero());
-		cache.region = std::max(leastRegion * candidateSkin, std::min(pair.a.reach, pair.b.reach) + pair.touch() + 2 * candidateSkin);
+		cache.region = std::max(leastRegion * cache.skin, std::min(pair.a.reach, pair.b.reach) + pair.touch() + 2 * cache.skin);
 	}
 
 	/// Motion is judged where the features meet.
@@ -156,7 +156,7 @@ namespace {
 		cache.centre.setZero();
 		for (const Vec3& x : places)
 			cache.centre += x / double(places.size());
-		cache.region = leastRegion * candidateSkin;
+		cache.region = leastRegion * cache.skin;
 		for (const Vec3& x : places)
 			cache.region = std::max(cache.region, (x - cache.centre).norm() + touch);
 	}
@@ -165,16 +165,18 @@ namespace {
 
 /// A pair far apart needs no candidates until its gap has shrunk to the touching distance plus the skin, which also
 /// covers what a flush support reaches beyond a border.
-void searchCandidates(const Pair& pair, CandidateCache& cache)
+void searchCandidates(const Pair& pair, double skin, CandidateCache& cache)
 {
-	const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, cache.axis, candidateSkin);
+	cache.skin = skin;
+	cache.uses = 0;
+	const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, cache.axis, skin);
 	cache.farA = extent(pair.a.core, cache.axis).second;
 	cache.candidates.clear();
 	cache.rotation = pair.rotation;
-	cache.margin = std::max(candidateSkin, gap - pair.touch() - candidateSkin);
-	cache.coresMayMeet = gap <= candidateSkin;
+	cache.margin = std::max(skin, gap - pair.touch() - skin);
+	cache.coresMayMeet = gap <= skin;
 	centreOnSmallerBody(pair, cache);
-	if (gap < pair.touch() + 2 * candidateSkin) {
+	if (gap < pair.touch() + 2 * skin) {
 		Search rough(pair, cache, gap, cache.candidates); // finds where the features meet; faces alone tell it, if any do
 		rough.faces();
 		if (rough.places.empty()) rough.othersThanFaces();

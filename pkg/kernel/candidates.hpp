@@ -5,7 +5,7 @@
 
 namespace timber {
 
-/// Fills the cache anew for the pair's present placement.
-void searchCandidates(const Pair& pair, CandidateCache& cache);
+/// Fills the cache anew for the pair's present placement. skin: motion for which it shall hold [m].
+void searchCandidates(const Pair& pair, double skin, CandidateCache& cache);
 
 } // namespace timber

@@ -33,6 +33,12 @@ constexpr double parallelSine = 5e-3;
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
 constexpr double candidateSkin = 4e-3;
 
+/// The same for a pair that has hardly moved for quietSteps steps: nothing but what meets, more or less, is evaluated. [m] Above what flush supports
+/// reach beyond a corner.
+constexpr double quietSkin = candidateSkin / 20;
+/// Fewer: searches that do not pay, as one costs about as much as what it spares in so many steps. [-]
+constexpr int quietSteps = 100;
+
 /// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; as candidates they are judged by distance alone. [-]
 /// Larger: more candidates; smaller: crossings shift by more than the first order that the search allows for. Results do not depend on it.
 constexpr double steadySine = 0.2;

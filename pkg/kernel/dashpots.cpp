@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace timber {
 namespace {
@@ -78,24 +79,6 @@ namespace {
 		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
-	template <class Number> void store(const DashpotRow<Number>& row, DashpotRow<double>* rows, size_t count)
-	{
-		using One = DashpotRow<double>;
-		const Group<Number, One> each(rows, count);
-		each.set(&One::armA, row.armA);
-		each.set(&One::armB, row.armB);
-		each.set(&One::normal, row.normal);
-		each.set(&One::impulse, row.impulse);
-		each.set(&One::normalKept, row.normalKept);
-		each.set(&One::normalDrive, row.normalDrive);
-		each.set(&One::normalGain, row.normalGain);
-		each.set(&One::shearKept, row.shearKept);
-		each.set(&One::shearGain, row.shearGain);
-		each.set(&One::shearDrive, row.shearDrive);
-		each.set(&One::coupling, row.coupling);
-		each.set(&One::friction, row.friction);
-	}
-
 	/// Velocities of a pair while its points are worked on.
 	struct Motion {
 		Vec3 velocityA, spinA, velocityB, spinB;
@@ -139,9 +122,9 @@ void DashpotSolver::clear(int mostSweeps)
 
 size_t DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
-	const size_t first = pairs.empty() ? 0 : pairs.back().first + pairs.back().count;
+	const size_t first = pairs.empty() ? 0 : pairs.back().first + groupsOf(pairs.back().count), end = first + groupsOf(count);
 	pairs.push_back({ bodyA, bodyB, first, count, 0 });
-	if (rows.size() < first + count) rows.resize(first + count); // rows of the last step are overwritten by set()
+	if (rows.size() < end) rows.resize(end); // rows of the last step are overwritten by set()
 	return pairs.size() - 1;
 }
 
@@ -151,7 +134,9 @@ template <class Number> void DashpotSolver::set(size_t k, size_t first, const st
 	const DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
 	DashpotRow<Number> row = rowOf<Number>(points, a, b, h);
 	if (sweeps == 0) row.impulse = explicitImpulse<Number>(points, a, b, h);
-	store(row, &rows[pair.first + first], pair.count - first);
+	Rows& to = rows[pair.first + first / laneCount];
+	if constexpr (std::is_same_v<Number, Lanes>) to = row;
+	else forMembers(to, row, [&](auto& wide, const auto& one) { setLane(wide, first % laneCount, one); });
 }
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<double>&, double);
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<Lanes>&, double);
@@ -168,9 +153,25 @@ int DashpotSolver::root(int body)
 /// The body that tells which island a pair belongs to.
 int DashpotSolver::islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair) { return root(bodies[pair.bodyA].inverseMass > 0 ? pair.bodyA : pair.bodyB); }
 
+/// Whether other bodies are joined than when the islands were found.
+bool DashpotSolver::linksChange(const std::vector<DashpotBody>& bodies)
+{
+	bool changed = links.size() != pairs.size() || parent.size() != bodies.size();
+	links.resize(pairs.size());
+	for (size_t k = 0; k < pairs.size(); ++k) {
+		const Pair& p = pairs[k];
+		const auto free = [&](int body) { return p.count > 0 && bodies[body].inverseMass > 0 ? body : -1; };
+		const Link now { free(p.bodyA), free(p.bodyB) };
+		changed = changed || links[k] != now;
+		links[k] = now;
+	}
+	return changed;
+}
+
 /// Islands in the order of their first pairs. Fixed bodies join nothing.
 void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
 {
+	if (!linksChange(bodies)) return;
 	parent.resize(bodies.size());
 	std::iota(parent.begin(), parent.end(), 0);
 	for (const Pair& p : pairs)
@@ -201,7 +202,8 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 	Motion motion(a, b);
 	pair.change = 0;
 	for (size_t k = 0; k < pair.count; ++k) {
-		Row& row = rows[pair.first + (forwards ? k : pair.count - 1 - k)];
+		const size_t point = forwards ? k : pair.count - 1 - k;
+		const Row row = rowAt(pair, point);
 		const Vec3 v = motion.at(row);
 		const double vn = v.dot(row.normal), normal = row.impulse.dot(row.normal);
 		const double newNormal = std::max(0., row.normalKept * normal + row.normalDrive - row.normalGain * vn);
@@ -209,7 +211,7 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 		const Vec3 impulse = newNormal * row.normal + clipped<double>(tangential - (newNormal - normal) * row.coupling, row.friction * newNormal);
 		const Vec3 change = impulse - row.impulse;
 		motion.push(a, b, row, change);
-		row.impulse = impulse;
+		setLane(rows[pair.first + point / laneCount].impulse, point % laneCount, impulse);
 		pair.change += change.squaredNorm();
 	}
 	pair.change *= inverseMass(a, b);
@@ -223,10 +225,10 @@ double DashpotSolver::threshold(const std::vector<DashpotBody>& bodies, Island i
 	size_t count = 0;
 	for (const int k : island) {
 		const Pair& pair = pairs[k];
-		double squares = 0;
-		for (size_t row = pair.first; row < pair.first + pair.count; ++row)
-			squares += rows[row].impulse.squaredNorm();
-		size += squares * inverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
+		Sums<1> squares(0.);
+		for (size_t point = 0; point < pair.count; point += laneCount)
+			squares.add<Lanes>(pair.count - point, rowsAt(pair, point).impulse.squaredNorm());
+		size += squares[0] * inverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
 		count += pair.count;
 	}
 	return tolerance * tolerance * size / double(count);
@@ -272,16 +274,28 @@ int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, dou
 	return done;
 }
 
+/// Lets the impulses of a pair's points act on its bodies.
+void DashpotSolver::pushAll(std::vector<DashpotBody>& bodies, const Pair& pair)
+{
+	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
+	Sums<12> all(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+	for (size_t point = 0; point < pair.count; point += laneCount) {
+		const Rows& row = rowsAt(pair, point);
+		const Vec3s turnA = wide<Lanes>(a.inverseInertia) * row.armA.cross(row.impulse), turnB = wide<Lanes>(b.inverseInertia) * row.armB.cross(row.impulse);
+		all.add<Lanes>(pair.count - point, Vec3s(Lanes(-a.inverseMass) * row.impulse), Vec3s(-turnA), Vec3s(Lanes(b.inverseMass) * row.impulse), turnB);
+	}
+	Motion motion(a, b);
+	motion.velocityA = all.vector(0);
+	motion.spinA = all.vector(3);
+	motion.velocityB = all.vector(6);
+	motion.spinB = all.vector(9);
+	motion.store(a, b);
+}
+
 int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance)
 {
-	for (const int k : island) {
-		const Pair& pair = pairs[k];
-		DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
-		Motion motion(a, b);
-		for (size_t row = pair.first; row < pair.first + pair.count; ++row)
-			motion.push(a, b, rows[row], rows[row].impulse);
-		motion.store(a, b);
-	}
+	for (const int k : island)
+		pushAll(bodies, pairs[k]);
 	return sweeps == 0 ? 0 : sweepAll(bodies, island, tolerance);
 }
 

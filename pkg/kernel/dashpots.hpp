@@ -18,6 +18,7 @@
 #pragma once
 #include "lanes.hpp"
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace timber {
@@ -27,6 +28,7 @@ struct DashpotBody {
 	Vec3 newVelocity, newSpin; ///< in: after all forces but those of contacts; out: after the contacts too
 	double inverseMass; ///< 0 for a fixed body [1/kg]
 	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
+	Vec3 position = Vec3::Zero(); ///< [m]
 };
 
 /// Of the equivalent mass of two bodies (Eq. 43). [1/kg]
@@ -68,6 +70,22 @@ template <class Number> struct DashpotRow {
 	Vec3Of<Number> coupling; ///< tangential impulse that answers the slip which a unit normal impulse causes [-]
 	Number friction;
 };
+/// work(member of x, the same member of y) for all members of a row.
+template <class RowX, class RowY, class Work> void forMembers(RowX& x, RowY& y, Work work)
+{
+	work(x.armA, y.armA);
+	work(x.armB, y.armB);
+	work(x.normal, y.normal);
+	work(x.impulse, y.impulse);
+	work(x.normalKept, y.normalKept);
+	work(x.normalDrive, y.normalDrive);
+	work(x.normalGain, y.normalGain);
+	work(x.shearKept, y.shearKept);
+	work(x.shearGain, y.shearGain);
+	work(x.shearDrive, y.shearDrive);
+	work(x.coupling, y.coupling);
+	work(x.friction, y.friction);
+}
 
 /// Relative velocity of B against A at a point with the given arms. [m/s]
 template <class Number>
@@ -90,10 +108,13 @@ template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasti
 class DashpotSolver {
 public:
 	using Row = DashpotRow<double>;
+	/// Rows of up to laneCount points of a pair, as they are made; the sweeps take them one by one.
+	using Rows = DashpotRow<Lanes>;
 	/// Two bodies and their rows.
 	struct Pair {
 		int bodyA, bodyB;
-		size_t first, count;
+		size_t first; ///< of its Rows
+		size_t count; ///< of its points
 		double change; ///< of the impulses in the last sweep, squared and over the equivalent mass: what light members notice counts [J]
 	};
 	/// Indices of the pairs of an island, ascending.
@@ -118,26 +139,39 @@ public:
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
-	const Row& row(size_t k) const { return rows[k]; }
+	/// Of the k-th pair: the row of a point, and the Rows that begin with it.
+	Row row(size_t k, size_t point) const { return rowAt(pairs[k], point); }
+	const Rows& rowsFrom(size_t k, size_t point) const { return rowsAt(pairs[k], point); }
 	size_t islandCount() const { return islandStarts.empty() ? 0 : islandStarts.size() - 1; }
 	Island island(size_t k) const { return { order.data() + islandStarts[k], order.data() + islandStarts[k + 1] }; }
 
 private:
 	int sweeps = 0;
-	std::vector<Row> rows;
+	std::vector<Rows> rows;
 	std::vector<Pair> pairs;
 	std::vector<int> order; ///< pairs by island
 	std::vector<size_t> islandStarts; ///< in `order`, and its end
+	using Link = std::pair<int, int>; ///< bodies that a pair with points joins; -1: a fixed one, or no points
+	std::vector<Link> links; ///< of each pair, when the islands were found
 	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
 	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
 
+	const Rows& rowsAt(const Pair& pair, size_t point) const { return rows[pair.first + point / laneCount]; }
+	[[gnu::always_inline]] Row rowAt(const Pair& pair, size_t point) const
+	{
+		Row row;
+		forMembers(row, rowsAt(pair, point), [&](auto& one, const auto& wide) { one = lane(wide, point % laneCount); });
+		return row;
+	}
 	int root(int body);
+	bool linksChange(const std::vector<DashpotBody>& bodies);
 	int islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair);
 	void findIslands(const std::vector<DashpotBody>& bodies);
 	double threshold(const std::vector<DashpotBody>& bodies, Island island, double tolerance) const;
 	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
 	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
 	int sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance);
+	void pushAll(std::vector<DashpotBody>& bodies, const Pair& pair);
 	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };

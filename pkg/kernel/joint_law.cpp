@@ -7,6 +7,7 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& place, cons
         const std::vector<int>& broken, std::vector<Vec3>& stretches, std::vector<Vec3>& forces)
 {
 	JointPull pull;
+	Sums<11> sums;
 	const Vec3 worldNormal = place.axesA * normal;
 	inLanes(broken.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
@@ -20,14 +21,16 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& place, cons
 		Group<Number, Vec3>(&stretches[i], count).set(stretch);
 		Group<Number, Vec3>(&forces[i], count).set(f.force);
 		const Number square = f.force.squaredNorm();
-		addUp(pull.energy, f.energy, count);
-		addUp<Number>(pull.force, f.force, count);
-		addUp<Number>(pull.torqueA, end.cross(f.force), count); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
-		addUp<Number>(pull.torqueB, -armB.cross(f.force), count);
-		addUp(pull.sum, root(square), count);
+		const Vec torqueA = end.cross(f.force), torqueB = -armB.cross(f.force); // unequal stiffnesses: the force leaves the line of the ends, both bodies take it in one point
+		sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, root(square));
 		for (size_t l = 0; l < laneCount; ++l)
 			pull.largest = std::max(pull.largest, lane(square, l));
 	});
+	pull.force = sums.vector(0);
+	pull.torqueA = sums.vector(3);
+	pull.torqueB = sums.vector(6);
+	pull.energy = sums[9];
+	pull.sum = sums[10];
 	return pull;
 }
 

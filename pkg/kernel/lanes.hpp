@@ -135,24 +135,81 @@ template <class Number> decltype(auto) wide(const Mat3& m)
 
 /// One of the lanes.
 inline double lane(double x, size_t) { return x; }
-inline double lane(Lanes x, size_t i) { return x.v[i]; }
+inline double lane(const Lanes& x, size_t i) { return x.v[i]; } // not a copy: of one in memory only the lane is read
 inline bool lane(bool x, size_t) { return x; }
 inline bool lane(Lanes::Mask x, size_t i) { return x[i] != 0; }
 inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
-/// Adds up the first lanes, at most `count` of them, in their order, as a loop over doubles would.
-inline void addUp(double& sum, double x, size_t) { sum += x; }
-[[gnu::always_inline]] inline void addUp(double& sum, Lanes x, size_t count)
-{
-	for (size_t i = 0; i < laneCount && i < count; ++i)
-		sum += x.v[i];
-}
-template <class Number> [[gnu::always_inline]] inline void addUp(Vec3& sum, const Vec3Of<Number>& x, size_t count)
+inline void setLane(double& x, size_t, double one) { x = one; }
+inline void setLane(Lanes& x, size_t i, double one) { x.v[i] = one; }
+template <class Number> void setLane(Vec3Of<Number>& v, size_t i, const Vec3& one)
 {
 	for (int c = 0; c < 3; ++c)
-		addUp(sum[c], x[c], count);
+		setLane(v[c], i, one[c]);
 }
+
+/// Turns laneCount Lanes about: the k-th gets the k-th lane of each.
+inline void transpose(Lanes* x)
+{
+	const auto v = [x](int k) { return x[k].v; };
+#if defined(__AVX2__)
+	const Lanes::Vector even01 = __builtin_shufflevector(v(0), v(1), 0, 4, 2, 6), odd01 = __builtin_shufflevector(v(0), v(1), 1, 5, 3, 7);
+	const Lanes::Vector even23 = __builtin_shufflevector(v(2), v(3), 0, 4, 2, 6), odd23 = __builtin_shufflevector(v(2), v(3), 1, 5, 3, 7);
+	x[0].v = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
+	x[1].v = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+	x[2].v = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
+	x[3].v = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+#else
+	const Lanes::Vector first = __builtin_shufflevector(v(0), v(1), 0, 2);
+	x[1].v = __builtin_shufflevector(v(0), v(1), 1, 3);
+	x[0].v = first;
+#endif
+}
+
+/// How many groups of laneCount hold that many items.
+constexpr size_t groupsOf(size_t count) { return (count + laneCount - 1) / laneCount; }
+
+/// N sums over items that are worked on in lanes: each is made item by item, as a loop over doubles would, but all N at once.
+template <size_t N> class Sums {
+	Lanes total[groupsOf(N)];
+
+	template <class Number> static void put(Number*& to, Number x) { *to++ = x; }
+	template <class Number> static void put(Number*& to, const Vec3Of<Number>& x)
+	{
+		for (int c = 0; c < 3; ++c)
+			*to++ = x[c];
+	}
+
+public:
+	/// Numbers and vectors, N numbers in all, to start with.
+	template <class... Parts> [[gnu::always_inline]] explicit Sums(const Parts&... start)
+	{
+		double x[groupsOf(N) * laneCount] = {};
+		[[maybe_unused]] double* to = x;
+		(put(to, start), ...);
+		for (size_t g = 0; g < groupsOf(N); ++g)
+			for (size_t i = 0; i < laneCount; ++i)
+				total[g].v[i] = x[g * laneCount + i];
+	}
+	/// Adds what the first lanes have, at most `count` of them: numbers and vectors as at the start.
+	template <class Number, class... Parts> [[gnu::always_inline]] void add(size_t count, const Parts&... parts)
+	{
+		Number x[groupsOf(N) * laneCount] = {}, *to = x;
+		(put(to, parts), ...);
+		if constexpr (std::is_same_v<Number, double>)
+			for (size_t k = 0; k < N; ++k)
+				total[k / laneCount].v[k % laneCount] += x[k];
+		else
+			for (size_t g = 0; g < groupsOf(N); ++g) {
+				transpose(x + g * laneCount);
+				for (size_t i = 0; i < laneCount && i < count; ++i)
+					total[g] += x[g * laneCount + i];
+			}
+	}
+	double operator[](size_t k) const { return total[k / laneCount].v[k % laneCount]; }
+	Vec3 vector(size_t k) const { return { (*this)[k], (*this)[k + 1], (*this)[k + 2] }; }
+};
 
 /// work(number, k) for `count` items, laneCount at a time: k is the first of them, and the type of `number` the Number to work with:
 /// Lanes, but double where there is only one item left.
@@ -163,7 +220,8 @@ template <class Work> void inLanes(size_t count, Work work)
 		else work(Lanes(), k);
 }
 
-/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare repeat the last one.
+/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare read the last one, and what is set
+/// of them is overwritten by it.
 template <class Number, class Item> class Group {
 	Item* item[laneCount];
 
@@ -198,7 +256,7 @@ public:
 	}
 	[[gnu::always_inline]] void set(const Vec3s& x) const
 	{
-		for (int i = 0; i < laneCount; ++i)
+		for (int i = laneCount; i-- > 0;)
 			*item[i] = lane(x, i);
 	}
 	/// A member of each.
@@ -213,7 +271,7 @@ public:
 	}
 	template <class Value, class Class, class Wide> [[gnu::always_inline]] void set(Value Class::*member, const Wide& x) const
 	{
-		for (int i = 0; i < laneCount; ++i)
+		for (int i = laneCount; i-- > 0;)
 			item[i]->*member = lane(x, i);
 	}
 };

@@ -4,15 +4,59 @@
 #include "geometry.hpp"
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace timber {
 namespace {
 
-	/// What two features make of each other: distance of the cores along the normal, in one frame.
-	struct Meet {
-		Vec3 pointA, pointB; ///< on the cores
-		Vec3 normal; ///< unit, from A to B
-		double distance; ///< of the cores along the normal, negative when they overlap [m]
+	/// What two features make of each other, in the frame of A.
+	template <class Number> struct Meet {
+		Vec3Of<Number> onA; ///< point on core A
+		Vec3Of<Number> normal; ///< unit, from A to B
+		Number distance; ///< of the cores along the normal, negative when they overlap [m]
+	};
+
+	/// Contact points of a pair, as they are found.
+	class Points {
+		const Pair& pair;
+		const Mat3& turnA;
+		const Vec3& originA;
+
+		/// Vertices on each other, or over each other's borders, are one contact although several features name it.
+		/// Crossings are never repeated: they keep their distance from vertices (crossingEdges).
+		bool isRepeated(const ContactPoint& next) const
+		{
+			const Meeting meeting = next.id.meeting();
+			if (meeting == Meeting::VertexFace || meeting == Meeting::EdgeEdge) return false;
+			const bool onEdge = meeting == Meeting::VertexEdge || meeting == Meeting::EdgeVertex;
+			return std::any_of(all.begin(), all.end(), [&](const ContactPoint& p) {
+				if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
+				return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
+			});
+		}
+
+	public:
+		std::vector<ContactPoint>& all;
+
+		Points(const Pair& p, const Mat3& turn, const Vec3& origin, std::vector<ContactPoint>& points)
+		        : pair(p)
+		        , turnA(turn)
+		        , originA(origin)
+		        , all(points)
+		{
+		}
+		/// Takes over, of the pairs of features named from `first` on, those that are `on`: in the middle of the overlap, in the world.
+		template <class Number, class Condition> void add(const FeatureId* first, size_t count, Condition on, const Meet<Number>& meet)
+		{
+			const Number overlap = Number(pair.touch()) - meet.distance;
+			const Vec3Of<Number> middle = meet.onA + (Number(pair.a.radius) - overlap / Number(2.)) * meet.normal;
+			const Vec3Of<Number> place = wide<Number>(originA) + wide<Number>(turnA) * middle, normal = wide<Number>(turnA) * meet.normal;
+			for (size_t i = 0; i < count; ++i) {
+				if (!lane(on, i)) continue;
+				const ContactPoint next { first[i], lane(place, i), lane(normal, i), lane(overlap, i) };
+				if (!isRepeated(next)) all.push_back(next);
+			}
+		}
 	};
 
 	/// Vertices x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
@@ -30,23 +74,47 @@ namespace {
 		return face == facing ? both(on, either(distance >= none, isInside(body.core, face, x, border))) : none < none;
 	}
 
-	/// The crossing must lie inside both edges, farther from their ends than the border rule reaches.
-	bool meetEdgeEdge(const Pair& pair, int edgeA, int edgeB, Meet& meet)
+	/// Up to laneCount vertices of one body against the same face of the other.
+	template <class Number> auto verticesMeetFace(const Pair& pair, const FeatureId* first, size_t count, Meet<Number>& meet)
 	{
-		const Edge &ea = pair.a.core.edges[edgeA], &eb = pair.b.core.edges[edgeB];
-		const Vec3& tailA = pair.a.core.vertices[ea.tail];
-		const Vec3 tailB = pair.toA<double>(pair.b.core.vertices[eb.tail]), alongB = pair.rotation * eb.along;
-		Crossing c = crossing(tailA, ea.along, tailB, alongB);
-		if (c.sine < parallelSine) return false;
-		const double end = flushTolerance / c.sine;
-		if (c.alongA <= end || c.alongA >= ea.length - end || c.alongB <= end || c.alongB >= eb.length - end) return false;
-		if (c.across.dot(ea.outward) < 0) c.across = -c.across;
-		if (c.across.dot(pair.rotation * eb.outward) >= 0) return false; // B's edge is on the far side of B
-		meet.pointA = tailA + c.alongA * ea.along;
-		meet.pointB = tailB + c.alongB * alongB;
-		meet.normal = c.across;
-		meet.distance = c.across.dot(meet.pointB - meet.pointA);
-		return meet.distance < pair.touch() && meet.distance > -(pair.deep() ? pair.depthLimit() : flushTolerance);
+		using Vec = Vec3Of<Number>;
+		const bool ofB = first->meeting() == Meeting::VertexFace;
+		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
+		const int face = ofB ? first->b() : first->a();
+		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
+		const Vec inA = ofB ? own : pair.toA<Number>(own);
+		const auto on = verticesOnFace<Number>(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB<Number>(own) : inA, meet.distance);
+		if (!any(on)) return on;
+		const Vec3& outward = body.core.faces[face].plane.normal;
+		meet.normal = wide<Number>(ofB ? Vec3(-(pair.rotation * outward)) : outward);
+		meet.onA = ofB ? inA : Vec(inA - meet.distance * meet.normal);
+		return on;
+	}
+
+	/// Up to laneCount edges of A, each against one of B. The crossing must lie inside both edges, farther from their ends than the border
+	/// rule reaches.
+	template <class Number> auto crossingEdges(const Pair& pair, const FeatureId* first, size_t count, Meet<Number>& meet)
+	{
+		using Vec = Vec3Of<Number>;
+		const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
+		const Number none = 0.;
+		const auto edgeA = [&](size_t i) { return &coreA.edges[first[i].a()]; };
+		const auto edgeB = [&](size_t i) { return &coreB.edges[first[i].b()]; };
+		const Group<Number, const Edge> a(count, edgeA), b(count, edgeB);
+		const Vec tailA = Group<Number, const Vec3>(count, [&](size_t i) { return &coreA.vertices[edgeA(i)->tail]; }).vectors();
+		const Vec tailB = pair.toA<Number>(Group<Number, const Vec3>(count, [&](size_t i) { return &coreB.vertices[edgeB(i)->tail]; }).vectors());
+		const Vec alongA = a.get(&Edge::along), alongB = wide<Number>(pair.rotation) * b.get(&Edge::along);
+		const Crossing<Number> c = crossing<Number>(tailA, alongA, tailB, alongB);
+		auto on = c.sine >= Number(parallelSine);
+		if (!any(on)) return on;
+		const Number end = Number(flushTolerance) / c.sine;
+		on = both(on, both(both(c.alongA > end, c.alongA < a.get(&Edge::length) - end), both(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
+		if (!any(on)) return on;
+		meet.normal = where(c.across.dot(a.get(&Edge::outward)) < none, Vec(-c.across), c.across);
+		on = both(on, meet.normal.dot(Vec(wide<Number>(pair.rotation) * b.get(&Edge::outward))) < none); // else B's edge is on the far side of B
+		meet.onA = tailA + c.alongA * alongA;
+		meet.distance = meet.normal.dot(Vec(tailB + c.alongB * alongB - meet.onA));
+		return both(on, both(meet.distance < Number(pair.touch()), meet.distance > Number(-(pair.deep() ? pair.depthLimit() : flushTolerance))));
 	}
 
 	/// A vertex is the nearest part of its body in direction `towards` (unit) if no edge from it leads that way.
@@ -75,50 +143,79 @@ namespace {
 		return isExtreme(from, vertex, turn.transpose() * towards / distance, flushTolerance / pair.touch());
 	}
 
-	bool finish(Meet& meet)
+	/// From a point on core A to one on core B.
+	bool meetBetween(const Vec3& onA, const Vec3& onB, Meet<double>& meet)
 	{
-		const Vec3 way = meet.pointB - meet.pointA;
+		const Vec3 way = onB - onA;
+		meet.onA = onA;
 		meet.distance = way.norm();
 		meet.normal = way / meet.distance;
 		return true;
 	}
 
-	bool meetVertexEdge(const Pair& pair, int vertex, int edge, Meet& meet)
+	bool vertexMeetsEdge(const Pair& pair, int vertex, int edge, Meet<double>& meet)
 	{
 		const Vec3& x = pair.a.core.vertices[vertex];
 		Vec3 foot;
 		if (!vertexOnEdge(pair, pair.a.core, pair.rotation.transpose(), vertex, pair.b.core, pair.b.core.edges[edge], pair.toB<double>(x), foot)) return false;
-		meet.pointA = x;
-		meet.pointB = pair.toA<double>(foot);
-		return finish(meet);
+		return meetBetween(x, pair.toA<double>(foot), meet);
 	}
 
-	bool meetEdgeVertex(const Pair& pair, int edge, int vertex, Meet& meet)
+	bool edgeMeetsVertex(const Pair& pair, int edge, int vertex, Meet<double>& meet)
 	{
-		meet.pointB = pair.toA<double>(pair.b.core.vertices[vertex]);
-		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], meet.pointB, meet.pointA) && finish(meet);
+		const Vec3 x = pair.toA<double>(pair.b.core.vertices[vertex]);
+		Vec3 foot;
+		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], x, foot) && meetBetween(foot, x, meet);
 	}
 
-	bool meetVertexVertex(const Pair& pair, int vertexA, int vertexB, Meet& meet)
+	bool verticesMeet(const Pair& pair, int vertexA, int vertexB, Meet<double>& meet)
 	{
-		meet.pointA = pair.a.core.vertices[vertexA];
-		meet.pointB = pair.toA<double>(pair.b.core.vertices[vertexB]);
-		const Vec3 way = meet.pointB - meet.pointA;
+		const Vec3 &onA = pair.a.core.vertices[vertexA], onB = pair.toA<double>(pair.b.core.vertices[vertexB]);
+		const Vec3 way = onB - onA;
 		const double distance = way.norm();
 		if (distance >= pair.touch() || distance <= flushTolerance) return false;
 		const double beyond = -flushTolerance / distance; // strictly beyond the ends of all edges: they do not answer
-		return isExtreme(pair.a.core, vertexA, way / distance, beyond) && isExtreme(pair.b.core, vertexB, pair.rotation.transpose() * -way / distance, beyond) && finish(meet);
+		return isExtreme(pair.a.core, vertexA, way / distance, beyond) && isExtreme(pair.b.core, vertexB, pair.rotation.transpose() * -way / distance, beyond) && meetBetween(onA, onB, meet);
 	}
 
-	bool meetFeatures(const Pair& pair, FeatureId id, Meet& meet)
+	/// The patterns that the paper ignores.
+	bool othersMeet(const Pair& pair, FeatureId id, Meet<double>& meet)
 	{
 		switch (id.meeting()) {
-			case Meeting::EdgeEdge: return meetEdgeEdge(pair, id.a(), id.b(), meet);
-			case Meeting::VertexEdge: return meetVertexEdge(pair, id.a(), id.b(), meet);
-			case Meeting::EdgeVertex: return meetEdgeVertex(pair, id.a(), id.b(), meet);
-			case Meeting::VertexVertex: return meetVertexVertex(pair, id.a(), id.b(), meet);
+			case Meeting::VertexEdge: return vertexMeetsEdge(pair, id.a(), id.b(), meet);
+			case Meeting::EdgeVertex: return edgeMeetsVertex(pair, id.a(), id.b(), meet);
+			case Meeting::VertexVertex: return verticesMeet(pair, id.a(), id.b(), meet);
 			default: return false;
 		}
+	}
+
+	/// How many candidates from `first` on can be worked on together, as far as there are lanes: vertices against one face, or crossing edges.
+	size_t countAlike(const FeatureId* first, const FeatureId* end)
+	{
+		const auto isAlike = [first](FeatureId id) {
+			if (id.meeting() != first->meeting()) return false;
+			switch (id.meeting()) {
+				case Meeting::VertexFace: return id.b() == first->b();
+				case Meeting::FaceVertex: return id.a() == first->a();
+				default: return id.meeting() == Meeting::EdgeEdge;
+			}
+		};
+		return size_t(std::find_if_not(first + 1, std::min(end, first + laneCount), isAlike) - first);
+	}
+
+	/// Points of `count` candidates that are alike.
+	template <class Number> void meetAlike(const Pair& pair, const FeatureId* first, size_t count, Points& points)
+	{
+		Meet<Number> meet;
+		const auto take = [&](auto on) {
+			if (!any(on)) return;
+			if (pair.deep()) on = both(on, meet.normal.dot(wide<Number>(pair.axis)) >= Number(outwardCosine));
+			points.add(first, count, on, meet);
+		};
+		const Meeting meeting = first->meeting();
+		if (meeting == Meeting::EdgeEdge) take(crossingEdges(pair, first, count, meet));
+		else if (meeting == Meeting::VertexFace || meeting == Meeting::FaceVertex) take(verticesMeetFace(pair, first, count, meet));
+		else if constexpr (std::is_same_v<Number, double>) take(othersMeet(pair, *first, meet));
 	}
 
 	/// Middle of what two bodies have in common along a direction, from the origin of A. [m]
@@ -132,79 +229,14 @@ namespace {
 
 	/// Cores overlap and no pair of features answers (two plates through each other): one point in their common part,
 	/// along the axis of least overlap.
-	Meet meetCores(const Pair& pair)
+	Meet<double> meetCores(const Pair& pair)
 	{
 		const Vec3 half = pair.gap / 2 * pair.axis;
 		Vec3 middle = commonMiddle(pair, pair.axis) * pair.axis;
 		for (const Vec3& across : { Vec3(pair.axis.unitOrthogonal()), Vec3(pair.rotation * (pair.rotation.transpose() * pair.axis).unitOrthogonal()) })
 			for (const Vec3& direction : { across, Vec3(pair.axis.cross(across)) }) // the mean over both bodies' frames: swapping them changes nothing
 				middle += 0.5 * commonMiddle(pair, direction) * direction;
-		return { middle - half, middle + half, pair.axis, pair.gap };
-	}
-
-	/// Middle of the overlap in the world, from the point on core A.
-	template <class Number> Vec3Of<Number> placeOf(const Pair& pair, const Mat3& turnA, const Vec3& originA, const Vec3Of<Number>& onA, const Vec3Of<Number>& normal, Number overlap)
-	{
-		const Vec3Of<Number> middle = onA + (Number(pair.a.radius) - overlap / Number(2.)) * normal;
-		return wide<Number>(originA) + wide<Number>(turnA) * middle;
-	}
-
-	ContactPoint worldPoint(const Pair& pair, const Mat3& turnA, const Vec3& originA, FeatureId id, const Meet& meet)
-	{
-		const double overlap = pair.touch() - meet.distance;
-		return { id, placeOf<double>(pair, turnA, originA, meet.pointA, meet.normal, overlap), turnA * meet.normal, overlap };
-	}
-
-	/// Vertices on each other, or over each other's borders, are one contact although several features name it.
-	/// Crossings are never repeated: they keep their distance from vertices (meetEdgeEdge).
-	bool isRepeated(const std::vector<ContactPoint>& points, const ContactPoint& next)
-	{
-		const Meeting meeting = next.id.meeting();
-		if (meeting == Meeting::VertexFace || meeting == Meeting::EdgeEdge) return false;
-		const bool onEdge = meeting == Meeting::VertexEdge || meeting == Meeting::EdgeVertex;
-		return std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) {
-			if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
-			return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
-		});
-	}
-
-	void add(std::vector<ContactPoint>& points, const ContactPoint& next)
-	{
-		if (!isRepeated(points, next)) points.push_back(next);
-	}
-
-	/// The face of a candidate of a vertex and a face, if it is one.
-	int faceOf(FeatureId id) { return id.meeting() == Meeting::VertexFace ? id.b() : id.meeting() == Meeting::FaceVertex ? id.a() : -1; }
-
-	/// How many candidates from `first` on are vertices of one body against the same face of the other, as far as there are lanes.
-	size_t countOnFace(const FeatureId* first, const FeatureId* end)
-	{
-		const auto other = [&](FeatureId id) { return id.meeting() != first->meeting() || faceOf(id) != faceOf(*first); };
-		return size_t(std::find_if(first, std::min(end, first + laneCount), other) - first);
-	}
-
-	/// Contacts of up to laneCount vertices of one body with the same face of the other.
-	template <class Number> void meetFace(const Pair& pair, const Mat3& turnA, const Vec3& originA, const FeatureId* first, size_t count, std::vector<ContactPoint>& points)
-	{
-		const bool ofB = first->meeting() == Meeting::VertexFace;
-		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
-		const int face = faceOf(*first);
-		const Vec3& outward = body.core.faces[face].plane.normal;
-		const Vec3 normal = ofB ? Vec3(-(pair.rotation * outward)) : outward;
-		if (pair.deep() && normal.dot(pair.axis) < outwardCosine) return;
-
-		using Vec = Vec3Of<Number>;
-		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
-		const Vec inA = ofB ? own : pair.toA<Number>(own);
-		Number distance;
-		const auto on = verticesOnFace<Number>(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB<Number>(own) : inA, distance);
-		if (!any(on)) return;
-		const Vec across = wide<Number>(normal), onA = ofB ? inA : Vec(inA - distance * across);
-		const Number overlap = Number(pair.touch()) - distance;
-		const Vec place = placeOf<Number>(pair, turnA, originA, onA, across, overlap);
-		const Vec3 worldNormal = turnA * normal;
-		for (size_t i = 0; i < count; ++i)
-			if (lane(on, i)) add(points, { first[i], lane(place, i), worldNormal, lane(overlap, i) });
+		return { middle - half, pair.axis, pair.gap };
 	}
 
 	/// Gap between the bodies on the axis on which the cores were apart at the last search: if it is there, the pair does not
@@ -215,6 +247,14 @@ namespace {
 		if (!cache.searched()) return 0;
 		const double nearB = extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis);
 		return std::max(0., nearB - cache.farA - pair.touch() - 2 * flushTolerance);
+	}
+
+	/// Candidates for the pair's placement: fewer once it has hardly moved for some time.
+	void refresh(CandidateCache& cache, const Pair& pair)
+	{
+		const double motion = cache.searched() ? cache.motion(pair.rotation, pair.translation) : 0;
+		if (!cache.searched() || motion > cache.margin) searchCandidates(pair, candidateSkin, cache);
+		else if (++cache.uses == quietSteps && cache.skin > quietSkin && !cache.candidates.empty() && motion < quietSkin / 2) searchCandidates(pair, quietSkin, cache);
 	}
 
 	void lookForOverlap(Pair& pair)
@@ -235,24 +275,18 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
 	if (const double gap = touched ? 0 : knownGap(pair, cache); gap > 0) return gap; // what has touched will most likely touch
-	if (!cache.holds(pair.rotation, pair.translation)) searchCandidates(pair, cache);
+	refresh(cache, pair);
 	if (cache.coresMayMeet) lookForOverlap(pair);
 
-	Meet meet;
+	Points found(pair, turnA, poseA.position, points);
 	const FeatureId* const end = cache.candidates.data() + cache.candidates.size();
 	for (const FeatureId* next = cache.candidates.data(); next != end;) {
-		if (faceOf(*next) >= 0) {
-			const size_t count = countOnFace(next, end);
-			count == 1 ? meetFace<double>(pair, turnA, poseA.position, next, count, points) : meetFace<Lanes>(pair, turnA, poseA.position, next, count, points);
-			next += count;
-			continue;
-		}
-		const FeatureId id = *next++;
-		if (!meetFeatures(pair, id, meet)) continue;
-		if (pair.deep() && meet.normal.dot(pair.axis) < outwardCosine) continue;
-		add(points, worldPoint(pair, turnA, poseA.position, id, meet));
+		const size_t count = countAlike(next, end);
+		count == 1 ? meetAlike<double>(pair, next, count, found) : meetAlike<Lanes>(pair, next, count, found);
+		next += count;
 	}
-	if (points.empty() && pair.deep()) points.push_back(worldPoint(pair, turnA, poseA.position, { Meeting::CoreCore, 0, 0 }, meetCores(pair)));
+	const FeatureId cores { Meeting::CoreCore, 0, 0 };
+	if (points.empty() && pair.deep()) found.add(&cores, 1, true, meetCores(pair));
 	return 0;
 }
 

@@ -56,17 +56,19 @@ struct CandidateCache {
 	Mat3 rotation = Mat3::Identity(); ///< of B in the frame of A, at the search
 	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< in the frames of A and B [m]
 	double region = 0; ///< [m]
+	double skin = 0; ///< least margin asked for [m]
 	double margin = -1; ///< [m]; < 0: never searched
+	int uses = 0; ///< since the search
 	bool coresMayMeet = false; ///< cores may overlap within the margin
 	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart at the search
 	double farA = 0; ///< how far A reaches along it [m]
 
 	bool searched() const { return margin >= 0; }
-	bool holds(const Mat3& nowRotation, const Vec3& nowTranslation) const
+	/// Since the search. [m]
+	double motion(const Mat3& nowRotation, const Vec3& nowTranslation) const
 	{
-		if (!searched()) return false;
 		const double turned = std::sqrt(0.5 * (nowRotation - rotation).squaredNorm()); // way per radius
-		return (nowRotation * centreB + nowTranslation - centre).norm() + turned * region <= margin;
+		return (nowRotation * centreB + nowTranslation - centre).norm() + turned * region;
 	}
 };
 

@@ -30,21 +30,21 @@ struct Pair {
 };
 
 /// Two lines: sine of their angle, parameters of the closest points along the unit directions.
-struct Crossing {
-	double sine; ///< below parallelSine nothing else is known
-	double alongA, alongB; ///< [m]
-	Vec3 across; ///< unit, perpendicular to both
+template <class Number> struct Crossing {
+	Number sine; ///< where it is below parallelSine nothing else is known
+	Number alongA, alongB; ///< [m]
+	Vec3Of<Number> across; ///< unit, perpendicular to both
 };
 
-inline Crossing crossing(const Vec3& originA, const Vec3& alongA, const Vec3& originB, const Vec3& alongB)
+template <class Number> Crossing<Number> crossing(const Vec3Of<Number>& originA, const Vec3Of<Number>& alongA, const Vec3Of<Number>& originB, const Vec3Of<Number>& alongB)
 {
-	Crossing c;
-	const Vec3 n = alongA.cross(alongB);
-	const double square = n.squaredNorm();
-	c.sine = std::sqrt(square);
-	if (c.sine < parallelSine) return c;
+	Crossing<Number> c;
+	const Vec3Of<Number> n = alongA.cross(alongB);
+	const Number square = n.squaredNorm();
+	c.sine = root(square);
+	if (!any(c.sine >= Number(parallelSine))) return c;
 	c.across = n / c.sine;
-	const Vec3 w = originB - originA;
+	const Vec3Of<Number> w = originB - originA;
 	c.alongA = w.cross(alongB).dot(n) / square;
 	c.alongB = w.cross(alongA).dot(n) / square;
 	return c;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_points.hpp"
+#include <type_traits>
 
 namespace timber {
 namespace {
@@ -115,6 +116,13 @@ namespace {
 		}
 	};
 
+	/// Rows of the k-th pair from a point on, as many as a Number has lanes.
+	template <class Number> decltype(auto) rowsOf(const DashpotSolver& solver, size_t k, size_t point)
+	{
+		if constexpr (std::is_same_v<Number, double>) return solver.row(k, point);
+		else return solver.rowsFrom(k, point);
+	}
+
 } // namespace
 
 template <class Law>
@@ -128,21 +136,21 @@ double elasticPair(const Law& law, const PairProperties& pair, const BodyMotion&
 template double elasticPair(const HertzLaw&, const PairProperties&, const BodyMotion&, const BodyMotion&, double, NormalForm, bool, const Points&, States&);
 template double elasticPair(const LinearLaw&, const PairProperties&, const BodyMotion&, const BodyMotion&, double, NormalForm, bool, const Points&, States&);
 
-void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const Vec3& positionA, const Vec3& positionB, const PairProperties& pair, double dampingRatio,
-        double h, bool refresh, const Points& points, States& states)
+void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const PairProperties& pair, double dampingRatio, double h, bool refresh,
+        const Points& points, States& states)
 {
 	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
 	for (size_t i = 0; i < points.size(); ++i)
 		if (refresh || states[i].responseMass != inverseMass(a, b))
-			static_cast<PointResponse&>(states[i]) = responseAt(a, b, points[i].position - positionA, points[i].position - positionB, points[i].normal);
+			static_cast<PointResponse&>(states[i]) = responseAt(a, b, points[i].position - a.position, points[i].position - b.position, points[i].normal);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> at(&points[i], points.size() - i);
 		const Group<Number, const PointState> kept(&states[i], points.size() - i);
 		const Vec3Of<Number> position = at.get(&ContactPoint::position);
 		DashpotPoint<Number> p;
-		p.armA = position - wide<Number>(positionA);
-		p.armB = position - wide<Number>(positionB);
+		p.armA = position - wide<Number>(a.position);
+		p.armB = position - wide<Number>(b.position);
 		p.normal = at.get(&ContactPoint::normal);
 		p.elasticNormal = kept.get(&PointState::normal);
 		p.elasticShear = kept.get(&PointState::shear);
@@ -160,38 +168,37 @@ void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bo
 
 PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const PairProperties& pair, double h, States& states, PairEnergies* energies)
 {
-	using Row = DashpotSolver::Row;
 	const DashpotBody &a = bodies[solver.pair(k).bodyA], &b = bodies[solver.pair(k).bodyB];
-	PairForce sum;
+	Sums<9> sums;
+	PairEnergies none;
+	PairEnergies& own = energies ? *energies : none;
+	Sums<6> books(own.dashpotNormal, own.dashpotShear, own.friction, own.elasticNormal, own.elasticShear, own.elasticPower);
 	inLanes(states.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
 		const size_t count = states.size() - i;
-		const Group<Number, const Row> row(&solver.row(solver.pair(k).first + i), count);
+		decltype(auto) row = rowsOf<Number>(solver, k, i);
 		const Group<Number, PointState> kept(&states[i], count);
-		const Vec normal = row.get(&Row::normal), armA = row.get(&Row::armA), armB = row.get(&Row::armB), force = row.get(&Row::impulse) / Number(h);
+		const Vec &normal = row.normal, &armA = row.armA, &armB = row.armB;
+		const Vec force = row.impulse / Number(h), torqueA = -armA.cross(force), torqueB = armB.cross(force);
 		const Number elasticNormal = kept.get(&PointState::normal);
 		const Vec shear = limitedShear<Number>(kept.get(&PointState::shear), Number(pair.friction), force.dot(normal));
 		const Vec dashpot = force - elasticNormal * normal - shear;
 		kept.set(&PointState::shear, shear);
 		kept.set(&PointState::dashpot, dashpot);
-		addUp<Number>(sum.onB, force, count);
-		addUp<Number>(sum.torqueA, -armA.cross(force), count);
-		addUp<Number>(sum.torqueB, armB.cross(force), count);
+		sums.add<Number>(count, force, torqueA, torqueB);
 		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 		kept.set(&PointState::closing, Number(-after.dot(normal) * Number(h)));
 		if (!energies) return;
 		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Vec mean = (before + after) / Number(2.);
 		const Number along = dashpot.dot(normal), stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * kept.get(&PointState::stiffness));
-		addUp(energies->dashpotNormal, -(Number(h) * along * mean.dot(normal)), count);
-		addUp(energies->dashpotShear, -(Number(h) * (dashpot - along * normal).dot(mean)), count);
-		addUp(energies->friction, -(kept.get(&PointState::slide).dot(kept.get(&PointState::shearBefore) + shear) / Number(2.) + stored - kept.get(&PointState::shearEnergyBefore)), count);
-		addUp(energies->elasticNormal, kept.get(&PointState::energy), count);
-		addUp(energies->elasticShear, stored, count);
-		addUp(energies->elasticPower, -(elasticNormal * normal + shear).dot(after), count);
+		const Number normalWork = -(Number(h) * along * mean.dot(normal)), shearWork = -(Number(h) * (dashpot - along * normal).dot(mean));
+		const Number slid = -(kept.get(&PointState::slide).dot(kept.get(&PointState::shearBefore) + shear) / Number(2.) + stored - kept.get(&PointState::shearEnergyBefore));
+		books.add<Number>(count, normalWork, shearWork, slid, Number(kept.get(&PointState::energy)), stored, Number(-(elasticNormal * normal + shear).dot(after)));
 	});
-	return sum;
+	own = { books[0], books[1], books[2], books[3], books[4], books[5] };
+	return { sums.vector(0), sums.vector(3), sums.vector(6) };
 }
 
 } // namespace timber

@@ -20,8 +20,8 @@ double elasticPair(const Law& law, const PairProperties& pair, const BodyMotion&
         const std::vector<ContactPoint>& points, std::vector<PointState>& states);
 
 /// The k-th pair of the solver gets its rows. refresh: whether to find the points' responses anew.
-void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const Vec3& positionA, const Vec3& positionB, const PairProperties& pair, double dampingRatio,
-        double h, bool refresh, const std::vector<ContactPoint>& points, std::vector<PointState>& states);
+void setRows(DashpotSolver& solver, size_t k, const std::vector<DashpotBody>& bodies, const PairProperties& pair, double dampingRatio, double h, bool refresh,
+        const std::vector<ContactPoint>& points, std::vector<PointState>& states);
 
 /// Total force and torques of a pair's points, each torque about the body's own centre. [N, N m]
 struct PairForce {

@@ -55,7 +55,7 @@ inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint
 	}
 	const int done = solver.solve(bodies, tolerance);
 	for (size_t k = 0; k < points.size(); ++k)
-		points[k].impulse = solver.row(k).impulse;
+		points[k].impulse = solver.row(places[k].first, places[k].second).impulse;
 	return done;
 }
 

@@ -16,7 +16,6 @@ const PairProperties properties { 3, 0.4, 1 / 2.8, 4e-3 };
 /// A pair that moves, with points of all kinds: growing and shrinking overlaps, grazing and deep ones, pressed and free, at rest and sliding.
 struct MovingPair {
 	std::vector<DashpotBody> bodies;
-	Vec3 positionA, positionB;
 	std::vector<ContactPoint> points;
 	std::vector<PointState> states;
 
@@ -29,8 +28,8 @@ struct MovingPair {
 			bodies.back().spin = bodies.back().newSpin = mass > 0 ? randomVector(random, speed) : Vec3(Vec3::Zero());
 			bodies.back().newVelocity += mass > 0 ? randomVector(random, 0.1) : Vec3(Vec3::Zero());
 		}
-		positionA = randomVector(random, 1);
-		positionB = randomVector(random, 1);
+		for (DashpotBody& b : bodies)
+			b.position = randomVector(random, 1);
 		for (size_t k = 0; k < count; ++k) {
 			points.push_back({ { Meeting::VertexFace, int(k), 0 }, randomVector(random, 1), randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
 			PointState s;
@@ -44,7 +43,7 @@ struct MovingPair {
 			states.push_back(s);
 		}
 	}
-	BodyMotion motion(size_t k) const { return { k == 0 ? positionA : positionB, bodies[k].velocity, bodies[k].spin }; }
+	BodyMotion motion(size_t k) const { return { bodies[k].position, bodies[k].velocity, bodies[k].spin }; }
 
 	static constexpr double h = 2e-4;
 	const HertzLaw law { 5.25e9, 0.05 };
@@ -81,7 +80,7 @@ TEST(LanesOfAPair, ElasticForcesAreThoseOfEachPoint)
 				alone.states = { each[k] };
 				elasticPair(pair.law, properties, pair.motion(0), pair.motion(1), pair.h, form, false, alone.points, alone.states);
 				expectSame(alone.states[0], pair.states[k]);
-				const Vec3 armA = pair.points[k].position - pair.positionA, armB = pair.points[k].position - pair.positionB;
+				const Vec3 armA = pair.points[k].position - pair.bodies[0].position, armB = pair.points[k].position - pair.bodies[1].position;
 				const auto velocity = [&](const DashpotBody& b, const Vec3& arm) { return Vec3(b.velocity + b.spin.cross(arm - pair.h / 2 * b.spin.cross(arm))); };
 				const PointMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA), (pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
 				elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
@@ -101,16 +100,16 @@ TEST(LanesOfAPair, RowsAreThoseOfEachPoint)
 				solver->clear(sweeps);
 				solver->addPair(0, 1, p.points.size());
 			}
-			setRows(together, 0, p.bodies, p.positionA, p.positionB, properties, 1, p.h, false, p.points, p.states);
+			setRows(together, 0, p.bodies, properties, 1, p.h, false, p.points, p.states);
 			for (size_t k = 0; k < p.points.size(); ++k) {
 				const PointState& s = p.states[k];
 				const double damping = 2 * std::sqrt(properties.mass * s.stiffness);
-				const Vec3 armA = p.points[k].position - p.positionA, armB = p.points[k].position - p.positionB, normal = p.points[k].normal;
+				const Vec3 armA = p.points[k].position - p.bodies[0].position, armB = p.points[k].position - p.bodies[1].position, normal = p.points[k].normal;
 				const PointResponse r = responseAt(p.bodies[0], p.bodies[1], armA, armB, normal);
 				const DashpotPoint<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio), properties.friction,
 					p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness, properties.shearRatio * s.stiffness };
 				each.set<double>(0, k, p.bodies, one, p.h);
-				const DashpotSolver::Row &x = together.row(k), &y = each.row(k);
+				const DashpotSolver::Row x = together.row(0, k), y = each.row(0, k);
 				using Row = DashpotSolver::Row;
 				for (const auto member : { &Row::armA, &Row::armB, &Row::normal, &Row::impulse, &Row::shearDrive, &Row::coupling })
 					EXPECT_EQ(x.*member, y.*member) << seed;
@@ -130,13 +129,13 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		DashpotSolver solver;
 		solver.clear(50);
 		solver.addPair(0, 1, p.points.size());
-		setRows(solver, 0, p.bodies, p.positionA, p.positionB, properties, 1, p.h, false, p.points, p.states);
+		setRows(solver, 0, p.bodies, properties, 1, p.h, false, p.points, p.states);
 		solver.solve(p.bodies);
 		PairEnergies found, wanted;
 		const PairForce force = takeForces(solver, 0, p.bodies, properties, p.h, p.states, &found);
 		Vec3 sum = Vec3::Zero(), torqueA = sum, torqueB = sum;
 		for (size_t k = 0; k < p.points.size(); ++k) {
-			const DashpotSolver::Row& row = solver.row(k);
+			const DashpotSolver::Row row = solver.row(0, k);
 			const PointState& s = p.states[k];
 			const Vec3 f = row.impulse / p.h, after = relativeVelocity<double>(row.armA, row.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
 			sum += f;

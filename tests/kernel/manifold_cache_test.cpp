@@ -2,6 +2,7 @@
 /// The candidate cache holds no result: along any trajectory it gives the bits that an empty cache gives.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
+#include <kernel/constants.hpp>
 
 using namespace timber;
 using namespace timber::shapes;
@@ -120,6 +121,34 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 		supported = supported || (distance > 0.002 && !points.empty());
 	}
 	EXPECT_TRUE(supported); // the case that the test is about did occur
+}
+
+/// Pairs that tremble for longer than quietSteps, and then move: what a still pair does not look at must come back in time.
+TEST(CandidateCache, PairsThatWereQuiet)
+{
+	const auto beam = roundedBox({ 1, 0.12, 0.12 }), post = roundedBox({ 0.105, 0.105, 0.9 });
+	int inContact = 0, quiet = 0, fewer = 0;
+	for (unsigned seed = 0; seed < 40; ++seed) {
+		Random random(seed);
+		Pose poseB { { uniform(random, -0.4, 0.4), uniform(random, -0.02, 0.02), 0.5099 }, about(randomDirection(random), seed % 2 == 0 ? 0 : 1e-3) };
+		CandidateCache cache;
+		std::vector<ContactPoint> points;
+		size_t most = 0;
+		for (int step = 0; step < 4 * quietSteps; ++step) {
+			const bool trembles = step % (2 * quietSteps) < 3 * quietSteps / 2;
+			const double way = trembles ? 1e-7 : std::pow(10, uniform(random, -6, -2.5));
+			poseB.position += way * randomDirection(random);
+			poseB.orientation = (about(randomDirection(random), way) * poseB.orientation).normalized();
+			updateManifold(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }, cache, points);
+			ASSERT_TRUE(identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }))) << "seed " << seed << " step " << step;
+			inContact += !points.empty();
+			if (cache.skin == candidateSkin) most = std::max(most, cache.candidates.size());
+			else ++quiet, fewer += cache.candidates.size() < most;
+		}
+	}
+	EXPECT_GT(inContact, 8000);
+	EXPECT_GT(quiet, 1000);
+	EXPECT_GT(fewer, quiet / 2);
 }
 
 TEST(CandidateCache, FindsNothingWhenApart)
