@@ -18,8 +18,11 @@ import yade.wrapper as yw
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 from bench_tools import machine, markdown_table, publish  # noqa: E402
+import yade_timber as yt  # noqa: E402
 from yade_timber import scenario, scene  # noqa: E402
-from yade_timber.motion import default_motion  # noqa: E402
+from yade_timber.frames import steps_between  # noqa: E402
+from yade_timber.motion import GroundMotion, default_motion  # noqa: E402
+from yade_timber.recorder import Recorder  # noqa: E402
 
 O = yw.Omega()
 
@@ -40,9 +43,9 @@ def arguments():
 
 
 # --- scenes: each returns what is timed, with or without the skip --------------------------------------------------------
-def shaken(options, **changes):
-    """The house with snow in strong shaking."""
-    scenario.build(scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0, **changes}))
+def shaken(options, snow_depth=1.0, **changes):
+    """The house in strong shaking."""
+    scenario.build(scenario.Scenario("skips", options.house, default_motion(), snow_depth, options={"skip_rest": 0, **changes}))
     scene.find_engine(yw.GroundMotionEngine).start = -STRONG
     return lambda: O.run(options.steps, True)
 
@@ -85,12 +88,58 @@ def joints(options, skip):
     return run
 
 
+def snow(options, skip):
+    """The house without snow."""
+    run = shaken(options, snow_depth=0.0)
+    if skip:
+        loop = next(e for e in O.engines if isinstance(e, yw.ContactLoop))
+        for dispatcher in (loop.loop.physDispatcher, loop.loop.lawDispatcher):
+            dispatcher.functors = [f for f in dispatcher.functors if "Snow" not in type(f).__name__]
+    return run
+
+
+def motion(options, skip):
+    """The house on still ground, without the engine of ground motion or with one that has nothing but zeros."""
+    zeros = None if skip else GroundMotion(0.01, np.zeros((1000, 3)))
+    scenario.build(scenario.Scenario("skips", options.house, zeros, options={"skip_rest": 0}))
+    return lambda: O.run(options.steps, True)
+
+
+def frames(options, skip):
+    """What a run script does besides, unless it is called with --no-frames."""
+    case = scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0})
+    model = scenario.build(case)
+    scene.find_engine(yw.GroundMotionEngine).start = -STRONG
+    recorder = None if skip else Recorder(case, model, "skips")
+
+    def run():
+        for _ in range(options.steps // steps_between(O.dt)):
+            O.run(steps_between(O.dt), True)
+            if recorder:
+                recorder.take(O.time)
+
+    return run
+
+
+def fixed(options, skip):
+    """Two hundred blocks in a row, a millimetre apart, which nothing pushes: fixed, or free to move."""
+    O.reset()
+    O.bodies.append([yt.box((0.1, 0.1, 0.1), (0.101 * k, 0, 0), fixed=skip) for k in range(200)])
+    O.engines = yt.engines(gravity=(0, 0, 0))
+    O.dt = scenario.DEFAULT_DT
+    return lambda: O.run(options.steps, True)
+
+
 CASES = {  # words, scene -> build
     ("rest: grains of steps while the house rests and the ground is quiet", f"at rest under snow, {RESTING:g} s"): rest,
     ("the collider, until a body may have left its box", "strong shaking, snow"): collider,
     ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
     ("energies that nobody asks for", "strong shaking, snow"): energies,
     ("the engine of joints, where all are broken", "strong shaking, snow, no joints"): joints,
+    ("fixed bodies: neither moved nor paired", "200 blocks side by side"): fixed,
+    ("functors of snow (they stay: YADE ends the process where a pair of materials has none)", "strong shaking, no snow"): snow,
+    ("the ground motion, where there is none", "still ground, no snow"): motion,
+    ("recorded frames that nobody asks for", "strong shaking, snow"): frames,
 }
 
 
