@@ -169,6 +169,7 @@ void searchCandidates(const Pair& pair, double skin, CandidateCache& cache)
 {
 	cache.skin = skin;
 	cache.uses = 0;
+	cache.motionThen = 0;
 	const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, cache.axis, skin);
 	cache.farA = extent(pair.a.core, cache.axis).second;
 	cache.candidates.clear();

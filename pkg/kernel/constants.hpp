@@ -33,11 +33,11 @@ constexpr double parallelSine = 5e-3;
 /// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
 constexpr double candidateSkin = 4e-3;
 
-/// The same for a pair that has hardly moved for quietSteps steps: nothing but what meets, more or less, is evaluated. [m] Above what flush supports
-/// reach beyond a corner.
+/// The same for a pair that has hardly moved in quietSteps steps: little but what meets is evaluated. [m] A search spares its cost within
+/// some 20 steps, or 40 with that which follows when the pair moves on.
 constexpr double quietSkin = candidateSkin / 20;
-/// Fewer: searches that do not pay, as one costs about as much as what it spares in so many steps. [-]
 constexpr int quietSteps = 100;
+static_assert(quietSkin * quietSkin > 2 * flushTolerance * flushTolerance, "a skin covers what a flush support reaches beyond a corner");
 
 /// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; as candidates they are judged by distance alone. [-]
 /// Larger: more candidates; smaller: crossings shift by more than the first order that the search allows for. Results do not depend on it.

@@ -79,6 +79,9 @@ namespace {
 		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
+	/// No body is joined: both ends the same free one, which no pair has.
+	constexpr std::pair<int, int> noLink { 0, 0 };
+
 	/// Velocities of a pair while its points are worked on.
 	struct Motion {
 		Vec3 velocityA, spinA, velocityB, spinB;
@@ -88,6 +91,13 @@ namespace {
 		        , spinA(a.newSpin)
 		        , velocityB(b.newVelocity)
 		        , spinB(b.newSpin)
+		{
+		}
+		explicit Motion(const Sums<12>& sums)
+		        : velocityA(sums.vector(0))
+		        , spinA(sums.vector(3))
+		        , velocityB(sums.vector(6))
+		        , spinB(sums.vector(9))
 		{
 		}
 		Vec3 at(const DashpotSolver::Row& row) const { return velocityB + spinB.cross(row.armB) - velocityA - spinA.cross(row.armA); } // relativeVelocity(), but in registers
@@ -124,7 +134,7 @@ size_t DashpotSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	const size_t first = pairs.empty() ? 0 : pairs.back().first + groupsOf(pairs.back().count), end = first + groupsOf(count);
 	pairs.push_back({ bodyA, bodyB, first, count, 0 });
-	if (rows.size() < end) rows.resize(end); // rows of the last step are overwritten by set()
+	if (rows.size() < end) rows.resize(end); // rows of the last step are overwritten by set(), but for lanes to spare
 	return pairs.size() - 1;
 }
 
@@ -136,7 +146,7 @@ template <class Number> void DashpotSolver::set(size_t k, size_t first, const st
 	if (sweeps == 0) row.impulse = explicitImpulse<Number>(points, a, b, h);
 	Rows& to = rows[pair.first + first / laneCount];
 	if constexpr (std::is_same_v<Number, Lanes>) to = row;
-	else forMembers(to, row, [&](auto& wide, const auto& one) { setLane(wide, first % laneCount, one); });
+	else forMembers(to, row, [&](auto& all, const auto& one) { setLane(all, first % laneCount, one); });
 }
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<double>&, double);
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<Lanes>&, double);
@@ -151,17 +161,17 @@ int DashpotSolver::root(int body)
 }
 
 /// The body that tells which island a pair belongs to.
-int DashpotSolver::islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair) { return root(bodies[pair.bodyA].inverseMass > 0 ? pair.bodyA : pair.bodyB); }
+int DashpotSolver::islandBody(const Link& link) { return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second; }
 
 /// Whether other bodies are joined than when the islands were found.
 bool DashpotSolver::linksChange(const std::vector<DashpotBody>& bodies)
 {
 	bool changed = links.size() != pairs.size() || parent.size() != bodies.size();
 	links.resize(pairs.size());
+	const auto end = [&](int body) { return bodies[body].inverseMass > 0 ? body : ~body; };
 	for (size_t k = 0; k < pairs.size(); ++k) {
 		const Pair& p = pairs[k];
-		const auto free = [&](int body) { return p.count > 0 && bodies[body].inverseMass > 0 ? body : -1; };
-		const Link now { free(p.bodyA), free(p.bodyB) };
+		const Link now = p.count > 0 ? Link(end(p.bodyA), end(p.bodyB)) : noLink;
 		changed = changed || links[k] != now;
 		links[k] = now;
 	}
@@ -174,13 +184,13 @@ void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
 	if (!linksChange(bodies)) return;
 	parent.resize(bodies.size());
 	std::iota(parent.begin(), parent.end(), 0);
-	for (const Pair& p : pairs)
-		if (p.count > 0 && bodies[p.bodyA].inverseMass > 0 && bodies[p.bodyB].inverseMass > 0) parent[root(p.bodyB)] = root(p.bodyA);
+	for (const Link& link : links)
+		if (link != noLink && link.first >= 0 && link.second >= 0) parent[root(link.second)] = root(link.first);
 	islandOf.assign(bodies.size(), -1);
 	islandStarts.assign(1, 0);
-	for (const Pair& p : pairs) {
-		if (p.count == 0) continue;
-		int& island = islandOf[islandBody(bodies, p)];
+	for (const Link& link : links) {
+		if (link == noLink) continue;
+		int& island = islandOf[islandBody(link)];
 		if (island < 0) {
 			island = int(islandStarts.size()) - 1;
 			islandStarts.push_back(0);
@@ -190,8 +200,8 @@ void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
 	std::partial_sum(islandStarts.begin(), islandStarts.end(), islandStarts.begin());
 	order.resize(islandStarts.back());
 	std::vector<size_t> next = islandStarts;
-	for (size_t k = 0; k < pairs.size(); ++k)
-		if (pairs[k].count > 0) order[next[islandOf[islandBody(bodies, pairs[k])]]++] = int(k);
+	for (size_t k = 0; k < links.size(); ++k)
+		if (links[k] != noLink) order[next[islandOf[islandBody(links[k])]]++] = int(k);
 }
 
 // --- sweeps -------------------------------------------------------------------------------------------------------------
@@ -274,7 +284,7 @@ int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, dou
 	return done;
 }
 
-/// Lets the impulses of a pair's points act on its bodies.
+/// Lets the impulses of a pair's points act on its bodies: Motion::push() in lanes.
 void DashpotSolver::pushAll(std::vector<DashpotBody>& bodies, const Pair& pair)
 {
 	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
@@ -284,12 +294,7 @@ void DashpotSolver::pushAll(std::vector<DashpotBody>& bodies, const Pair& pair)
 		const Vec3s turnA = wide<Lanes>(a.inverseInertia) * row.armA.cross(row.impulse), turnB = wide<Lanes>(b.inverseInertia) * row.armB.cross(row.impulse);
 		all.add<Lanes>(pair.count - point, Vec3s(Lanes(-a.inverseMass) * row.impulse), Vec3s(-turnA), Vec3s(Lanes(b.inverseMass) * row.impulse), turnB);
 	}
-	Motion motion(a, b);
-	motion.velocityA = all.vector(0);
-	motion.spinA = all.vector(3);
-	motion.velocityB = all.vector(6);
-	motion.spinB = all.vector(9);
-	motion.store(a, b);
+	Motion(all).store(a, b);
 }
 
 int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance)

@@ -57,7 +57,7 @@ template <class Number> struct DashpotPoint {
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 };
 
-/// What a sweep needs of a point, in one piece: impulses instead of forces, divisions done. A visit finds the impulses that solve
+/// What a sweep needs of a point: impulses instead of forces, divisions done. A visit finds the impulses that solve
 /// the point's own equations for the relative velocity v that the other points leave it:
 ///     normal     p_n = max(0, normalKept p_n + normalDrive - normalGain v_n)
 ///     tangential p_s = shearKept p_s + shearDrive - shearGain v_s - coupling (change of p_n), shortened to friction p_n if it is longer
@@ -108,7 +108,7 @@ template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasti
 class DashpotSolver {
 public:
 	using Row = DashpotRow<double>;
-	/// Rows of up to laneCount points of a pair, as they are made; the sweeps take them one by one.
+	/// Rows of up to laneCount points of a pair, as they are made; the sweeps take them one by one. Lanes to spare hold anything.
 	using Rows = DashpotRow<Lanes>;
 	/// Two bodies and their rows.
 	struct Pair {
@@ -128,7 +128,8 @@ public:
 	void clear(int sweeps);
 	/// Makes room for the points of two bodies. Returns the pair's number.
 	size_t addPair(int bodyA, int bodyB, size_t count);
-	/// Rows of the k-th pair from its points of a step of length h [s], from the given one on: one, or up to laneCount of them. May be called
+	/// Rows of the k-th pair from its points of a step of length h [s], from the given one on: one, or up to laneCount of them from a
+	/// multiple of laneCount on. May be called
 	/// by several threads, each for pairs of its own.
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
 	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
@@ -139,7 +140,7 @@ public:
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
-	/// Of the k-th pair: the row of a point, and the Rows that begin with it.
+	/// Of the k-th pair: the row of a point, and the Rows that begin with it, a multiple of laneCount.
 	Row row(size_t k, size_t point) const { return rowAt(pairs[k], point); }
 	const Rows& rowsFrom(size_t k, size_t point) const { return rowsAt(pairs[k], point); }
 	size_t islandCount() const { return islandStarts.empty() ? 0 : islandStarts.size() - 1; }
@@ -151,7 +152,7 @@ private:
 	std::vector<Pair> pairs;
 	std::vector<int> order; ///< pairs by island
 	std::vector<size_t> islandStarts; ///< in `order`, and its end
-	using Link = std::pair<int, int>; ///< bodies that a pair with points joins; -1: a fixed one, or no points
+	using Link = std::pair<int, int>; ///< bodies of a pair with points, ~body of a fixed one; noLink of a pair without
 	std::vector<Link> links; ///< of each pair, when the islands were found
 	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
 	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
@@ -160,12 +161,12 @@ private:
 	[[gnu::always_inline]] Row rowAt(const Pair& pair, size_t point) const
 	{
 		Row row;
-		forMembers(row, rowsAt(pair, point), [&](auto& one, const auto& wide) { one = lane(wide, point % laneCount); });
+		forMembers(row, rowsAt(pair, point), [&](auto& one, const auto& all) { one = lane(all, point % laneCount); });
 		return row;
 	}
 	int root(int body);
 	bool linksChange(const std::vector<DashpotBody>& bodies);
-	int islandBody(const std::vector<DashpotBody>& bodies, const Pair& pair);
+	int islandBody(const Link& link);
 	void findIslands(const std::vector<DashpotBody>& bodies);
 	double threshold(const std::vector<DashpotBody>& bodies, Island island, double tolerance) const;
 	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);

@@ -141,9 +141,8 @@ inline bool lane(Lanes::Mask x, size_t i) { return x[i] != 0; }
 inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
-inline void setLane(double& x, size_t, double one) { x = one; }
 inline void setLane(Lanes& x, size_t i, double one) { x.v[i] = one; }
-template <class Number> void setLane(Vec3Of<Number>& v, size_t i, const Vec3& one)
+inline void setLane(Vec3s& v, size_t i, const Vec3& one)
 {
 	for (int c = 0; c < 3; ++c)
 		setLane(v[c], i, one[c]);
@@ -174,6 +173,7 @@ constexpr size_t groupsOf(size_t count) { return (count + laneCount - 1) / laneC
 template <size_t N> class Sums {
 	Lanes total[groupsOf(N)];
 
+	template <class Part> static constexpr size_t sizeOf = std::is_same_v<Part, double> || std::is_same_v<Part, Lanes> ? 1 : 3;
 	template <class Number> static void put(Number*& to, Number x) { *to++ = x; }
 	template <class Number> static void put(Number*& to, const Vec3Of<Number>& x)
 	{
@@ -185,6 +185,7 @@ public:
 	/// Numbers and vectors, N numbers in all, to start with.
 	template <class... Parts> [[gnu::always_inline]] explicit Sums(const Parts&... start)
 	{
+		static_assert(sizeof...(start) == 0 || (sizeOf<Parts> + ... + 0) == N, "N numbers to start with, or none");
 		double x[groupsOf(N) * laneCount] = {};
 		[[maybe_unused]] double* to = x;
 		(put(to, start), ...);
@@ -195,6 +196,7 @@ public:
 	/// Adds what the first lanes have, at most `count` of them: numbers and vectors as at the start.
 	template <class Number, class... Parts> [[gnu::always_inline]] void add(size_t count, const Parts&... parts)
 	{
+		static_assert((sizeOf<Parts> + ... + 0) == N, "N numbers to add");
 		Number x[groupsOf(N) * laneCount] = {}, *to = x;
 		(put(to, parts), ...);
 		if constexpr (std::is_same_v<Number, double>)
@@ -220,8 +222,8 @@ template <class Work> void inLanes(size_t count, Work work)
 		else work(Lanes(), k);
 }
 
-/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare read the last one, and what is set
-/// of them is overwritten by it.
+/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare read the last one. set() goes
+/// backwards, so that the last one keeps the value of its own lane, whatever is in those to spare.
 template <class Number, class Item> class Group {
 	Item* item[laneCount];
 

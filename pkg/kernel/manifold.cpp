@@ -249,12 +249,15 @@ namespace {
 		return std::max(0., nearB - cache.farA - pair.touch() - 2 * flushTolerance);
 	}
 
-	/// Candidates for the pair's placement: fewer once it has hardly moved for some time.
+	/// Candidates for the pair's placement: fewer where it is about as far from that of the search as quietSteps uses ago.
 	void refresh(CandidateCache& cache, const Pair& pair)
 	{
 		const double motion = cache.searched() ? cache.motion(pair.rotation, pair.translation) : 0;
-		if (!cache.searched() || motion > cache.margin) searchCandidates(pair, candidateSkin, cache);
-		else if (++cache.uses == quietSteps && cache.skin > quietSkin && !cache.candidates.empty() && motion < quietSkin / 2) searchCandidates(pair, quietSkin, cache);
+		if (!cache.searched() || !(motion <= cache.margin)) return searchCandidates(pair, candidateSkin, cache);
+		if (++cache.uses % quietSteps != 0) return;
+		const bool still = std::abs(motion - cache.motionThen) < quietSkin / 2;
+		cache.motionThen = motion;
+		if (still && cache.skin > quietSkin && !cache.candidates.empty()) searchCandidates(pair, quietSkin, cache);
 	}
 
 	void lookForOverlap(Pair& pair)

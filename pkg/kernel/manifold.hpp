@@ -58,7 +58,8 @@ struct CandidateCache {
 	double region = 0; ///< [m]
 	double skin = 0; ///< least margin asked for [m]
 	double margin = -1; ///< [m]; < 0: never searched
-	int uses = 0; ///< since the search
+	int uses = 0; ///< since the search, but for those that ended at the known gap
+	double motionThen = 0; ///< motion() at the last look whether the pair keeps still [m]
 	bool coresMayMeet = false; ///< cores may overlap within the margin
 	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart at the search
 	double farA = 0; ///< how far A reaches along it [m]

@@ -239,3 +239,53 @@ TEST(Stiff, MassRatioOfAMillion)
 	for (const auto& b : bodies)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
+
+/// A solver that has done other steps before against a new one: points come and go, pairs lose all of theirs, bodies are held and released.
+TEST(Islands, AreThoseOfTheStep)
+{
+	size_t most = 0, least = 100;
+	for (unsigned seed = 0; seed < 40; ++seed) {
+		Random random(seed);
+		const Heap heap(seed, 12, 16, 200, 0.5, 50);
+		DashpotSolver kept;
+		for (int step = 0; step < 12; ++step) {
+			std::vector<HeapPoint> points;
+			for (const HeapPoint& p : heap.points)
+				if (step % 3 == 2 || uniform(random, 0, 1) < 0.7) points.push_back(p);
+			std::vector<DashpotBody> bodies = heap.bodies, fresh;
+			for (DashpotBody& b : bodies)
+				if (uniform(random, 0, 1) < 0.3) b.inverseMass = 0, b.inverseInertia.setZero();
+			fresh = bodies;
+			std::vector<HeapPoint> same = points;
+			DashpotSolver once;
+			const size_t empty = kept.islandCount();
+			EXPECT_EQ(solveDashpots(kept, bodies, points, 1e-3, 30, 1e-6), solveDashpots(once, fresh, same, 1e-3, 30, 1e-6)) << seed;
+			ASSERT_EQ(kept.islandCount(), once.islandCount()) << seed << " after " << empty;
+			for (size_t k = 0; k < once.islandCount(); ++k)
+				ASSERT_TRUE(std::equal(kept.island(k).begin(), kept.island(k).end(), once.island(k).begin(), once.island(k).end())) << seed;
+			for (size_t k = 0; k < bodies.size(); ++k) {
+				EXPECT_EQ(bodies[k].newVelocity, fresh[k].newVelocity) << seed;
+				EXPECT_EQ(bodies[k].newSpin, fresh[k].newSpin) << seed;
+			}
+			most = std::max(most, once.islandCount());
+			least = std::min(least, once.islandCount());
+		}
+	}
+	EXPECT_GT(most, least + 3);
+}
+
+/// Points between two held bodies are an island, too: their forces are limited and booked. They may come when the bodies are held already.
+TEST(Islands, PairsOfHeldBodiesHaveTheirs)
+{
+	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(0, Vec3::Zero()) };
+	DashpotSolver solver;
+	for (const size_t count : { 0, 1, 0, 2 }) {
+		solver.clear(10);
+		solver.addPair(0, 1, count);
+		HeapPoint point = central(10, 1);
+		for (size_t k = 0; k < count; ++k)
+			solver.set<double>(0, k, bodies, point, 1e-3);
+		solver.solve(bodies);
+		EXPECT_EQ(solver.islandCount(), count > 0 ? 1u : 0u);
+	}
+}

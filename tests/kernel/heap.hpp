@@ -34,10 +34,9 @@ inline HeapPoint central(double damping, double elastic = 0)
 	return p;
 }
 
-/// One step of points whose pairs stand next to each other. Returns the number of passes.
-inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+/// One step of points whose pairs stand next to each other, by a solver that may have done others before. Returns the number of passes.
+inline int solveDashpots(DashpotSolver& solver, std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
-	DashpotSolver solver;
 	solver.clear(sweeps);
 	std::vector<std::pair<size_t, size_t>> places; // of each point: its pair, and which of its points it is
 	for (auto p = points.begin(); p != points.end();) {
@@ -57,6 +56,11 @@ inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint
 	for (size_t k = 0; k < points.size(); ++k)
 		points[k].impulse = solver.row(places[k].first, places[k].second).impulse;
 	return done;
+}
+inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+{
+	DashpotSolver solver;
+	return solveDashpots(solver, bodies, points, h, sweeps, tolerance);
 }
 
 /// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.

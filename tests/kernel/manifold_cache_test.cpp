@@ -151,6 +151,28 @@ TEST(CandidateCache, PairsThatWereQuiet)
 	EXPECT_GT(fewer, quiet / 2);
 }
 
+/// A pair that settles before it keeps still gets fewer candidates, too.
+TEST(CandidateCache, PairsThatSettled)
+{
+	const auto beam = roundedBox({ 1, 0.12, 0.12 }), post = roundedBox({ 0.105, 0.105, 0.9 });
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	for (int step = 0; step < 3 * quietSteps; ++step)
+		updateManifold(beam, post, {}, { { 0, 0, 0.51 - 2e-6 * std::min(step, 3 * quietSteps / 2) }, Quat::Identity() }, {}, cache, points);
+	EXPECT_EQ(cache.skin, quietSkin);
+}
+
+/// A placement that is no number spoils its own step only.
+TEST(CandidateCache, APlacementThatIsNoNumberIsForgotten)
+{
+	const auto cube = roundedBox({ 1, 1, 1 });
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	updateManifold(cube, cube, {}, { Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity() }, {}, cache, points);
+	updateManifold(cube, cube, {}, { { 0, 0, 0.999 }, Quat::Identity() }, {}, cache, points);
+	EXPECT_EQ(points.size(), 4u);
+}
+
 TEST(CandidateCache, FindsNothingWhenApart)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
