@@ -21,6 +21,7 @@ namespace {
 		const Pair& pair;
 		const Mat3& turnA;
 		const Vec3& originA;
+		std::vector<ContactPoint>& all;
 
 		/// Vertices on each other, or over each other's borders, are one contact although several features name it.
 		/// Crossings are never repeated: they keep their distance from vertices (crossingEdges).
@@ -36,8 +37,6 @@ namespace {
 		}
 
 	public:
-		std::vector<ContactPoint>& all;
-
 		Points(const Pair& p, const Mat3& turn, const Vec3& origin, std::vector<ContactPoint>& points)
 		        : pair(p)
 		        , turnA(turn)

@@ -258,9 +258,9 @@ TEST(Islands, AreThoseOfTheStep)
 			fresh = bodies;
 			std::vector<HeapPoint> same = points;
 			DashpotSolver once;
-			const size_t empty = kept.islandCount();
+			const size_t before = kept.islandCount();
 			EXPECT_EQ(solveDashpots(kept, bodies, points, 1e-3, 30, 1e-6), solveDashpots(once, fresh, same, 1e-3, 30, 1e-6)) << seed;
-			ASSERT_EQ(kept.islandCount(), once.islandCount()) << seed << " after " << empty;
+			ASSERT_EQ(kept.islandCount(), once.islandCount()) << seed << " after " << before;
 			for (size_t k = 0; k < once.islandCount(); ++k)
 				ASSERT_TRUE(std::equal(kept.island(k).begin(), kept.island(k).end(), once.island(k).begin(), once.island(k).end())) << seed;
 			for (size_t k = 0; k < bodies.size(); ++k) {
