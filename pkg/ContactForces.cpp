@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactForces.hpp>
-#include <threads.hpp>
+#include <kernel/threads.hpp>
 
 namespace yade {
 
@@ -69,9 +69,7 @@ void ContactForces::collectBodies()
 	bodies.resize(count);
 	sums.clear(count);
 	scene->forces.sync();
-#pragma omp parallel for schedule(static) if (count > smallLoop)
-	for (int id = 0; id < count; ++id)
-		collectBody(id);
+	timber::forAll(count, [this](int id) { collectBody(id); });
 }
 
 void ContactForces::collectPoints(size_t k)
@@ -87,10 +85,7 @@ void ContactForces::collectPoints()
 	solver.clear(sweeps);
 	for (const Pair& pair : pairs)
 		solver.addPair(pair.interaction->getId1(), pair.interaction->getId2(), pair.phys->states.size());
-	const int count = int(pairs.size());
-#pragma omp parallel for schedule(static) if (count > smallLoop)
-	for (int k = 0; k < count; ++k)
-		collectPoints(k);
+	timber::forAll(int(pairs.size()), [this](int k) { collectPoints(k); });
 }
 
 void ContactForces::storePoints(size_t k, timber::PairEnergies& own)
@@ -106,10 +101,10 @@ void ContactForces::storePoints()
 {
 	const int count = int(solver.islandCount());
 	books.assign(count, timber::PairEnergies());
-#pragma omp parallel for schedule(dynamic) if (count > 1)
-	for (int island = 0; island < count; ++island)
+	timber::forAllUnlike(count, 1, [this](int island) {
 		for (const int pair : solver.island(island))
 			storePoints(pair, books[island]);
+	});
 }
 
 void ContactForces::sumBooks()

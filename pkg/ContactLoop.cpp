@@ -3,11 +3,14 @@
 #include <ContactPhys.hpp>
 #include <Integrators.hpp>
 #include <bodies.hpp>
-#include <threads.hpp>
+#include <kernel/threads.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((ContactLoop));
+
+/// Pairs that a thread takes at a time: few for an even share, enough to outweigh the asking. [-]
+constexpr int pairShare = 16;
 
 namespace {
 	const CollisionTrigger* triggerOf(const Scene& scene)
@@ -64,18 +67,18 @@ void ContactLoop::look(Pair& pair, const CollisionTrigger& trigger) const
 	const shared_ptr<Interaction>& I = pair.interaction;
 	const Body &                   b1 = *(*scene->bodies)[pair.id1], &b2 = *(*scene->bodies)[pair.id2];
 	I->functorCache.geom->go(b1.shape, b2.shape, *b1.state, *b2.state, Vector3r::Zero(), false, I);
-	if (!I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
-	pair.shut = static_cast<ManifoldPhys*>(I->phys.get())->isIdle() ? static_cast<ManifoldGeom*>(I->geom.get())->gap - approach : 0;
+	const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
+	const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
+	const bool          law  = !geom.contactPoints.empty() || !phys.isIdle(); // else it does nothing until the collider runs
+	if (law && !I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
+	pair.shut = phys.isIdle() ? geom.gap - approach : 0;
 }
 
 void ContactLoop::action()
 {
 	const CollisionTrigger* trigger = triggerOf(*scene);
 	if (!isCurrent(trigger)) return lookAtAll(trigger);
-	const int count = int(pairs.size());
-#pragma omp parallel for schedule(guided) if (count > smallLoop)
-	for (int k = 0; k < count; ++k)
-		look(pairs[k], *trigger);
+	timber::forAllUnlike(int(pairs.size()), pairShare, [&](int k) { look(pairs[k], *trigger); });
 }
 
 } // namespace yade

@@ -2,8 +2,8 @@
 #include <Integrators.hpp>
 #include <bodies.hpp>
 #include <RoundedPolyhedron.hpp>
-#include <threads.hpp>
 #include <kernel/rotation.hpp>
+#include <kernel/threads.hpp>
 
 namespace yade {
 
@@ -19,27 +19,52 @@ namespace {
 	}
 }
 
-void SymplecticIntegrator::move(Body& b) const
+/// Velocity, place and angular momentum after the step.
+void SymplecticIntegrator::push(Body::id_t id, State& s) const
 {
 	const Real dt = scene->dt;
-	State&     s  = *b.state;
-	if (!isFree(s)) {
-		s.pos += dt * s.vel;
-		return;
+	if (isFree(s)) {
+		s.vel += dt / s.mass * unblocked(scene->forces.getForce(id), s.blockedDOFs, State::DOF_X);
+		s.angMom += dt * unblocked(scene->forces.getTorque(id), s.blockedDOFs, State::DOF_RX);
 	}
-	s.vel += dt / s.mass * unblocked(scene->forces.getForce(b.getId()), s.blockedDOFs, State::DOF_X);
 	s.pos += dt * s.vel;
-	s.angMom += dt * unblocked(scene->forces.getTorque(b.getId()), s.blockedDOFs, State::DOF_RX);
-	s.angVel = timber::freeRotation(s.ori, s.angMom, s.inertia, dt);
+}
+
+/// Orientations and angular velocities of up to as many bodies as a Number has lanes.
+template <class Number> void SymplecticIntegrator::turn(State* const* states, size_t count) const
+{
+	const auto all = [&](auto member) {
+		using Vector = std::remove_reference_t<decltype(member(**states))>;
+		return timber::Group<Number, Vector>(count, [&](size_t i) { return &member(*states[i]); });
+	};
+	const auto orientation = all([](State& s) -> auto& { return s.ori.coeffs(); });
+	const timber::Vec3Of<Number> momentum = all([](State& s) -> auto& { return s.angMom; }).vectors(), inertia = all([](State& s) -> auto& { return s.inertia; }).vectors();
+	timber::QuatOf<Number> turned(orientation.vectors());
+	all([](State& s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(turned, momentum, inertia, scene->dt));
+	orientation.set(turned.coeffs());
+}
+
+/// The bodies from the given id on, as many as there are lanes.
+void SymplecticIntegrator::move(Body::id_t first) const
+{
+	State* turning[timber::laneCount];
+	size_t count = 0;
+	const Body::id_t end = math::min(first + timber::laneCount, int(scene->bodies->size()));
+	for (Body::id_t id = first; id < end; ++id) {
+		const shared_ptr<Body>& b = (*scene->bodies)[id];
+		if (!b) continue;
+		push(id, *b->state);
+		if (isFree(*b->state)) turning[count++] = b->state.get();
+	}
+	if (count == 1) turn<double>(turning, count);
+	if (count > 1) turn<timber::Lanes>(turning, count);
 }
 
 void SymplecticIntegrator::action()
 {
 	scene->forces.sync();
-	const int count = int(scene->bodies->size());
-#pragma omp parallel for schedule(static) if (count > smallLoop)
-	for (int id = 0; id < count; ++id)
-		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) move(*b);
+	const int groups = int(timber::groupsOf(scene->bodies->size()));
+	timber::forAll(groups, [this](int group) { move(group * timber::laneCount); }, timber::laneCount);
 }
 
 CollisionTrigger::Motion CollisionTrigger::motionOf(const Body& b) const
@@ -53,9 +78,9 @@ bool CollisionTrigger::mayHaveLeft()
 {
 	const int count = int(scene->bodies->size());
 	motions.assign(count, { Vector3r::Zero(), 0 });
-#pragma omp parallel for schedule(static) if (count > smallLoop)
-	for (int id = 0; id < count; ++id)
+	timber::forAll(count, [this](int id) {
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
+	});
 	const auto isInside = [](const Motion& m, const Seen& then) { return m.way.norm() + m.turned < then.margin; };
 	return !std::equal(motions.begin(), motions.end(), seen.begin(), isInside);
 }

@@ -6,7 +6,9 @@
 namespace yade {
 
 class SymplecticIntegrator : public GlobalEngine {
-	void move(Body&) const;
+	void push(Body::id_t, State&) const;
+	template <class Number> void turn(State* const* states, size_t count) const;
+	void move(Body::id_t first) const;
 
 public:
 	void action() override;

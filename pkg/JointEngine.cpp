@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <JointEngine.hpp>
-#include <threads.hpp>
+#include <kernel/threads.hpp>
 
 namespace yade {
 
@@ -138,9 +138,9 @@ void JointEngine::stretchAll()
 {
 	const int count = int(joints.size());
 	pulls.assign(count, timber::JointPull());
-#pragma omp parallel for schedule(static) if (count > smallLoop)
-	for (int k = 0; k < count; ++k)
+	timber::forAll(count, [this](int k) {
 		if (!joints[k]->isFinished()) pulls[k] = pullOf(*joints[k]);
+	});
 }
 
 /// Breaks and sums in the order of the joints, so that threads change nothing.

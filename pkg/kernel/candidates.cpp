@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "candidates.hpp"
 #include "geometry.hpp"
+#include <limits>
 
 namespace timber {
 namespace {
@@ -20,14 +21,14 @@ namespace {
 		        , gap(g)
 		{
 			out.clear();
+			verticesA.reserve(p.a.core.vertices.size());
 			for (const Vec3& v : p.a.core.vertices)
-				verticesA.push_back({ p.toB<double>(v), motionAt(v) });
+				verticesA.push_back({ p.toB<double>(v), motionAt<double>(v) });
+			verticesB.reserve(p.b.core.vertices.size());
 			for (const Vec3& v : p.b.core.vertices) {
 				const Vec3 x = p.toA<double>(v);
-				verticesB.push_back({ x, motionAt(x) });
+				verticesB.push_back({ x, motionAt<double>(x) });
 			}
-			for (const Edge& e : p.b.core.edges)
-				edgesB.push_back({ p.rotation * e.along, p.rotation * e.outward, std::min(behindB(e.tail), behindB(e.head)) });
 		}
 		void faces()
 		{
@@ -42,10 +43,13 @@ namespace {
 		void othersThanFaces()
 		{
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
+			edgesB.reserve(groupsOf(b.edges.size()));
+			for (size_t first = 0; first < b.edges.size(); first += laneCount)
+				edgesB.push_back(placed(first));
 			for (size_t ea = 0; ea < a.edges.size(); ++ea) {
-				const double nearest = nearestAlongAxis(a.edges[ea]), reach = reachOf(a.edges[ea]);
-				for (size_t eb = 0; eb < b.edges.size(); ++eb)
-					if (nearest + edgesB[eb].behind <= reach) edgeEdge({ Meeting::EdgeEdge, int(ea), int(eb) }, a.edges[ea], b.edges[eb], edgesB[eb]);
+				const Lanes nearest = nearestAlongAxis(a.edges[ea]), reach = reachOf(a.edges[ea]);
+				for (const Edges& group : edgesB)
+					if (const auto on = nearest + group.behind <= reach; any(on)) edgesMeet(int(ea), group, on);
 			}
 			if (pair.patterns.vertexEdge) ignoredPatterns();
 		}
@@ -61,15 +65,34 @@ namespace {
 			double motion; ///< motionAt() there [m]
 		};
 		std::vector<Vertex> verticesA, verticesB;
-		struct Turned {
-			Vec3 along, outward; ///< frame of A
-			double behind; ///< how far the edge lies behind what of B is nearest to A along the axis [m]
+		/// laneCount edges of B, frame of A.
+		struct Edges {
+			size_t first; ///< their place among the edges of B
+			Vec3s tail, along, outward;
+			Lanes length;
+			Lanes behind; ///< how far the edge lies behind what of B is nearest to A along the axis; infinite in lanes to spare [m]
 		};
-		std::vector<Turned> edgesB;
+		std::vector<Edges> edgesB;
 
 		/// Bound of the relative motion near x (frame of A) while the cache holds. [m]
-		double motionAt(const Vec3& x) const { return cache.skin * std::max(1., (x - cache.centre).norm() / cache.region); }
+		template <class Number> Number motionAt(const Vec3Of<Number>& x) const
+		{
+			const Number away = Vec3Of<Number>(x - wide<Number>(cache.centre)).norm() / Number(cache.region);
+			return Number(cache.skin) * most(Number(1.), away);
+		}
 
+		Edges placed(size_t first) const
+		{
+			const std::vector<Edge>& edges = pair.b.core.edges;
+			const size_t count = edges.size() - first;
+			const Group<Lanes, const Edge> group(&edges[first], count);
+			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) { return &verticesB[edges[first + i].tail].place; }).vectors();
+			Edges all { first, tails, wide<Lanes>(pair.rotation) * group.get(&Edge::along), wide<Lanes>(pair.rotation) * group.get(&Edge::outward), group.get(&Edge::length),
+				std::numeric_limits<double>::infinity() };
+			for (size_t i = 0; i < laneCount && i < count; ++i)
+				setLane(all.behind, i, std::min(behindB(edges[first + i].tail), behindB(edges[first + i].head)));
+			return all;
+		}
 		double behindB(int vertex) const { return verticesB[vertex].place.dot(cache.axis) - (cache.farA + gap); }
 		/// Distance along the axis from the edge to what of B is nearest. [m]
 		double nearestAlongAxis(const Edge& ea) const
@@ -93,18 +116,28 @@ namespace {
 			if (h <= pair.touch() + x.motion && h >= -depth - x.motion && isOverFace<double>(face, x.place, flushTolerance + x.motion)) add(id, place, h <= x.motion);
 		}
 
-		void edgeEdge(FeatureId id, const Edge& ea, const Edge& eb, const Turned& turnedB)
+		/// An edge of A against edges of B, of which those that are `on` are near enough along the axis.
+		void edgesMeet(int edgeA, const Edges& b, Lanes::Mask on)
 		{
-			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &tailB = verticesB[eb.tail].place;
-			const Crossing<double> c = crossing<double>(tailA, ea.along, tailB, turnedB.along);
-			if (c.sine < steadySine) return nearlyParallel(id, ea, eb, c.sine);
-			const Vec3 place = tailA + c.alongA * ea.along;
-			const double motion = motionAt(place), range = std::max(pair.touch(), pair.depthLimit()) + motion;
-			const double slack = 3 * (motion + range * turn) / c.sine;
-			if (c.alongA < -slack || c.alongA > ea.length + slack || c.alongB < -slack || c.alongB > eb.length + slack) return;
-			const double distance = std::abs(c.across.dot(tailB - tailA));
-			const bool mayFace = c.across.dot(ea.outward) * c.across.dot(turnedB.outward) <= 3 * turn / c.sine;
-			if (distance <= range && mayFace) add(id, place, distance <= motion);
+			const Edge& ea = pair.a.core.edges[edgeA];
+			const Vec3s tail = wide<Lanes>(pair.a.core.vertices[ea.tail]), along = wide<Lanes>(ea.along);
+			const Lanes lengthA = ea.length;
+			const Crossing<Lanes> c = crossing<Lanes>(tail, along, b.tail, b.along);
+			const auto parallel = c.sine < Lanes(steadySine);
+			const Vec3s place = tail + c.alongA * along;
+			const Lanes motion = motionAt<Lanes>(place), range = Lanes(std::max(pair.touch(), pair.depthLimit())) + motion;
+			const Lanes slack = Lanes(3.) * (motion + range * Lanes(turn)) / c.sine;
+			const auto inside = [&](Lanes at, Lanes length) { return both(at >= -slack, at <= length + slack); };
+			const Lanes height = c.across.dot(Vec3s(b.tail - tail)), distance = most(height, -height);
+			const auto mayFace = c.across.dot(wide<Lanes>(ea.outward)) * c.across.dot(b.outward) <= Lanes(3 * turn) / c.sine;
+			const auto meet = both(both(inside(c.alongA, lengthA), inside(c.alongB, b.length)), both(distance <= range, mayFace));
+			for (size_t i = 0; i < laneCount; ++i) {
+				if (!lane(on, i)) continue;
+				const int edgeB = int(b.first + i);
+				const FeatureId id(Meeting::EdgeEdge, edgeA, edgeB);
+				if (lane(parallel, i)) nearlyParallel(id, ea, pair.b.core.edges[edgeB], lane(c.sine, i));
+				else if (lane(meet, i)) add(id, lane(place, i), lane(distance, i) <= lane(motion, i));
+			}
 		}
 		void nearlyParallel(FeatureId id, const Edge& ea, const Edge& eb, double sine)
 		{
@@ -138,7 +171,7 @@ namespace {
 		}
 		void within(FeatureId id, double distance, const Vec3& place)
 		{
-			const double motion = motionAt(place);
+			const double motion = motionAt<double>(place);
 			if (distance <= pair.touch() + motion + flushTolerance) add(id, place, distance <= motion);
 		}
 	};

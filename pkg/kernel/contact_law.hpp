@@ -98,7 +98,7 @@ template <class Number> Number shearEnergy(const Springs<Number>& s, const PairP
 
 /// Turns a tangential force with the contact: with the mean spin of the bodies, then into the plane normal to n.
 /// Its length stays.
-template <class Number> Vec3Of<Number> turned(const Vec3Of<Number>& shear, const Vec3& turn, const Vec3Of<Number>& normal)
+template <class Number> [[gnu::always_inline]] inline Vec3Of<Number> turned(const Vec3Of<Number>& shear, const Vec3& turn, const Vec3Of<Number>& normal)
 {
 	const Number length = shear.squaredNorm();
 	Vec3Of<Number> t = shear + wide<Number>(turn).cross(shear);

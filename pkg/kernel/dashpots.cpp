@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dashpots.hpp"
+#include "threads.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -309,12 +310,9 @@ int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 	findIslands(bodies);
 	awake.assign(bodies.size(), 0);
 	const int count = int(islandCount());
-	if (count == 1) return solveIsland(bodies, island(0), tolerance); // a parallel region costs as much as a contact, even on one thread
-	int done = 0;
-#pragma omp parallel for schedule(dynamic) reduction(max : done)
-	for (int k = 0; k < count; ++k)
-		done = std::max(done, solveIsland(bodies, island(k), tolerance));
-	return done;
+	std::vector<int> done(count, 0);
+	forAllUnlike(count, 1, [&](int k) { done[k] = solveIsland(bodies, island(k), tolerance); });
+	return done.empty() ? 0 : *std::max_element(done.begin(), done.end());
 }
 
 } // namespace timber

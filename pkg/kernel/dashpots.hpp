@@ -89,7 +89,8 @@ template <class RowX, class RowY, class Work> void forMembers(RowX& x, RowY& y, 
 
 /// Relative velocity of B against A at a point with the given arms. [m/s]
 template <class Number>
-Vec3Of<Number> relativeVelocity(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+[[gnu::always_inline]] inline Vec3Of<Number> relativeVelocity(
+        const Vec3Of<Number>& armA, const Vec3Of<Number>& armB, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
 {
 	return wide<Number>(vB) + wide<Number>(wB).cross(armB) - wide<Number>(vA) - wide<Number>(wA).cross(armA);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Several numbers worked on at once, one in each lane of the processor's vectors: the points of a contact, the springs of a
 /// joint. A lane does what the same formula does with a double, to the last bit; formulas are written once, for any Number.
+/// Between functions Lanes travel through memory: small ones that take and return many are inlined by force.
 #pragma once
 #include "types.hpp"
 #include <algorithm>
@@ -37,6 +38,7 @@ struct Lanes {
 	Lanes& operator+=(Lanes o) { return v += o.v, *this; }
 	Lanes& operator-=(Lanes o) { return v -= o.v, *this; }
 	Lanes& operator*=(Lanes o) { return v *= o.v, *this; }
+	Lanes& operator/=(Lanes o) { return v /= o.v, *this; }
 	friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
 	friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
 	friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
@@ -142,6 +144,13 @@ inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
 inline void setLane(Lanes& x, size_t i, double one) { x.v[i] = one; }
+/// work(number) of each lane.
+template <class Work> Lanes eachLane(Lanes x, Work work)
+{
+	for (int i = 0; i < laneCount; ++i)
+		x.v[i] = work(x.v[i]);
+	return x;
+}
 inline void setLane(Vec3s& v, size_t i, const Vec3& one)
 {
 	for (int c = 0; c < 3; ++c)
@@ -251,15 +260,20 @@ public:
 	{
 		return gathered([&](int i) { return double(*item[i]); });
 	}
-	[[gnu::always_inline]] Vec3s vectors() const
+	/// Vectors of any length.
+	[[gnu::always_inline]] auto vectors() const
 	{
-		const auto component = [&](int c) { return gathered([&](int i) { return (*item[i])[c]; }); };
-		return { component(0), component(1), component(2) };
+		constexpr int size = Item::RowsAtCompileTime;
+		Eigen::Matrix<Lanes, size, 1> all;
+		for (int c = 0; c < size; ++c)
+			all[c] = gathered([&](int i) { return (*item[i])[c]; });
+		return all;
 	}
-	[[gnu::always_inline]] void set(const Vec3s& x) const
+	template <int size> [[gnu::always_inline]] void set(const Eigen::Matrix<Lanes, size, 1>& x) const
 	{
 		for (int i = laneCount; i-- > 0;)
-			*item[i] = lane(x, i);
+			for (int c = 0; c < size; ++c)
+				(*item[i])[c] = lane(x[c], i);
 	}
 	/// A member of each.
 	template <class Class> [[gnu::always_inline]] Lanes get(double Class::*member) const
@@ -293,8 +307,8 @@ public:
 	{
 	}
 	double numbers() const { return double(item); }
-	const Vec3& vectors() const { return item; }
-	void set(const Vec3& x) const { item = x; }
+	const Item& vectors() const { return item; }
+	template <class Vector> void set(const Vector& x) const { item = x; }
 	template <class Value, class Class> const Value& get(Value Class::*member) const { return item.*member; }
 	template <class Value, class Class> void set(Value Class::*member, const Value& x) const { item.*member = x; }
 };

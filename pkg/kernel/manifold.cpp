@@ -4,6 +4,7 @@
 #include "geometry.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace timber {
@@ -238,14 +239,29 @@ namespace {
 		return { middle - half, pair.axis, pair.gap };
 	}
 
-	/// Gap between the bodies on the axis on which the cores were apart at the last search: if it is there, the pair does not
-	/// touch, the usual case of one that has parted a little. Any axis may say so. A flush support reaches beyond a border, at a
-	/// corner by sqrt(2) times its tolerance. [m]
-	double knownGap(const Pair& pair, const CandidateCache& cache)
+	/// Gap of the cores on the axis that the cache knows: if it is there, they are apart. Any axis may say so. [m]
+	double gapAlongKnownAxis(const Pair& pair, const CandidateCache& cache)
 	{
-		if (!cache.searched()) return 0;
-		const double nearB = extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis);
-		return std::max(0., nearB - cache.farA - pair.touch() - 2 * flushTolerance);
+		if (!cache.searched()) return -std::numeric_limits<double>::infinity();
+		return extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis) - cache.farA;
+	}
+
+	/// What of the cores' gap is left to the bodies before points may exist. A flush support reaches beyond a border, at a
+	/// corner by sqrt(2) times its tolerance. [m]
+	double freeWay(const Pair& pair, double gap) { return std::max(0., gap - pair.touch() - 2 * flushTolerance); }
+
+	/// The pair has no points: looks, now and then, for a face whose normal shows how far it is apart. Returns its freeWay(). [m]
+	double seekAxis(const Pair& pair, CandidateCache& cache)
+	{
+		if (cache.uses % axisUses != axisUses / 2) return 0;
+		Vec3 axis;
+		const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, axis, -std::numeric_limits<double>::infinity());
+		const double way = freeWay(pair, gap);
+		if (way > 0) {
+			cache.axis = axis;
+			cache.farA = extent(pair.a.core, axis).second;
+		}
+		return way;
 	}
 
 	/// Candidates for the pair's placement: fewer where it is about as far from that of the search as quietSteps uses ago.
@@ -276,9 +292,9 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	points.clear();
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
-	if (const double gap = touched ? 0 : knownGap(pair, cache); gap > 0) return gap; // what has touched will most likely touch
+	if (const double way = touched ? 0 : freeWay(pair, gapAlongKnownAxis(pair, cache)); way > 0) return way; // what has touched will most likely touch
 	refresh(cache, pair);
-	if (cache.coresMayMeet) lookForOverlap(pair);
+	if (cache.coresMayMeet && gapAlongKnownAxis(pair, cache) < flushTolerance) lookForOverlap(pair);
 
 	Points found(pair, turnA, poseA.position, points);
 	const FeatureId* const end = cache.candidates.data() + cache.candidates.size();
@@ -289,7 +305,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	}
 	const FeatureId cores { Meeting::CoreCore, 0, 0 };
 	if (points.empty() && pair.deep()) found.add(&cores, 1, true, meetCores(pair));
-	return 0;
+	return points.empty() ? seekAxis(pair, cache) : 0;
 }
 
 } // namespace timber

@@ -31,7 +31,7 @@ struct Pair {
 
 /// Two lines: sine of their angle, parameters of the closest points along the unit directions.
 template <class Number> struct Crossing {
-	Number sine; ///< where it is below parallelSine nothing else is known
+	Number sine; ///< where it is below parallelSine the rest is of no use
 	Number alongA, alongB; ///< [m]
 	Vec3Of<Number> across; ///< unit, perpendicular to both
 };
@@ -42,7 +42,6 @@ template <class Number> Crossing<Number> crossing(const Vec3Of<Number>& originA,
 	const Vec3Of<Number> n = alongA.cross(alongB);
 	const Number square = n.squaredNorm();
 	c.sine = root(square);
-	if (!any(c.sine >= Number(parallelSine))) return c;
 	c.across = n / c.sine;
 	const Vec3Of<Number> w = originB - originA;
 	c.alongA = w.cross(alongB).dot(n) / square;

@@ -11,7 +11,7 @@ namespace {
 	/// Relative motion at a contact point, from the velocities that led to the present placement. They belong to the middle of
 	/// the last step, and so do the arms: with those of now, a pair that turns as a whole would seem to slide, by h/2 omega^2 per
 	/// metre between the centres.
-	template <class Number> PointMotion<Number> motionAt(const Vec3Of<Number>& x, const BodyMotion& a, const BodyMotion& b, double h)
+	template <class Number> [[gnu::always_inline]] inline PointMotion<Number> motionAt(const Vec3Of<Number>& x, const BodyMotion& a, const BodyMotion& b, double h)
 	{
 		const auto velocity = [&](const BodyMotion& body) {
 			const Vec3Of<Number> arm = x - wide<Number>(body.position), spin = wide<Number>(body.spin);

@@ -1,31 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Torque-free rotation of a rigid body.
+/// Torque-free rotation of rigid bodies.
 #pragma once
-#include "types.hpp"
+#include "lanes.hpp"
 #include <cmath>
 #include <utility>
 
 namespace timber {
 
+inline double sine(double x) { return std::sin(x); }
+inline double cosine(double x) { return std::cos(x); }
+inline Lanes sine(Lanes x) { return eachLane(x, [](double one) { return std::sin(one); }); }
+inline Lanes cosine(Lanes x) { return eachLane(x, [](double one) { return std::cos(one); }); }
+
 /// Sine and cosine; by their series, exact to rounding, where they are short.
-inline std::pair<double, double> sineCosine(double x)
+template <class Number> std::pair<Number, Number> sineCosine(Number x)
 {
-	if (std::abs(x) > 0.02) return { std::sin(x), std::cos(x) };
-	const double y = x * x;
-	return { x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42))), 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56))) };
+	const Number one = 1., y = x * x;
+	const auto isLong = either(x > Number(0.02), x < Number(-0.02));
+	const auto over = [y](double divisor) { return Number(y / Number(divisor)); };
+	const auto shortSine = [&] { return Number(x * (one - over(6) * (one - over(20) * (one - over(42))))); };
+	const auto shortCosine = [&] { return Number(one - over(2) * (one - over(12) * (one - over(30) * (one - over(56))))); };
+	return { chosen(isLong, [x] { return sine(x); }, shortSine), chosen(isLong, [x] { return cosine(x); }, shortCosine) };
 }
 
+template <class Number> using QuatOf = Eigen::Quaternion<Number>;
+
 /// Turns the orientation about its own principal axis by `angle` [rad].
-template <int axis> void turnAbout(Quat& orientation, Vec3& bodyMomentum, double angle)
+template <int axis, class Number> void turnAbout(QuatOf<Number>& orientation, Vec3Of<Number>& bodyMomentum, Number angle)
 {
 	constexpr int j = (axis + 1) % 3, k = (axis + 2) % 3;
-	const auto [halfS, halfC] = sineCosine(angle / 2);
-	const double c = halfC * halfC - halfS * halfS, s = 2 * halfS * halfC;
-	const double mj = bodyMomentum[j], mk = bodyMomentum[k];
+	const auto [halfS, halfC] = sineCosine<Number>(angle / Number(2.));
+	const Number c = halfC * halfC - halfS * halfS, s = Number(2.) * halfS * halfC;
+	const Number mj = bodyMomentum[j], mk = bodyMomentum[k];
 	bodyMomentum[j] = c * mj + s * mk;
 	bodyMomentum[k] = c * mk - s * mj;
 	auto& q = orientation.coeffs(); // x, y, z, w; from the right by (halfC, halfS along the axis)
-	const double qw = q[3], qi = q[axis], qj = q[j], qk = q[k];
+	const Number qw = q[3], qi = q[axis], qj = q[j], qk = q[k];
 	q[3] = qw * halfC - qi * halfS;
 	q[axis] = qi * halfC + qw * halfS;
 	q[j] = qj * halfC + qk * halfS;
@@ -36,16 +46,17 @@ template <int axis> void turnAbout(Quat& orientation, Vec3& bodyMomentum, double
 /// (Dullweber, Leimkuhler, McLachlan 1997, J. Chem. Phys. 107, 5840, section III). Second order; |L| and L are kept.
 /// orientation: body to world, in-out. momentum L: world [kg m2/s]. inertia: principal [kg m2]. Returns the angular
 /// velocity after the step, world [rad/s].
-inline Vec3 freeRotation(Quat& orientation, const Vec3& momentum, const Vec3& inertia, double h)
+template <class Number> Vec3Of<Number> freeRotation(QuatOf<Number>& orientation, const Vec3Of<Number>& momentum, const Vec3Of<Number>& inertia, double h)
 {
-	const Vec3 inverse = inertia.cwiseInverse();
-	Vec3 body = orientation.conjugate() * momentum;
-	turnAbout<0>(orientation, body, h / 2 * body[0] * inverse[0]);
-	turnAbout<1>(orientation, body, h / 2 * body[1] * inverse[1]);
-	turnAbout<2>(orientation, body, h * body[2] * inverse[2]);
-	turnAbout<1>(orientation, body, h / 2 * body[1] * inverse[1]);
-	turnAbout<0>(orientation, body, h / 2 * body[0] * inverse[0]);
-	orientation.normalize();
+	const Number whole = h, half = h / 2;
+	const Vec3Of<Number> inverse = inertia.cwiseInverse();
+	Vec3Of<Number> body = orientation.conjugate() * momentum;
+	turnAbout<0, Number>(orientation, body, half * body[0] * inverse[0]);
+	turnAbout<1, Number>(orientation, body, half * body[1] * inverse[1]);
+	turnAbout<2, Number>(orientation, body, whole * body[2] * inverse[2]);
+	turnAbout<1, Number>(orientation, body, half * body[1] * inverse[1]);
+	turnAbout<0, Number>(orientation, body, half * body[0] * inverse[0]);
+	orientation.coeffs() /= root(orientation.squaredNorm());
 	return orientation * body.cwiseProduct(inverse).eval();
 }
 

@@ -5,6 +5,7 @@
 #include <kernel/geometry.hpp>
 #include <kernel/joint_law.hpp>
 #include <kernel/pair_points.hpp>
+#include <kernel/rotation.hpp>
 
 using namespace timber;
 using namespace timber::shapes;
@@ -239,6 +240,31 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 			EXPECT_EQ(pull.sum, wanted.sum);
 			EXPECT_EQ(pull.largest, wanted.largest);
 		}
+}
+
+/// Bodies of all shapes, slow ones beside those that turn so fast that the series do not do.
+TEST(LanesOfBodies, FreeRotationIsThatOfEachBody)
+{
+	Random random(6);
+	for (int trial = 0; trial < 2000; ++trial) {
+		std::vector<Vec3> momenta(laneCount), inertias(laneCount);
+		std::vector<Eigen::Vector4d> orientations(laneCount);
+		for (int i = 0; i < laneCount; ++i) {
+			inertias[i] = 2 * Vec3::Ones() + randomVector(random, 1.9);
+			momenta[i] = randomVector(random, std::pow(10, uniform(random, -3, 3)));
+			orientations[i] = randomRotation(random).coeffs();
+		}
+		const double h = 1e-3;
+		QuatOf<Lanes> turned(Group<Lanes, const Eigen::Vector4d>(orientations.data(), laneCount).vectors());
+		const Vec3s spin = freeRotation<Lanes>(turned, Group<Lanes, const Vec3>(momenta.data(), laneCount).vectors(), Group<Lanes, const Vec3>(inertias.data(), laneCount).vectors(), h);
+		for (int i = 0; i < laneCount; ++i) {
+			Quat one(orientations[i]);
+			EXPECT_EQ(lane(spin, i), freeRotation<double>(one, momenta[i], inertias[i], h)) << trial;
+			EXPECT_NE(one.coeffs(), orientations[i]);
+			for (int c = 0; c < 4; ++c)
+				EXPECT_EQ(lane(turned.coeffs()[c], i), one.coeffs()[c]) << trial;
+		}
+	}
 }
 
 /// Points in and around a face, also beyond a sharp tip.

@@ -163,6 +163,25 @@ TEST(CandidateCache, PairsThatSettled)
 }
 
 /// A placement that is no number spoils its own step only.
+/// A cube above another slides past its edge and down: the axis of the search no longer shows the gap, and is replaced within axisUses.
+TEST(CandidateCache, APairThatSlidPastAnEdgeGetsANewAxis)
+{
+	const auto cube = roundedBox({ 1, 1, 1 });
+	const double above = 1e-3, beside = 1.5e-3;
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	const auto gapAt = [&](double x, double z) { return updateManifold(cube, cube, {}, { { x, 0, z }, Quat::Identity() }, {}, cache, points); };
+	gapAt(0.998, 1 + above);
+	EXPECT_NEAR(gapAt(0.998, 1 + above), above - 2 * flushTolerance, 1e-15);
+	EXPECT_EQ(gapAt(1 + beside, 0.9995), 0);
+	double gap = 0;
+	for (int use = 0; use < axisUses; ++use)
+		gap = gapAt(1 + beside, 0.9995);
+	EXPECT_NEAR(gap, beside - 2 * flushTolerance, 1e-15);
+	EXPECT_EQ(gapAt(0.5, 0.9995), 0);
+	EXPECT_FALSE(points.empty());
+}
+
 TEST(CandidateCache, APlacementThatIsNoNumberIsForgotten)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
