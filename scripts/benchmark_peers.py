@@ -62,11 +62,12 @@ def kernel_rows(repetitions):
     """Rows of the C++ program."""
     if not PROGRAM.exists():
         sys.exit(f"error: {PROGRAM} is missing: scripts/setup --with-bench builds it")
-    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1"]
+    in_turns = "--benchmark_enable_random_interleaving=true"  # a noisy second hits all
+    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", in_turns]
     found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
     median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
     rows = []
-    for b in median:
+    for b in sorted(median, key=lambda b: b["family_index"]):
         who, pair = b["run_name"].split("/", 1)
         rows.append((who, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"], b["depth_error"]))
     return rows

@@ -39,9 +39,9 @@ constexpr double quietSkin = candidateSkin / 20;
 constexpr int quietSteps = 100;
 static_assert(quietSkin * quietSkin > 2 * flushTolerance * flushTolerance, "a skin covers what a flush support reaches beyond a corner");
 
-/// How often a pair that is near but has no points is asked whether an axis shows it to be apart: once in so many uses. Such an axis
-/// spares the pair until it has moved that far, some ten uses or more. Results do not depend on it. [-]
-constexpr int axisUses = 8;
+/// How often a pair that is near but has no points is asked whether an axis shows it to be apart: once in so many uses. Asking costs
+/// some five uses, and many such pairs are not apart (only patterns that are left out meet). Results do not depend on it. [-]
+constexpr int axisUses = 24;
 
 /// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; as candidates they are judged by distance alone. [-]
 /// Larger: more candidates; smaller: crossings shift by more than the first order that the search allows for. Results do not depend on it.

@@ -60,6 +60,7 @@ namespace {
 double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double enough)
 {
 	std::vector<Vec3> placed;
+	placed.reserve(b.vertices.size());
 	for (const Vec3& v : b.vertices)
 		placed.push_back(rotation * v + translation);
 	Widest widest(a.vertices, placed);
