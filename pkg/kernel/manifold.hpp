@@ -61,7 +61,7 @@ struct CandidateCache {
 	int uses = 0; ///< since the search, but for those that ended at the known gap
 	double motionThen = 0; ///< motion() at the last look whether the pair keeps still [m]
 	bool coresMayMeet = false; ///< cores may overlap within the margin
-	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart at the search
+	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart, at the search or when they were last looked at for it
 	double farA = 0; ///< how far A reaches along it [m]
 
 	bool searched() const { return margin >= 0; }
