@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Several numbers worked on at once, one in each lane of the processor's vectors: the points of a contact, the springs of a
-/// joint. A lane does what the same formula does with a double, to the last bit; formulas are written once, for any Number.
+/// joint, bodies that turn. A lane does what the same formula does with a double, to the last bit; formulas are written once, for any Number.
 /// Between functions Lanes travel through memory: small ones that take and return many are inlined by force.
 #pragma once
 #include "types.hpp"
@@ -144,17 +144,18 @@ inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
 inline void setLane(Lanes& x, size_t i, double one) { x.v[i] = one; }
+inline void setLane(Vec3s& v, size_t i, const Vec3& one)
+{
+	for (int c = 0; c < 3; ++c)
+		setLane(v[c], i, one[c]);
+}
+
 /// work(number) of each lane.
 template <class Work> Lanes eachLane(Lanes x, Work work)
 {
 	for (int i = 0; i < laneCount; ++i)
 		x.v[i] = work(x.v[i]);
 	return x;
-}
-inline void setLane(Vec3s& v, size_t i, const Vec3& one)
-{
-	for (int c = 0; c < 3; ++c)
-		setLane(v[c], i, one[c]);
 }
 
 /// Turns laneCount Lanes about: the k-th gets the k-th lane of each.

@@ -294,7 +294,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
 	if (const double way = touched ? 0 : freeWay(pair, gapAlongKnownAxis(pair, cache)); way > 0) return way; // what has touched will most likely touch
 	refresh(cache, pair);
-	if (cache.coresMayMeet && gapAlongKnownAxis(pair, cache) < flushTolerance) lookForOverlap(pair);
+	if (cache.coresMayMeet && gapAlongKnownAxis(pair, cache) < flushTolerance) lookForOverlap(pair); // apart by far more than rounding: not deep
 
 	Points found(pair, turnA, poseA.position, points);
 	const FeatureId* const end = cache.candidates.data() + cache.candidates.size();
