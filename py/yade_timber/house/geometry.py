@@ -50,9 +50,14 @@ class Polyhedron:
         return [_face(self.vertices[sorted(indices)], equation[:3]) for equation, indices in groups]
 
     @cached_property
+    def face_normals(self):
+        """(n, 3) normals of `faces`."""
+        return np.array([face.normal for face in self.faces])
+
+    @cached_property
     def normals(self):
         """(n, 3) face normals without parallel repeats."""
-        return unique_directions(np.array([face.normal for face in self.faces]))
+        return unique_directions(self.face_normals)
 
     @cached_property
     def edge_directions(self):
@@ -103,11 +108,8 @@ def plane_axes(normal):
 
 def unique_directions(vectors):
     """Unit vectors (n, 3) without those parallel (either sense) to an earlier one."""
-    kept = []
-    for vector in vectors:
-        if not any(np.linalg.norm(np.cross(vector, other)) < SAME for other in kept):
-            kept.append(vector)
-    return np.array(kept)
+    sines = np.linalg.norm(np.cross(vectors[:, None], vectors), axis=2)
+    return vectors[~np.tril(sines < SAME, -1).any(1)]
 
 
 def box(low, high):
@@ -173,13 +175,13 @@ def contact_polygon(a, b, tolerance):
     Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
     """
     best = None
-    for face_a in a.faces:
-        for face_b in b.faces:
-            if face_a.normal @ face_b.normal > -1 + SAME or np.abs(face_b.points @ face_a.normal - face_a.offset).max() > tolerance:
-                continue
-            polygon, area = _face_overlap(face_a, face_b)
-            if area > 0 and (best is None or area > best[2]):
-                best = polygon, face_a.normal, area
+    for i, j in np.argwhere(a.face_normals @ b.face_normals.T <= -1 + SAME):
+        face_a, face_b = a.faces[i], b.faces[j]
+        if np.abs(face_b.points @ face_a.normal - face_a.offset).max() > tolerance:
+            continue
+        polygon, area = _face_overlap(face_a, face_b)
+        if area > 0 and (best is None or area > best[2]):
+            best = polygon, face_a.normal, area
     return best
 
 
