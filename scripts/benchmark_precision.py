@@ -237,8 +237,8 @@ def draw(rows, file):
             if points:
                 axis.loglog(*zip(*[p[:2] for p in points]), marker=mark, ms=5, lw=1, label=variant)
                 if variant == "default":
-                    for spent, e, dt in points:
-                        axis.annotate(f"{dt:g}", (spent, e), textcoords="offset points", xytext=(5, 4), fontsize=7)
+                    for k, (spent, e, dt) in enumerate(points):
+                        axis.annotate(f"{dt:g}", (spent, e), textcoords="offset points", xytext=((5, 4), (-12, -11))[k % 2], fontsize=7)
         axis.axhline(WANTED, color="0.5", lw=0.8, ls="--")
         axis.set(title=case, xlabel="run time [s]", ylabel="error [-]")
         axis.grid(alpha=0.3)
@@ -284,8 +284,9 @@ def section(rows, stable, kept, options):
     table = "" if options.no_limits else stable_section(stable, kept)
     return (
         f"## Error against run time\n\n![error against run time](precision.png)\n\nErrors against the reference at the smallest step, largest difference over largest value. {machine()}.\n\n"
-        f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {WANTED:g} [s]'), judged)}{table}\n"
-        f"### All runs\n\n{markdown_table(HEADS, shown)}"
+        f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {WANTED:g} [s]'), judged)}"
+        "\nThe impact is of a cube that comes down on one corner after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s). It asks for a tenth of the default step; drifts of houses and forces in their joints do not.\n"
+        f"{table}\n### All runs\n\n{markdown_table(HEADS, shown)}"
     )
 
 
