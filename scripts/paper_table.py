@@ -4,7 +4,7 @@
 
     scripts/paper_table.py [--out results] [--jobs 2] [--record PREFIX | --seed N] [--scale X] [--dt S] [--duration S]
 
-A run is there when its folder holds a summary.json made with the same options; otherwise it is done, or done again. Writes claims.md, claims.csv and claims.json.
+A run is there when its folder holds a summary.json made from the same options, files and state of this package; otherwise it is done, or done again. Writes claims.md, claims.csv and claims.json.
 Needs no YADE itself.
 """
 import argparse

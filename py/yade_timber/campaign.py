@@ -10,9 +10,10 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-FAILURE, SUMMARY, CHECKPOINT = "failed.txt", "summary.json", "checkpoint.yade"
+from .provenance import made_from
 
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+FAILURE, SUMMARY = "failed.txt", "summary.json"
 
 MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
 """Options of the run scripts that runs without an earthquake refuse."""
@@ -28,10 +29,10 @@ class Task:
 
     @property
     def summary(self):
-        """Content of summary.json, or None when the run has not been done with these options."""
+        """Content of summary.json, or None when the run has not been done, or was made from something else (see provenance)."""
         path = self.folder / SUMMARY
         found = json.loads(path.read_text()) if path.is_file() else {}
-        return found if found.get("options") == [str(word) for word in self.options] else None
+        return found if found.get("made_from") == made_from(self.options) else None
 
 
 def add_arguments(parser, folder):
@@ -66,8 +67,8 @@ def chosen(text, known, option):
 def run_missing(tasks, jobs=None, scripts=SCRIPTS, say=print):
     """Do the tasks that have no results yet, `jobs` at a time (default: all cores). Returns {task: summary or None}.
 
-    A run that was stopped goes on from its checkpoint; one that was done with other options is done again; one that fails leaves its last
-    words in failed.txt, and the others go on.
+    A run that was stopped goes on from its checkpoint; one that was made from other options, files or another state of this package is done
+    again; one that fails leaves its last words in failed.txt, and the others go on.
     """
     missing = [task for task in tasks if task.summary is None]
     if missing:
@@ -81,14 +82,14 @@ def run_missing(tasks, jobs=None, scripts=SCRIPTS, say=print):
 def _run(task, scripts):
     """Do one run; returns what became of it in a line."""
     task.folder.mkdir(parents=True, exist_ok=True)
-    again = (task.folder / SUMMARY).exists()  # of other options, and so is its checkpoint
-    for name in (FAILURE, *((SUMMARY, CHECKPOINT) if again else ())):
+    again = (task.folder / SUMMARY).exists()
+    for name in (FAILURE, SUMMARY):
         (task.folder / name).unlink(missing_ok=True)
-    words = [*command(scripts / f"{task.script}.py"), "--out", str(task.folder), "--no-views", "--quiet", "--resume", *map(str, task.options)]
+    words = [*command(scripts / f"{task.script}.py"), "--out", str(task.folder), "--no-views", "--quiet", "--resume", "--or-anew", *map(str, task.options)]
     since = time.monotonic()
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
     if done.returncode == 0:
-        return f"done{' again, with these options,' if again else ''} in {time.monotonic() - since:.0f} s"
+        return f"done{' again (other options, files or package)' if again else ''} in {time.monotonic() - since:.0f} s"
     (task.folder / FAILURE).write_text(done.stderr)
     return f"failed: {done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f'exit status {done.returncode}'}"
 

@@ -12,6 +12,7 @@ import yade.wrapper as yw
 
 from .errors import RunError
 from .files import written_whole
+from .provenance import package
 
 NAME = "checkpoint.yade"
 O = yw.Omega()
@@ -29,13 +30,13 @@ def digest(*arrays):
 def identity(scenario, model, version):
     """What must agree between a checkpoint and the run that goes on from it: {property: value as JSON gives it back}.
 
-    The scenario's fingerprint, the house as built (geometry, stiffness and strength of the joints, materials, laws), the package's version.
+    The scenario's fingerprint, the house as built (geometry, stiffness and strength of the joints, materials, laws), the package's version and files.
     """
     elements = digest(*(e.vertices for e in model.elements))
     joints = digest(*(j.points for j in model.joints))
     values = [[j.kn, j.ks, j.strength, j.per, j.broken] for j in model.joints]
     known = {**scenario.fingerprint(), "elements": elements, "joints": joints, "joint values": _text_digest(values)}
-    known |= {"materials": _text_digest([model.materials, model.friction]), "law": _text_digest(model.law), "version": version}
+    known |= {"materials": _text_digest([model.materials, model.friction]), "law": _text_digest(model.law), "version": version, "package": package()}
     return json.loads(json.dumps(known))
 
 

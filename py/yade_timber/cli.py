@@ -27,6 +27,7 @@ class Output:
 
     folder: Path
     resume: bool = False
+    or_anew: bool = False  # where the checkpoint does not fit
     views: bool = True
     frames: bool = True  # no views without them
     export: Path = None
@@ -47,10 +48,11 @@ def parser(script):
     made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], at most {MAX_DT:g} (default {DEFAULT_DT:g})")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true", help="go on from the last checkpoint in the folder of the results, if there is one")
+    made.add_argument("--or-anew", action="store_true", help="with --resume: start anew where the checkpoint is damaged or of another run, instead of refusing it")
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
     made.add_argument("--no-views", action="store_true", help="make no pictures; scripts/show_run.py makes them later from the recorded frames")
     made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
-    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
+    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: without computing anything)")
     made.add_argument("--every-step", action="store_true", help="compute rest, too: by default the time in which the house rests and the ground is quiet is skipped")
     made.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_motion_options(made)
@@ -67,7 +69,7 @@ def house_parser():
     return made
 
 
-OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "--no-views": 0, "--no-frames": 0, "--quiet": 0}
+OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "--or-anew": 0, "--no-views": 0, "--no-frames": 0, "--quiet": 0}
 """Options that change nothing in a run, and how many values each has."""
 
 
@@ -110,7 +112,7 @@ def _run(given, name, house, earthquake, depth, remedy, words):
     folder = Path(given.out) if given.out else Path("results") / name
     export = Path(given.export) if given.export else None
     return scenario, Output(
-        folder, given.resume, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint, decisive(words)
+        folder, given.resume, given.or_anew, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint, decisive(words)
     )
 
 

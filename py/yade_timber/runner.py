@@ -8,6 +8,8 @@ import signal
 import sys
 import threading
 import time
+from contextlib import ExitStack
+from dataclasses import replace
 
 import yade.runtime
 import yade.wrapper as yw
@@ -19,6 +21,7 @@ from .house import HouseError, build_house, load_house
 from .lock import locked
 from .motion import RecordError
 from .progress import Progress
+from .provenance import made_from
 from .recorder import Recorder
 from .scenario import build
 from .words import sentence
@@ -45,8 +48,9 @@ class Run:
         self.last_saved = None  # step of the last checkpoint
         self.signal = None
         self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
-        resumed = output.resume and self.checkpoint_path.exists()
-        self._load() if resumed else self._start()
+        resumed = output.resume and self.checkpoint_path.exists() and self._load()
+        if not resumed:
+            self._start()
         skipper = scene.find_engine(yw.RestSkipper)
         if skipper:
             skipper.last = self.steps
@@ -64,22 +68,32 @@ class Run:
         if self.recorder:
             self.recorder.take(O.time)
         if self.output.resume:
-            self.say(f"no checkpoint in {self.output.folder}: starting from the beginning")
+            self.say(f"no checkpoint of this run in {self.output.folder}: starting from the beginning")
 
     def _load(self):
-        """Go on from the checkpoint."""
+        """Go on from the checkpoint; returns whether it could be done. Raises RunError when it could not, unless the run may start anew."""
         self.model = build_house(load_house(self.scenario.house), snow_depth=self.scenario.snow_depth)
         self.identity = self._identity()
-        self.wall_s = checkpoint.load(self.checkpoint_path, self.identity)
-        if O.iter >= self.steps:
-            raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; ask for more")
+        try:
+            self.wall_s = checkpoint.load(self.checkpoint_path, self.identity)
+            if O.iter >= self.steps:
+                raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; ask for more")
+        except RunError:
+            if not self.output.or_anew:
+                raise
+            self.wall_s = 0.0
+            return False
         self.last_saved = O.iter
+        if self.output.frames and not self.frames_path.exists():
+            self.output = replace(self.output, frames=False, views=False)
+            print(f"note: no frames of the first {O.time:.2f} s were recorded, and so none of the rest are", file=sys.stderr)
         self.recorder = self._recorder()
-        if self.recorder and self.frames_path.exists():
+        if self.recorder:
             self.recorder.restore(self.frames_path)
             self.recorder.save(self.frames_path)  # an earlier end is none any more
         self._clear(*([] if self.recorder else [frames.NAME]))
         self.say(f"going on from {O.time:.2f} s")
+        return True
 
     def _clear(self, *more):
         """Remove results of an earlier run and other files, so that nothing in the folder passes for this run's."""
@@ -166,7 +180,7 @@ class Run:
     def write(self):
         """Write results and pictures of the scene as it is now, and say so."""
         folder = self.output.folder
-        found = {**results.summary(self.scenario, self.model, self.wall_s), "options": list(self.output.options)}
+        found = {**results.summary(self.scenario, self.model, self.wall_s), "made_from": made_from(self.output.options)}
         written = []
         if self.recorder:
             self.recorder.take(O.time, last=True)
@@ -187,10 +201,14 @@ class Run:
 
     # --- live ---------------------------------------------------------------------------------------------------------
 
-    def start(self):
-        """Run in the background, in the viewer where there is a display; the results follow when the last step is done, however often the run is paused."""
+    def start(self, hold):
+        """Run in the background, in the viewer where there is a display; the results follow when the last step is done, however often the run is paused.
+
+        hold: of the folder's lock (ExitStack), closed when the results are written.
+        """
+        self._hold = hold
         if O.iter >= self.steps:
-            self.write()
+            self._end()
             return
         viewer.show()
         self._since = time.perf_counter()
@@ -212,7 +230,11 @@ class Run:
             time.sleep(0.5)
         O.wait()
         self.wall_s += time.perf_counter() - self._since
-        self.write()
+        self._end()
+
+    def _end(self):
+        with self._hold:
+            self.write()
 
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
@@ -254,11 +276,11 @@ def launch(read, argv=None):
         scenario, output = read(sys.argv if argv is None else argv)
         live = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
         cli.prepare_folder(output.folder)
-        with locked(output.folder) as free:
-            if not free:
+        with ExitStack() as hold:
+            if not hold.enter_context(locked(output.folder)):
                 raise RunError(f"{output.folder}: another process is computing a run there; wait for it, or choose another folder with --out")
             run = Run(scenario, output)
-            run.start() if live else run.complete()
+            run.start(hold.pop_all()) if live else run.complete()
     except (RunError, RecordError, HouseError) as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:

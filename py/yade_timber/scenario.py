@@ -2,6 +2,7 @@
 """From a house and a ground motion to a scene in YADE. Knows nothing of houses A, B, C: they are files."""
 from dataclasses import dataclass, field
 from hashlib import sha256
+from pathlib import Path
 
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
@@ -36,11 +37,11 @@ class Scenario:
     options: dict = field(default_factory=dict)  # of scene.engines
 
     def fingerprint(self):
-        """What a checkpoint must agree with to go on: everything that decides the run but its duration."""
+        """What a checkpoint must agree with to go on: everything that decides the run but its duration. A house file may have moved: its content is compared as built."""
         motion = self.motion and [self.motion.name, self.motion.dt, sha256(self.motion.acceleration.tobytes()).hexdigest()[:16]]
         return {
             "name": self.name,
-            "house": str(self.house),
+            "house": Path(self.house).stem,
             "motion": motion,
             "snow_depth": self.snow_depth,
             "scale": self.scale,

@@ -8,8 +8,9 @@ import runpy
 import sys
 
 import pytest
-from yade_timber import campaign, claims, claims_table, readings
+from yade_timber import campaign, claims, claims_table, provenance, readings
 from yade_timber.house import build_house, load_house
+from yade_timber.provenance import made_from
 from yade_timber.readings import READINGS, Reading, merged, write_house
 
 
@@ -128,9 +129,10 @@ def fake_script(folder, body):
 
 
 WRITES = """import sys, json, pathlib
+from yade_timber.provenance import made_from
 folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
 words = sys.argv[1:]
-(folder / 'summary.json').write_text(json.dumps({'words': words, 'options': words[words.index('--resume') + 1:]}))
+(folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[words.index('--or-anew') + 1:])}))
 """
 
 
@@ -140,23 +142,37 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
     tasks = [campaign.Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
     tasks[2].folder.mkdir()
-    (tasks[2].folder / "summary.json").write_text('{"old": 1, "options": []}')
+    old = {"old": 1, "made_from": made_from(())}
+    (tasks[2].folder / "summary.json").write_text(json.dumps(old))
     said = []
     done = campaign.run_missing(tasks, 2, scripts, said.append)
     assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
     assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
-    assert done[tasks[2]] == {"old": 1, "options": []} and said[0] == "2 of 3 runs to do"
+    assert done[tasks[2]] == old and said[0] == "2 of 3 runs to do"
 
 
-def test_results_of_other_options_are_not_taken(tmp_path, monkeypatch):
-    """Nor the checkpoint beside them."""
+def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
+    """Other options, another house file, another file that it extends, another record, another state of the package."""
     monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
     scripts, said = fake_script(tmp_path, WRITES), []
-    campaign.run_missing([campaign.Task("run", tmp_path / "a", ("--seed", 1))], 1, scripts, said.append)
-    (tmp_path / "a" / "checkpoint.yade").touch()
-    other = campaign.Task("run", tmp_path / "a", ("--seed", 2))
-    assert campaign.run_missing([other], 1, scripts, said.append)[other]["options"] == ["--seed", "2"]
-    assert "done again" in said[-1] and not (tmp_path / "a" / "checkpoint.yade").exists()
+    house, beside, record = tmp_path / "own.yaml", tmp_path / "beside.yaml", tmp_path / "own.csv"
+    house.write_text("extends: beside.yaml\n")
+    beside.write_text("name: one\n")
+    record.write_text("1\n")
+
+    def runs_done(seed=1):
+        task = campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
+        del said[:]
+        assert campaign.run_missing([task], 1, scripts, said.append)[task]["made_from"]["options"][-1] == str(seed)
+        return len(said) and "again" in said[-1]
+
+    assert runs_done() is False and runs_done() == 0
+    assert runs_done(seed=2) and runs_done(seed=2) == 0
+    for file in (house, beside, record):
+        file.write_text(file.read_text() + "# changed\n")
+        assert runs_done(seed=2) and runs_done(seed=2) == 0
+    monkeypatch.setattr(provenance, "package", lambda: "another")
+    assert campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2)).summary is None
 
 
 def test_motions_are_handed_only_to_shaken_runs():

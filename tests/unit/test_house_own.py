@@ -116,6 +116,13 @@ def test_wings_of_the_l_house_are_joined():
     assert np.abs(normals[:, 0]) == pytest.approx(1)
 
 
+def test_the_order_of_the_kinds_in_a_joint_rule_does_not_matter(tmp_path):
+    text = load_house("storehouse").path.read_text()
+    turned = text.replace("[column, [sill, beam]]", "[[sill, beam], column]").replace("[roof, beam]", "[beam, roof]")
+    ends = [[{(j.a, j.b), (j.b, j.a), j.end} for j in house(tmp_path, one).joints] for one in (text, turned)]
+    assert turned != text and [frozenset(e) for e in ends[0]] == [frozenset(e) for e in ends[1]]
+
+
 def test_a_file_takes_what_it_does_not_say_from_a_shipped_house(tmp_path):
     """`extends` by name; null takes an entry out; a file beside goes first."""
     model = house(tmp_path, "extends: C2\nname: mine\nstructures: {entrance: null}\ndamage: {regions: []}\n")

@@ -217,6 +217,16 @@ def test_interrupted(tmp_path):
     assert "another scenario: dt is 0.0002 there and 0.0001 here" in other.stderr
     early = run("modelA_quake", *SHORT, "--duration", "0.001", "--out", tmp_path, "--resume")
     assert early.returncode == 1 and "ask for more" in early.stderr
+    anew = run("modelA_quake", *SHORT, "--dt", "1e-4", "--duration", "0.001", "--out", tmp_path, "--resume", "--or-anew")
+    assert anew.returncode == 0 and summary(tmp_path)["steps"] == 10, anew.stderr
+
+
+def test_frames_that_lack_their_beginning_are_not_recorded(tmp_path):
+    """A run begun with --no-frames and lengthened without: no frames that pass for the whole run."""
+    assert run("modelA_snow", *SHORT, "--no-frames", "--duration", 0.06, "--out", tmp_path).returncode == 0
+    done = run("modelA_snow", *SHORT, "--duration", 0.1, "--out", tmp_path, "--resume")
+    assert done.returncode == 0 and "no frames of the first 0.06 s" in done.stderr and summary(tmp_path)["steps"] == 500, done.stderr
+    assert not (tmp_path / frames.NAME).exists()
 
 
 def test_one_process_a_folder(tmp_path):
@@ -230,7 +240,7 @@ def test_nothing_simulated(tmp_path):
     done = run("modelA_snow", "--duration", 0, "--dt", "2e-4", "--out", tmp_path)
     assert done.returncode == 0 and (tmp_path / "front.png").exists() and not (tmp_path / "history.png").exists(), done.stderr
     found = summary(tmp_path)
-    assert found["steps"] == 0 and found["options"] == ["--duration", "0", "--dt", "2e-4"]
+    assert found["steps"] == 0 and found["made_from"]["options"] == ["--duration", "0", "--dt", "2e-4"]
 
 
 def test_failed_run_leaves_no_summary(tmp_path):
@@ -257,17 +267,21 @@ def test_words_pictures_export(tmp_path):
 
 
 def test_live_session(tmp_path):
-    """Without -x, at a terminal: the scene runs, O, yt and run are there, and the results follow by themselves."""
+    """Without -x, at a terminal: the scene runs, O, yt and run are there, and the results follow by themselves. Until then the folder is this session's."""
     ours, theirs = pty.openpty()
-    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.12", "--no-views", "--out", str(tmp_path)]
+    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.52", "--no-views", "--out", str(tmp_path)]
     session = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=subprocess.STDOUT, close_fds=True, env={**os.environ, "TERM": "dumb"})
     os.close(theirs)
+    said = ""
     try:
+        while "<modelA_snow" not in said:  # the prompt is back
+            said += os.read(ours, 1 << 20).decode(errors="replace")
+        assert lock.held(tmp_path) or (tmp_path / "summary.json").exists()
         wait_for(lambda: (tmp_path / "summary.json").exists(), session)
-        said = os.read(ours, 1 << 20).decode(errors="replace")
+        wait_for(lambda: not lock.held(tmp_path), session)
     finally:
         session.kill()
         session.wait()
         os.close(ours)
-    assert summary(tmp_path)["steps"] == 600 and "<modelA_snow" in said
-    assert np.allclose(frames.load(tmp_path / frames.NAME).time, [0, 0.05, 0.1, 0.12])
+    assert summary(tmp_path)["steps"] == 2600
+    assert np.allclose(frames.load(tmp_path / frames.NAME).time, [*np.arange(11) * 0.05, 0.52])

@@ -10,7 +10,6 @@ import os
 import signal
 import sys
 import warnings
-from dataclasses import replace
 from pathlib import Path
 
 import yaml
@@ -105,8 +104,7 @@ def finish(row, folder):
     if (folder / END).exists():
         return int(json.loads((folder / END).read_text())["status"] != "done")
     try:
-        run = _begun(scenario(row, folder), Output(folder, views=False, frames=False, quiet=True))
-        run.complete()
+        runner.Run(scenario(row, folder), Output(folder, resume=True, or_anew=True, views=False, frames=False, quiet=True)).complete()
     except runner.Interrupted as stop:
         print(f"{row.name}: stopped by {signal.Signals(stop.args[0]).name}, goes on when the batch is run again", file=sys.stderr)
         return 128 + stop.args[0]
@@ -117,14 +115,6 @@ def finish(row, folder):
     except Exception as problem:  # a bug, full disk, no memory: this run's loss, not the batch's
         return _record(row, folder, f"{type(problem).__name__}: {problem}")
     return _record(row, folder)
-
-
-def _begun(scenario_, output):
-    """The Run, from its checkpoint where there is one that fits."""
-    try:
-        return runner.Run(scenario_, replace(output, resume=True))
-    except RunError:  # damaged, or of another version of the package
-        return runner.Run(scenario_, output)
 
 
 def _record(row, folder, error=None):

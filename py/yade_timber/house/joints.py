@@ -8,6 +8,8 @@ import numpy as np
 from .geometry import contact_polygon, plane_axes, polygon_area
 from .model import JointSpec
 
+UPRIGHT = ("column", "brace")  # kinds that have a joint at their top and one at their bottom
+
 
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
@@ -43,8 +45,8 @@ def near_pairs(elements, margin):
 
 
 def _rules(rules):
-    """{(kind a, kind b, across): rule}; a is the first kind of the rule."""
-    return {(a, b, rule["across"]): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
+    """{(kind a, kind b, across): rule}; a is the upright of the two, or else the first kind of the rule."""
+    return {(*sorted((a, b), key=lambda kind: kind not in UPRIGHT), rule["across"]): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
 
 
 def _joint(a, b, rule, contact, data):
@@ -52,7 +54,7 @@ def _joint(a, b, rule, contact, data):
     values = data["joint_types"][rule["type"]]
     per = values["per"] or data["law"]["joint_reading"]
     points = spring_points(polygon, normal)
-    upright = a.kind in ("column", "brace")
+    upright = a.kind in UPRIGHT
     end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if upright else ""
     return JointSpec(a.name, b.name, rule["type"], rule["kind"], points, normal, area, values["kn"], values["ks"], values["strength"], per,
                      storey=a.storey, side=a.side if upright else a.side or b.side, end=end, group=a.group)

@@ -2,6 +2,7 @@
 """YAML text -> tables and lists that remember file and line; `extends` merges a file into the one it extends: a file beside it or a shipped one."""
 
 import re
+from functools import reduce
 from pathlib import Path
 
 import yaml
@@ -46,23 +47,39 @@ _Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?(\d+
 
 def read_table(path):
     """File `path` with everything it extends merged in; raises HouseError with file and line."""
-    return _read_chain(Path(path), ())
+    tables = [table for _, table in _chain(Path(path))]
+    return reduce(merge, reversed(tables))
 
 
-def _read_chain(path, seen):
-    if path.resolve() in seen:
-        raise HouseError(f"{path.name}:1: extends itself through {' -> '.join(p.name for p in seen)}; remove one 'extends'")
-    table = _parse(path)
+def house_files(path):
+    """The files that a house file consists of: itself, then what it extends. Raises HouseError."""
+    return [file for file, _ in _chain(Path(path))]
+
+
+def _chain(path):
+    """[(file, table)] of a house file and what it extends."""
+    links = []
+    while path is not None:
+        seen = [file for file, _ in links]
+        if path.resolve() in [file.resolve() for file in seen]:
+            raise HouseError(f"{path.name}:1: extends itself through {' -> '.join(file.name for file in seen)}; remove one 'extends'")
+        links.append((path, _parse(path)))
+        path = _extended(*links[-1])
+    return links
+
+
+def _extended(path, table):
+    """The file that a file extends, or None; takes the entry out."""
     parent = table.pop("extends", None)
     if parent is None:
-        return table
+        return None
     if not isinstance(parent, str):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {parent!r}")
-    parent_path = next((p for p in (path.parent / parent, *shipped_paths(parent)) if p.is_file()), None)
-    if parent_path is None:
+    found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if p.is_file()), None)
+    if found is None:
         raise HouseError(f"{table.at('extends')}: extends: no file '{parent}' beside {path.name}, and no shipped house of that name "
                          f"(base, {', '.join(shipped_houses())})")
-    return merge(_read_chain(parent_path, seen + (path.resolve(),)), table)
+    return found
 
 
 def shipped_houses():
