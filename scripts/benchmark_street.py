@@ -126,7 +126,7 @@ def row(m):
     return m["houses"], m["threads"], m["elements"], m["cpu"] * 1e6, m["wall"] * 1e6, m["cpu"] * 1e6 / m["elements"], m["memory"] * 1e3 / m["elements"], m["memory"]
 
 
-def section(found, rounds):
+def section(found, house, rounds):
     """Text of the results page."""
     one = {m["houses"]: m for m in found if m["threads"] == 1}
     shown = []
@@ -140,7 +140,7 @@ def section(found, rounds):
     names = [name for name in found[0]["engines"] if any(m["engines"][name] > 0.01 for m in found)]
     engines = [(m["houses"], m["threads"], *(f"{m['engines'][n] / m['elements'] * 1e3:.0f}" for n in names)) for m in found]
     return (
-        f"## A street of houses\n\nHouse C in strong shaking, dt = {scenario.DEFAULT_DT:g} s: medians of {rounds} processes each, in turns. {machine()}.\n\n{markdown_table(heads, shown)}\n"
+        f"## A street of houses\n\nHouse {house} in strong shaking, dt = {scenario.DEFAULT_DT:g} s: medians of {rounds} processes each, in turns. {machine()}.\n\n{markdown_table(heads, shown)}\n"
         f"Wall time of each engine per element and step [ns]:\n\n{markdown_table(('houses', 'threads', *names), engines)}"
     )
 
@@ -151,7 +151,7 @@ def main():
         print(json.dumps(single(options)), flush=True)
         return
     found = measure_all(options)
-    publish(options.out, "street", section(found, options.rounds), HEADS, [row(m) for m in found])
+    publish(options.out, "street", section(found, options.house, options.rounds), HEADS, [row(m) for m in found])
 
 
 main()

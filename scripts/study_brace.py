@@ -147,7 +147,7 @@ def main():
         sys.exit(f"error: {problem}")
     main_house = next(iter(description.data["structures"]))
     words = [word for word in options.only.split(",") if word] or [""]
-    bays = [bay for bay in free_bays(description) if bay.startswith(main_house) and any(word in bay for word in words)]
+    bays = [bay for bay in free_bays(description) if bay.startswith(f"{main_house}.") and any(word in bay for word in words)]
     if not bays:
         sys.exit(f"error: --only {options.only}: no free bay's name holds that" if options.only else f"error: {options.house}: no free bay")
     found = run_all(rows(options, bays), options)

@@ -49,7 +49,12 @@ def points(found):
     groups = {}
     for entry in found:
         groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
-    return [_point(Path(house).stem, snow, scale, entries) for (house, snow, scale), entries in groups.items()]
+    return [_point(label(house), snow, scale, entries) for (house, snow, scale), entries in groups.items()]
+
+
+def label(house):
+    """Name of a house in tables and pictures."""
+    return Path(house).stem
 
 
 def _point(house, snow, scale, entries):
@@ -127,7 +132,7 @@ def main():
     table = points(run_all(rows(options), options))
     write_table(options.to / "fragility.csv", table)
     plot(table, options.snow, options.to / "fragility.png")
-    for house in options.houses.split(","):
+    for house in map(label, options.houses.split(",")):
         for snow in options.snow:
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
             print(f"house {house}, {snow:g} m of snow: {half(curve)}")

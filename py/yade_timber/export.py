@@ -17,7 +17,7 @@ def export_scene(path):
     elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
     materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
     joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
-               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name
+               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name; none of a body that was taken out
     Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
     """
     for body in O.bodies:
@@ -33,7 +33,7 @@ def export_scene(path):
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": [describe_joint(joint) for joint in engine.joints] if engine else [],
+        "joints": [describe_joint(joint) for joint in engine.joints if scene.joins_bodies(joint)] if engine else [],
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 

@@ -119,8 +119,8 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     for body in (id1, id2):
-        if not 0 <= body < len(O.bodies):
-            raise ValueError(f"connect: there is no body {body}; bodies have the ids 0 ... {len(O.bodies) - 1}")
+        if not 0 <= body < len(O.bodies) or O.bodies[body] is None:
+            raise ValueError(f"connect: there is no body {body}; the last one has the id {len(O.bodies) - 1}")
     if per not in JOINT_READINGS:
         raise ValueError(f"connect: per = {per!r}: it must be one of {', '.join(JOINT_READINGS)}")
     points = np.atleast_2d(np.asarray(points, float))
@@ -140,6 +140,11 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
         O.engines = chain[:place] + [engine] + chain[place:]
     engine.append(joint)
     return joint
+
+
+def joins_bodies(joint):
+    """Whether both bodies of a TimberJoint are still in the scene."""
+    return all(O.bodies[body] is not None for body in (joint.id1, joint.id2))
 
 
 def make_joint(body1, body2, id1, id2, points, normal, kn, ks, strength, per, kind="", name="", broken=False):
@@ -228,7 +233,7 @@ def _unbroken_springs():
     engine = find_engine(yw.JointEngine)
     springs = []
     for joint in engine.joints if engine else []:
-        if joint.isFinished or O.bodies[joint.id1] is None:
+        if joint.isFinished or not joins_bodies(joint):
             continue
         s1 = O.bodies[joint.id1].state
         stiffness = max(joint.kn, joint.ks) / (len(joint.anchors1) if joint.perJoint else 1)

@@ -45,6 +45,15 @@ def test_added_braces_have_two_joints_each(tmp_path):
     assert len(model.joints) == len(before.joints) + 4
 
 
+def test_names_with_a_hyphen(tmp_path):
+    path = tmp_path / "west.yaml"
+    path.write_text(load_house("storehouse").path.read_text().replace("  store:", "  west-wing:"))
+    house = load_house(path)
+    bay = free_bays(house)[0]
+    assert bay.startswith("west-wing.brace")
+    assert changed_house(path, ["structures.west-wing.margin=0.07"], [bay])["structures"]["west-wing"]["margin"] == 0.07
+
+
 def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
     before, (_, model) = build_house(load_house("B"), check=False), built(tmp_path, strength=0.5)
     assert [j.strength for j in model.joints] == [0.5 * j.strength for j in before.joints]

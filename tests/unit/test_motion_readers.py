@@ -15,7 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import GAL, GroundMotion, RecordError, RecordWarning, read_motion, trim, write_csv  # noqa: E402
+from yade_timber.motion import GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim, write_csv  # noqa: E402
 from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
 
 N = 40
@@ -230,6 +230,7 @@ def csv_text(head, columns=("ns", "ew", "ud"), dt=None):
         (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
         (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
         (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
+        (csv_text("time [ms],ns [gal],ew [gal],ud [gal]", dt=20), None),
         (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
         (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
     ],
@@ -277,6 +278,7 @@ REFUSALS = {
     "contradicting units": ("a.csv", lambda: csv_text("# units: g\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), "contradict"),
     "unknown unit": ("a.csv", lambda: csv_text("# units: furlong\n# dt: 0.02\nns,ew,ud"), "unknown unit 'furlong'"),
     "no step": ("a.csv", lambda: csv_text("# units: gal\nns,ew,ud"), "no time step"),
+    "time in minutes": ("a.csv", lambda: csv_text("time [min],ns [gal],ew [gal],ud [gal]", dt=0.02), "time in 'min'; s or ms"),
     "dt of zero": ("a.csv", lambda: csv_text("# units: gal\n# dt: 0\nns,ew,ud"), "between 1e-6 and 1 s"),
     "gap in time": (
         "a.csv",
@@ -334,7 +336,7 @@ def test_components_that_do_not_fit(tmp_path):
     askew = write(tmp_path, "C045.AT2", at2_text(WAVES["ew"], "45"))
     with pytest.raises(RecordError, match="different length"):
         read_motion(f"{a},{short}")
-    assert len(read_motion(f"{a},{short}", trim_to_shortest=True)) == N - 3
+    assert len(read_motion(f"{a},{short}", trim_to_shortest=True)) == len(MotionRequest(record=f"{a},{short}", shortest=True).motion(0.02)) == N - 3
     with pytest.raises(RecordError, match="time step 0.01 s; A000.AT2 has 0.02 s"):
         read_motion(f"{a},{slow}")
     with pytest.raises(RecordError, match="must be 90 apart"):

@@ -21,7 +21,7 @@ class Description:
 
 def load_house(name_or_path):
     """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
-    path = house_path(str(name_or_path))
+    path = house_path(name_or_path)
     data = checked(read_table(path), path)
     return Description(data["name"], path, data)
 
@@ -36,7 +36,7 @@ def checked(table, path):
 
 def house_path(name):
     """File of a shipped house or of that path; raises HouseError."""
-    own, shipped = [Path(name)], shipped_paths(name)
+    own, shipped = [Path(name)], shipped_paths(str(name))
     for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
         if path.is_file():
             return path

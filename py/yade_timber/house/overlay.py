@@ -7,9 +7,10 @@ import re
 from .description import checked, house_path
 from .errors import HouseError
 from .reading import Items, Table, parse_value, read_table
+from .schema import NAME
 
-_STEP = re.compile(r"([A-Za-z_]\w*)((?:\[\d+\])*)")
-_BRACE = re.compile(r"(\w+)\.brace(\d+)\.(EW\.y|NS\.x)([\d.]+)\.([\d.]+)-([\d.]+)")
+_STEP = re.compile(rf"({NAME})((?:\[\d+\])*)")
+_BRACE = re.compile(rf"({NAME})\.brace(\d+)\.(EW\.y|NS\.x)([\d.]+)\.([\d.]+)-([\d.]+)")
 
 
 def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):

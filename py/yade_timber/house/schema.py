@@ -8,12 +8,15 @@ defaults filled in, or raises HouseError.
 
 import difflib
 import math
+import re
 from dataclasses import dataclass
 
 from .errors import HouseError
 from .reading import Items, Table
 
 REQUIRED = object()
+NAME = r"[\w-]+"
+"""Names that the user chooses: dots and brackets lead to what is inside (changes of single keys, names of braces)."""
 OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "Pa": (("MPa", 1e6), ("GPa", 1e9)),
                "N/m": (("kN/m", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6)), "N": (("kN", 1e3),), "rise over run": (("sun (tenths)", 0.1),)}
 """Units that people write by mistake: unit of the schema -> (unit, factor)."""
@@ -125,6 +128,9 @@ class MapOf:
     def check(self, value, where, name):
         if not isinstance(value, Table):
             fail(where, name, f"expected a table of names, got {value!r}")
+        for key in value:
+            if not re.fullmatch(NAME, key):
+                fail(value.at(key), name, f"'{key}' is no name: take letters, digits, _ and -")
         checked = {k: self.item.check(v, value.at(k), f"{name}.{k}" if name else k) for k, v in value.items()}
         return Table(checked, value.where, value.entries)
 

@@ -242,25 +242,26 @@ def _jma_header(path, lines):
 # --- plain CSV ----------------------------------------------------------------------------------
 
 _CSV_DIRECTIONS = {"ns": 0.0, "ew": 90.0, "ud": UP}
+_SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, None: 1.0}
 _CSV_ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "ew", "up": "ud", "t": "time"}
 
 
 def _plain_csv(path, lines, units):
-    """CSV with named columns: ns, ew, ud (one or more), optionally time [s], and a stated unit."""
-    header_index, names, in_columns, delimiter = _csv_columns(lines)
+    """CSV with named columns: ns, ew, ud (one or more), optionally time [s] or [ms], and a stated unit."""
+    header_index, names, units_of, delimiter = _csv_columns(lines)
     comments = _csv_comments(lines[:header_index])
-    in_file = [comments[key] for key in ("units", "unit") if key in comments] + in_columns
+    in_file = [comments[key] for key in ("units", "unit") if key in comments] + [units_of[name] for name in names if units_of[name] and name != "time"]
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
-    step = _csv_step(path, comments, rows[:, names.index("time")] if "time" in names else None)
+    step = _csv_step(path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
     if "samples" in comments:
         require_count(path, len(rows), int(finite(comments["samples"], path)), "'# samples:'")
     return _columns_to_channels(path, names, rows, factor, step)
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, units in the names, delimiter), or None if there is no such row."""
+    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such row."""
     for index, line in enumerate(lines):
         if line.startswith("#") or not line.strip():
             continue
@@ -270,8 +271,15 @@ def _csv_columns(lines):
         known = set(names) <= {"ns", "ew", "ud", "time"} and len(set(names)) == len(names)
         if not known or set(names) <= {"time"}:
             return None
-        return index, names, [unit for name, unit in cells if unit and name != "time"], delimiter
+        return index, names, dict(cells), delimiter
     return None
+
+
+def _times(path, values, unit):
+    """A column of times in s."""
+    if unit not in _SECONDS:
+        raise RecordError(f"{path}: time in '{unit}'; s or ms")
+    return values * _SECONDS[unit]
 
 
 def _column_name(cell):

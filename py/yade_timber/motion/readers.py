@@ -123,7 +123,7 @@ def _aligned(channels, trim_to_shortest):
     lengths = [len(channel.values) for channel in channels]
     if min(lengths) != max(lengths) and not trim_to_shortest:
         stated = ", ".join(f"{c.path.name}: {n}" for c, n in zip(channels, lengths))
-        raise RecordError(f"components of different length ({stated}); make them equal or use trim_to_shortest")
+        raise RecordError(f"components of different length ({stated}); cut them at the shortest (--shortest), or make them equal")
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
 
 

@@ -25,6 +25,7 @@ class MotionRequest:
     seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
     component: str = _option(str, "WORDS", "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, with commas between")
     units: str = _option(str, "UNIT", "gal, m/s2 or g, where the record does not say")
+    shortest: bool = _option(bool, None, "components of different length are cut at the shortest one instead of being refused")
     azimuth: float = _option(
         float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes along +x (default 0)", -360, 360
     )
@@ -50,8 +51,8 @@ class MotionRequest:
         for one, other in (("record", "seed"), ("pga", "intensity"), ("pga", "scale"), ("intensity", "scale")):
             if getattr(self, one) is not None and getattr(self, other) is not None:
                 raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
-        for only in ("component", "units"):
-            if getattr(self, only) is not None and self.record is None:
+        for only in ("component", "units", "shortest"):
+            if getattr(self, only) and self.record is None:
                 raise RecordError(f"{name.format(only)} belongs to a record; give {name.format('record')}, too")
         if self.end is not None and self.end <= (self.start or 0.0):
             raise RecordError(f"{name.format('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
@@ -74,7 +75,7 @@ class MotionRequest:
     def _source(self):
         if self.seed is not None:
             return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
-        return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0)
+        return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
 
 
 def _range(low, high):
