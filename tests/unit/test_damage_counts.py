@@ -8,7 +8,7 @@ import pytest
 import yade.wrapper as yw
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber import results, scenario, scene
+from yade_timber import recorder, results, scenario, scene
 from yade_timber.motion import GroundMotion, default_motion, onset
 
 
@@ -50,6 +50,28 @@ def test_leans_from():
     assert results.leans_from(monitor([0.0, 0.02, -0.01, 0.03, 0.06, 0.11, 0.3], tilt=5.0)) == 2.0
     assert results.leans_from(monitor([0.0, 0.01, 0.05, 0.11], tilt=3.0)) == 0.0
     assert results.leans_from(monitor([0.0, 0.01], tilt=math.nan)) is None
+
+
+def test_residual_drift():
+    """The mean of the last second, without its sign; the first storey's N-S, then E-W."""
+    swaying = monitor([0.3] * 3 + [-0.02, -0.04], tilt=math.nan)
+    assert results.residual_drift(swaying) == pytest.approx([0.04, 0.0])
+    swaying.rows = [x for k, d in enumerate([0.3, 0.1, -0.02, -0.04]) for x in (0.5 * k, d, -d / 2)]
+    assert results.residual_drift(swaying) == pytest.approx([0.03, 0.015])
+    assert results.residual_drift(monitor([], tilt=math.nan)) == []
+
+
+def test_by_storey():
+    assert results.by_storey([0.1, 0.2, math.nan, 0.4]) == {"storey1": {"ns": 0.1, "ew": 0.2}, "storey2": {"ns": None, "ew": 0.4}}
+
+
+def test_motion_as_applied():
+    """Summary and frames tell the motion times its scale, each component under its name."""
+    motion = GroundMotion(0.01, np.outer(np.sin(np.arange(100)), [1.0, 2.0, 3.0]))  # ew, ns, ud
+    shaken = scenario.Scenario("scaled", "A", motion, scale=0.5, dt=5e-4)
+    scenario.build(shaken)
+    assert results.record_of(shaken)["pga_gal"] == pytest.approx({"ew": 50, "ns": 100, "ud": 150}, rel=1e-3)
+    assert np.allclose(recorder.describe_motion().acceleration, 0.5 * motion.acceleration)
 
 
 def test_onset():
