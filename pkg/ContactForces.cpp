@@ -76,6 +76,8 @@ void ContactForces::collectPoints(size_t k)
 {
 	const Pair& pair = pairs[k];
 	const int   id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
+	const Real  inverseMass = timber::inverseMass(bodies[id1], bodies[id2]);
+	if (inverseMass > 0) pair.phys->mass = 1 / inverseMass; // bodies are held and released, and get other masses
 	const bool  refresh = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
 	timber::setRows(solver, k, bodies, pair.phys->properties(), pair.phys->dampingRatio, scene->dt, refresh, pair.geom->contactPoints, pair.phys->states);
 }
@@ -111,7 +113,7 @@ void ContactForces::sumBooks()
 {
 	elasticNormal = elasticShear = elasticPower = 0;
 	for (const Pair& pair : pairs)
-		lost += pair.phys->lostEnergy;
+		if (trackEnergy) lost += pair.phys->lostEnergy;
 	for (const timber::PairEnergies& own : books) {
 		dashpotNormal += own.dashpotNormal;
 		dashpotShear += own.dashpotShear;

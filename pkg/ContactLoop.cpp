@@ -13,13 +13,6 @@ YADE_PLUGIN((ContactLoop));
 constexpr int pairShare = 16;
 
 namespace {
-	const CollisionTrigger* triggerOf(const Scene& scene)
-	{
-		for (const shared_ptr<Engine>& e : scene.engines)
-			if (const auto trigger = dynamic_cast<const CollisionTrigger*>(e.get())) return trigger;
-		return nullptr;
-	}
-
 	bool isRounded(const Scene& scene, Body::id_t id)
 	{
 		const Body* b = bodyAt(scene, id);
@@ -33,10 +26,10 @@ bool ContactLoop::isHeld(const Pair& p) const
 	return b1 && b2 && !isFree(*b1->state) && !isFree(*b2->state);
 }
 
-/// Nothing has happened that only the wrapped loop can deal with: the collider has not run, no pair was reset, no held body released.
+/// Nothing has happened that only the wrapped loop can deal with: the trigger has looked in this step, the collider has not run, no pair was reset, no held body released.
 bool ContactLoop::isCurrent(const CollisionTrigger* trigger) const
 {
-	return trigger && colliderRuns == trigger->runs && seen == scene->interactions->size()
+	return trigger && trigger->isCurrent() && colliderRuns == trigger->runs && seen == scene->interactions->size()
 	        && std::all_of(pairs.begin(), pairs.end(), [](const Pair& p) { return p.interaction->isReal(); })
 	        && std::all_of(held.begin(), held.end(), [this](const Pair& p) { return isHeld(p); });
 }
@@ -76,7 +69,7 @@ void ContactLoop::look(Pair& pair, const CollisionTrigger& trigger) const
 
 void ContactLoop::action()
 {
-	const CollisionTrigger* trigger = triggerOf(*scene);
+	const CollisionTrigger* trigger = findEngine<CollisionTrigger>(*scene);
 	if (!isCurrent(trigger)) return lookAtAll(trigger);
 	timber::forAllUnlike(int(pairs.size()), pairShare, [&](int k) { look(pairs[k], *trigger); });
 }

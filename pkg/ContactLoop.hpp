@@ -29,7 +29,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(ContactLoop, GlobalEngine,
 		"Wraps an :yref:`InteractionLoop`, which runs when the collider has run or pairs came or went. In all other steps the functors that it has found for each pair are called at once, and only where bodies may touch: "
 		"a pair is left alone as long as its bodies have moved against each other by less than the gap between them. The result is that of the InteractionLoop, which may stand here by itself. "
-		"The InteractionLoop runs in each step of a scene that has no :yref:`CollisionTrigger`, is periodic, or has pairs of other shapes than :yref:`RoundedPolyhedron`. One with callbacks must stand by itself.",
+		"The InteractionLoop runs in each step of a scene that has no :yref:`CollisionTrigger` before it, is periodic, or has pairs of other shapes than :yref:`RoundedPolyhedron`. One with callbacks must stand by itself.",
 		((shared_ptr<Engine>, loop, , , "The InteractionLoop. [-]"))
 		((long, runs, 0, Attr::readonly, "How often the InteractionLoop ran. [-]")));
 	// clang-format on

@@ -51,11 +51,9 @@ void GlTimberJoints::render()
 	glDisable(GL_LIGHTING);
 	glDisable(GL_DEPTH_TEST);
 	glEnable(GL_POINT_SMOOTH);
-	for (const auto& e : scenePtr->engines) {
-		const auto engine = dynamic_cast<const JointEngine*>(e.get());
-		if (!engine) continue;
+	if (const auto* engine = findEngine<JointEngine>(*scenePtr)) {
 		for (const shared_ptr<TimberJoint>& j : engine->joints) {
-			const shared_ptr<Body>& b = Body::byId(j->id1, scenePtr.get());
+			const Body* b = bodyAt(*scenePtr, j->id1);
 			if (!b || j->anchors1.empty()) continue;
 			const Vector3r x = place(*j, *b->state);
 			if (j->isFinished()) drawCross(x, cross);

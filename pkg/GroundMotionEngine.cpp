@@ -35,6 +35,14 @@ Vector3r GroundMotionEngine::at(Real time) const
 	return scale * ((1 - share) * acceleration[k] + share * next);
 }
 
+Real GroundMotionEngine::strongest(Real from, Real until) const
+{
+	Real most = math::max(at(from).norm(), at(until).norm());
+	for (Real k = math::max(Real(0), math::ceil((from - start) / step)); k < acceleration.size() && start + k * step < until; ++k) // linear between samples
+		most = math::max(most, math::abs(scale) * acceleration[size_t(k)].norm());
+	return most;
+}
+
 Vector3r GroundMotionEngine::freeMomentum() const
 {
 	Vector3r sum = Vector3r::Zero();

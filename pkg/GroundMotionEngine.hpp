@@ -26,6 +26,8 @@ public:
 	Real     workNow() const;
 	/// Ground acceleration at a time, linear between samples, zero before the first and after the last. [m/s2]
 	Vector3r at(Real time) const;
+	/// Largest ground acceleration between two times. [m/s2]
+	Real     strongest(Real from, Real until) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GroundMotionEngine, GlobalEngine,

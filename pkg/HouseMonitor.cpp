@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HouseMonitor.hpp>
 #include <bodies.hpp>
+#include <pkg/common/GravityEngines.hpp>
 
 namespace yade {
 
@@ -9,7 +10,16 @@ YADE_PLUGIN((HouseMonitor)(HealthCheck));
 namespace {
 	/// Names of energies(), in its order.
 	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts" };
+	/// What is told of a level, and its unit.
+	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
+	/// Acceleration of gravity, this package's or YADE's. [m/s2]
+	Vector3r gravityOf(const Scene& scene)
+	{
+		if (const auto* ours = findEngine<UniformGravity>(scene)) return ours->gravity;
+		const auto* theirs = findEngine<GravityEngine>(scene);
+		return theirs ? theirs->gravity : Vector3r(Vector3r::Zero());
+	}
 }
 
 void HouseMonitor::postLoad(HouseMonitor&)
@@ -32,7 +42,8 @@ Real HouseMonitor::kineticEnergy() const
 /// Relative to the reference positions, at the half step to which the velocities belong.
 Real HouseMonitor::gravityEnergy() const
 {
-	Real sum = 0;
+	const Vector3r gravity = gravityOf(*scene);
+	Real           sum     = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b || !isFree(*b->state)) continue;
 		const State& s = *b->state;
@@ -45,8 +56,8 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 {
 	Vector3r sum   = Vector3r::Zero();
 	int      count = 0;
-	for (size_t k = 0; k < bodies.size(); ++k) {
-		const shared_ptr<Body>& b = Body::byId(bodies[k], scene);
+	for (size_t k = 0; k < math::min(bodies.size(), levels.size()); ++k) {
+		const Body* b = bodyAt(*scene, bodies[k]);
 		if (!b || levels[k] != level) continue;
 		const State& s = *b->state;
 		sum += s.pos - s.refPos;
@@ -57,16 +68,16 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 
 int HouseMonitor::brokenJoints() const
 {
-	const JointEngine* engine = find<JointEngine>();
+	const JointEngine* engine = findEngine<JointEngine>(*scene);
 	if (!engine) return 0;
 	return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isFinished(); }));
 }
 
 std::vector<Real> HouseMonitor::energies() const
 {
-	const ContactForces*      c    = find<ContactForces>();
-	const JointEngine*        j    = find<JointEngine>();
-	const GroundMotionEngine* g    = find<GroundMotionEngine>();
+	const ContactForces*      c    = findEngine<ContactForces>(*scene);
+	const JointEngine*        j    = findEngine<JointEngine>(*scene);
+	const GroundMotionEngine* g    = findEngine<GroundMotionEngine>(*scene);
 	const Real                half = scene->dt / 2;
 	return { kineticEnergy(), gravityEnergy(), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower() : 0, g ? g->workNow() : 0,
 		     c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
@@ -89,8 +100,8 @@ boost::python::list HouseMonitor::pyColumns() const
 	boost::python::list names;
 	names.append("time [s]");
 	for (size_t level = 1; level <= heights.size(); ++level)
-		for (const char* what : { "drift_ns", "drift_ew", "drop" })
-			names.append(string(what) + std::to_string(level) + (what[1] == 'r' && what[2] == 'o' ? " [m]" : " [-]"));
+		for (const auto& [what, unit] : levelColumns)
+			names.append(what + std::to_string(level) + unit);
 	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
 		names.append(name);
 	for (const char* name : energyTerms)
@@ -117,7 +128,7 @@ void HouseMonitor::record()
 		rows.insert(rows.end(), { ns, ew, -above.z() });
 		below = above;
 	}
-	const JointEngine* joints = find<JointEngine>();
+	const JointEngine* joints = findEngine<JointEngine>(*scene);
 	rows.push_back(brokenJoints());
 	rows.push_back(joints ? joints->breaks.size() : 0);
 	const std::vector<Real> terms = energies();
@@ -129,6 +140,11 @@ void HouseMonitor::action()
 	if (scene->time < nextSample - scene->dt / 2) return;
 	record();
 	nextSample = math::max(nextSample, scene->time) + interval;
+}
+
+void HealthCheck::postLoad(HealthCheck&)
+{
+	if (every < 1) throw std::invalid_argument("HealthCheck.every = " + std::to_string(every) + ": it must be > 0");
 }
 
 void HealthCheck::action()

@@ -13,12 +13,6 @@ class HouseMonitor : public GlobalEngine {
 	Vector3r meanDisplacement(int level) const;
 	int      brokenJoints() const;
 	void     record();
-	template <class E> E* find() const
-	{
-		for (const shared_ptr<Engine>& e : scene->engines)
-			if (E* found = dynamic_cast<E*>(e.get())) return found;
-		return nullptr;
-	}
 
 public:
 	void postLoad(HouseMonitor&);
@@ -33,7 +27,6 @@ public:
 		"Stands behind the integrator. Energies are those at the half step to which the velocities belong: elastic energies of the last placement are carried there with their rate.",
 		((Real, interval, 0.01, , "Simulated time between samples. [s]"))
 		((vector<Real>, heights, , Attr::triggerPostLoad, "Height of each storey, which its drift refers to. [m]"))
-		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Gravity, for its potential energy. [m/s2]"))
 		((vector<int>, bodies, , , "Ids of the bodies that mark levels. [-]"))
 		((vector<int>, levels, , Attr::triggerPostLoad, "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
 		((Real, tiltDrift, 0.1, , "Drift at which a storey counts as tilted. [-]"))
@@ -54,10 +47,11 @@ REGISTER_SERIALIZABLE(HouseMonitor);
 
 class HealthCheck : public GlobalEngine {
 public:
+	void postLoad(HealthCheck&);
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine, "Stops a run with an error that names the body and the step when a position or velocity is not finite or a speed is beyond all physics.",
-		((int, every, 100, , "Steps between checks. [-]"))
+		((int, every, 100, Attr::triggerPostLoad, "Steps between checks. [-]"))
 		((Real, speedLimit, 200, , "Largest believable speed of a body. [m/s]")));
 	// clang-format on
 };

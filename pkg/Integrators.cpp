@@ -4,6 +4,7 @@
 #include <RoundedPolyhedron.hpp>
 #include <kernel/rotation.hpp>
 #include <kernel/threads.hpp>
+#include <pkg/common/Collider.hpp>
 
 namespace yade {
 
@@ -19,15 +20,22 @@ namespace {
 	}
 }
 
-/// Velocity, place and angular momentum after the step.
+/// Velocity, place and angular momentum of a free body after the step.
 void SymplecticIntegrator::push(Body::id_t id, State& s) const
 {
 	const Real dt = scene->dt;
-	if (isFree(s)) {
-		s.vel += dt / s.mass * unblocked(scene->forces.getForce(id), s.blockedDOFs, State::DOF_X);
-		s.angMom += dt * unblocked(scene->forces.getTorque(id), s.blockedDOFs, State::DOF_RX);
-	}
+	s.vel += dt / s.mass * unblocked(scene->forces.getForce(id), s.blockedDOFs, State::DOF_X);
+	s.angMom += dt * unblocked(scene->forces.getTorque(id), s.blockedDOFs, State::DOF_RX);
 	s.pos += dt * s.vel;
+}
+
+/// A held body goes on with its velocities, which somebody else may set; released, it has the angular momentum that belongs to them.
+void SymplecticIntegrator::carryOn(State& s) const
+{
+	s.pos += scene->dt * s.vel;
+	s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
+	const Real speed = s.angVel.norm();
+	if (speed > 0) s.ori = (Quaternionr(AngleAxisr(speed * scene->dt, s.angVel / speed)) * s.ori).normalized();
 }
 
 /// Orientations and angular velocities of up to as many bodies as a Number has lanes.
@@ -53,8 +61,12 @@ void SymplecticIntegrator::move(Body::id_t first) const
 	for (Body::id_t id = first; id < end; ++id) {
 		const shared_ptr<Body>& b = (*scene->bodies)[id];
 		if (!b) continue;
+		if (!isFree(*b->state)) {
+			carryOn(*b->state);
+			continue;
+		}
 		push(id, *b->state);
-		if (isFree(*b->state)) turning[count++] = b->state.get();
+		turning[count++] = b->state.get();
 	}
 	if (count == 1) turn<double>(turning, count);
 	if (count > 1) turn<timber::Lanes>(turning, count);
@@ -69,8 +81,11 @@ void SymplecticIntegrator::action()
 
 CollisionTrigger::Motion CollisionTrigger::motionOf(const Body& b) const
 {
-	const Seen& then = seen[b.getId()];
-	return { b.state->pos - then.place, timber::turnedWay(then.turn.conjugate() * b.state->ori, then.span) };
+	const Seen&    then = seen[b.getId()];
+	const State&   now  = *b.state;
+	const Vector3r way  = now.pos - then.place;
+	if (then.isRounded) return { way, timber::turnedWay(then.turn.conjugate() * now.ori, then.span) };
+	return { way, now.ori.coeffs() == then.turn.coeffs() ? 0 : std::numeric_limits<Real>::infinity() };
 }
 
 /// Whether any body has gone farther than its box reaches.
@@ -81,29 +96,39 @@ bool CollisionTrigger::mayHaveLeft()
 	timber::forAll(count, [this](int id) {
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
 	});
-	const auto isInside = [](const Motion& m, const Seen& then) { return m.way.norm() + m.turned < then.margin; };
+	const auto isInside = [](const Motion& m, const Seen& then) { return m.way.norm() + m.turned <= then.margin; };
 	return !std::equal(motions.begin(), motions.end(), seen.begin(), isInside);
+}
+
+/// Of the boxes of slow bodies. [m]
+Real CollisionTrigger::boxMargin() const
+{
+	for (const shared_ptr<BoundFunctor>& f : static_cast<Collider*>(collider.get())->boundDispatcher->functors)
+		if (const auto ours = dynamic_cast<Bo1_RoundedPolyhedron_Aabb*>(f.get())) return ours->margin;
+	return 0;
 }
 
 void CollisionTrigger::remember()
 {
-	seen.assign(scene->bodies->size(), { Vector3r::Zero(), Quaternionr::Identity(), Vector3r::Zero(), std::numeric_limits<Real>::infinity() }); // as of bodies that are gone
+	const Real margin = boxMargin();
+	seen.assign(scene->bodies->size(), { Vector3r::Zero(), Quaternionr::Identity(), true, Vector3r::Zero(), std::numeric_limits<Real>::infinity() }); // as of bodies that are gone
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
 		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-		seen[b->getId()] = { b->state->pos, b->state->ori, shape ? shape->geometry->span : Vector3r(Vector3r::Zero()), boxMargin(*b, margin, scene->dt) };
+		seen[b->getId()] = { b->state->pos, b->state->ori, bool(shape), shape ? shape->geometry->span : Vector3r(Vector3r::Zero()), yade::boxMargin(*b, margin, scene->dt) };
 	}
 }
 
 void CollisionTrigger::action()
 {
-	const auto isCollider = [](const shared_ptr<Engine>& e) { return e->getClassName().find("Collider") != string::npos; };
-	const auto collider   = std::find_if(scene->engines.begin(), scene->engines.end(), isCollider);
-	if (collider == scene->engines.end()) return;
-	const bool changed = seen.size() != scene->bodies->size() || scene->interactions->dirty;
-	(*collider)->dead  = !changed && !mayHaveLeft();
-	if ((*collider)->dead) return;
+	if (!dynamic_cast<Collider*>(collider.get())) throw std::invalid_argument("CollisionTrigger.collider: it needs a collider");
+	lastLook = scene->iter;
+	const bool changed = seen.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort; // doSort: bodies came
+	if (!changed && !mayHaveLeft()) return;
+	collider->scene = scene;
+	collider->action();
 	remember();
+	motions.assign(seen.size(), { Vector3r::Zero(), 0 });
 	++runs;
 }
 

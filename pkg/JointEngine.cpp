@@ -18,12 +18,18 @@ void TimberJoint::postLoad(TimberJoint&)
 {
 	if (anchors1.empty()) return;
 	if (anchors2.empty()) return; // attributes are set one after the other
-	if (anchors1.size() != anchors2.size()) throw std::invalid_argument("TimberJoint: anchors1 and anchors2 must have the same length");
 	if (broken.empty()) broken.resize(anchors1.size(), 0);
-	if (broken.size() != anchors1.size()) throw std::invalid_argument("TimberJoint.broken must have one entry for each spring");
+	if (anchors1.size() != anchors2.size() || broken.size() != anchors1.size()) {
+		anchors1.clear(); // what is refused has been set already: a joint that does not fit together holds nothing
+		anchors2.clear();
+		broken.clear();
+		throw std::invalid_argument("TimberJoint: anchors1, anchors2 and broken must have the same length");
+	}
 	if (!(kn > 0 && ks > 0 && strength > 0)) throw std::invalid_argument("TimberJoint: kn, ks and strength must be > 0 (the strength may be infinite)");
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
+	for (size_t k = 0; k < broken.size(); ++k)
+		if (broken[k]) forces[k] = stretches[k] = Vector3r::Zero();
 }
 
 timber::JointStiffness TimberJoint::stiffness() const
@@ -57,6 +63,7 @@ boost::python::list TimberJoint::pySprings() const
 
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
+	if (joint->anchors1.empty() || joint->anchors1.size() != joint->anchors2.size()) throw std::invalid_argument("JointEngine.append: a joint needs anchors1 and anchors2");
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
 }

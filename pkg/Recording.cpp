@@ -12,8 +12,8 @@ namespace {
 
 	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
 
-	/// Interactions that have points, in the order of their body ids: the container's own order is no property of the scene.
-	std::vector<Interaction*> touching(const Scene& scene)
+	/// Interactions of bodies that are near each other, in the order of their body ids: the container's own order is no property of the scene.
+	std::vector<Interaction*> inOrder(const Scene& scene)
 	{
 		std::vector<Interaction*> found;
 		for (const shared_ptr<Interaction>& i : *scene.interactions)
@@ -52,7 +52,7 @@ boost::python::tuple packedContacts()
 {
 	std::vector<std::int32_t> pairs;
 	std::vector<float>        positions, forces;
-	for (const Interaction* i : touching(*Omega::instance().getScene())) {
+	for (const Interaction* i : inOrder(*Omega::instance().getScene())) {
 		const auto geom = dynamic_cast<const ManifoldGeom*>(i->geom.get());
 		const auto phys = dynamic_cast<const ManifoldPhys*>(i->phys.get());
 		if (!geom || !phys) continue;

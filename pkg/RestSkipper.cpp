@@ -7,6 +7,11 @@ namespace yade {
 
 YADE_PLUGIN((RestSkipper));
 
+void RestSkipper::postLoad(RestSkipper&)
+{
+	if (grain < 1) throw std::invalid_argument("RestSkipper.grain = " + std::to_string(grain) + ": it must be > 0");
+}
+
 vector<Vector3r> RestSkipper::places() const
 {
 	vector<Vector3r> all(scene->bodies->size(), Vector3r::Zero());
@@ -59,14 +64,8 @@ bool RestSkipper::resting() const { return !middle.empty() && watched >= 2 * gra
 
 bool RestSkipper::groundIsQuiet() const
 {
-	for (const shared_ptr<Engine>& e : scene->engines) {
-		const auto motion = dynamic_cast<GroundMotionEngine*>(e.get());
-		if (!motion) continue;
-		const Real until = scene->time + (grain + 1) * scene->dt;
-		for (Real t = scene->time; t < until + motion->step; t += math::min(motion->step, scene->dt * grain)) // linear between samples
-			if (motion->at(t).norm() > quiet) return false;
-	}
-	return true;
+	const auto* motion = findEngine<GroundMotionEngine>(*scene);
+	return !motion || motion->strongest(scene->time, scene->time + (grain + 1) * scene->dt) <= quiet;
 }
 
 /// Neither the step `last` nor where YADE's O.run(n) or O.stopAtTime ends is skipped over: YADE stops at just that step, or never.

@@ -17,12 +17,13 @@ class RestSkipper : public GlobalEngine {
 	bool mayGoOn() const;
 
 public:
+	void postLoad(RestSkipper&);
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(RestSkipper, GlobalEngine,
 		"Moves the time on by a whole grain of steps where the scene rests and the ground is quiet. Must be the last engine. One step in each grain is computed, so that whatever stirs is seen. "
 		"The scene rests when for the time `hold` no body was faster than `speed` or went by more than `way`, and the ways of the second half are not longer than those of the first by more than `growth`: a house that begins to tilt is not skipped. Ways are those of the bodies' centres in the steps that are computed.",
-		((int, grain, 250, , "Steps that are skipped at a time, less the computed one. [-]"))
+		((int, grain, 250, Attr::triggerPostLoad, "Steps that are skipped at a time, less the computed one. [-]"))
 		((Real, hold, 1.5, , "Time that the scene must have rested. [s]"))
 		((Real, speed, 1e-3, , "Largest speed of a body at rest, that of its turning taken at 1 m. [m/s]"))
 		((Real, way, 1e-5, , "Largest motion of a body's centre at rest. [m]"))

@@ -72,6 +72,7 @@ void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
 
 boost::python::tuple RoundedPolyhedron::massProperties() const
 {
+	if (vertices.empty()) throw std::runtime_error("RoundedPolyhedron.massProperties: it has no vertices");
 	const timber::MassProperties p = timber::massProperties(geometry->sharp);
 	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia), Quaternionr(timber::principalAxes(p.inertia)));
 }
@@ -95,7 +96,7 @@ constexpr Real boxWidest = 20;
 Real boxMargin(const Body& b, Real margin, Real dt)
 {
 	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
-	if (!shape) return margin;
+	if (!shape) return 0;
 	const State& s   = *b.state;
 	const Real   way = dt * (s.vel.norm() + timber::turningSpeed(s.ori.conjugate() * s.angVel, shape->geometry->span));
 	return math::max(margin, math::min(boxWidest * margin, boxSteps * way));

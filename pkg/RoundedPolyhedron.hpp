@@ -37,7 +37,7 @@ public:
 REGISTER_SERIALIZABLE(RoundedPolyhedron);
 
 /// Distance by which the bounding box of an element is larger than the element, on all sides: `margin`, or more for one that is fast,
-/// so that it does not leave its box within a few steps; `margin` for other shapes. dt: time step [s]. [m]
+/// so that it does not leave its box within a few steps; 0 for other shapes, whose boxes others make. dt: time step [s]. [m]
 Real boxMargin(const Body& b, Real margin, Real dt);
 
 class Bo1_RoundedPolyhedron_Aabb : public BoundFunctor {

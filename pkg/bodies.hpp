@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Small questions about YADE's bodies, and sums of forces on them.
+/// Small questions about YADE's bodies and engines, and sums of forces.
 #pragma once
 #include <pch.hpp>
 
@@ -13,6 +13,14 @@ inline Body* bodyAt(const Scene& scene, Body::id_t id)
 {
 	const BodyContainer& bodies = *scene.bodies;
 	return id >= 0 && size_t(id) < bodies.size() ? bodies[id].get() : nullptr;
+}
+
+/// The first engine of that class, or null.
+template <class E> E* findEngine(const Scene& scene)
+{
+	for (const shared_ptr<Engine>& e : scene.engines)
+		if (E* found = dynamic_cast<E*>(e.get())) return found;
+	return nullptr;
 }
 
 /// Forces and torques about the centres, by body id. YADE's container adds them up in the order of its threads; sums made

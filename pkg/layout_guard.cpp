@@ -2,6 +2,8 @@
 #include <pch.hpp>
 
 #include <layout_guard.hpp>
+#include <pkg/common/Collider.hpp>
+#include <pkg/common/GravityEngines.hpp>
 
 namespace {
 
@@ -36,7 +38,8 @@ template <typename Owner, typename Access> Field makeField(const char* owner, co
 #define VALUE(Owner, name) makeField<Owner>(#Owner, #name, "", [](Owner& o) -> auto& { return o.name; })
 #define POINTER(Owner, name, Pointee) makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
 
-/// Every member that this package's C++ touches, and each class's last one. The first difference ends the check, so State's
+/// Members that this package's C++ touches, and each class's last one; those that Python cannot read (State::blockedDOFs,
+/// Interaction::functorCache) lie between others. The first difference ends the check, so State's
 /// references (pos, ori), which are followed when read, come after its plain members.
 const std::vector<Field>& fields()
 {
@@ -52,6 +55,7 @@ const std::vector<Field>& fields()
 		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
 		VALUE(Engine, dead), VALUE(Engine, ompThreads),
 		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter), VALUE(Scene, stopAtTime),
+		VALUE(Scene, doSort), POINTER(Collider, boundDispatcher, BoundDispatcher), VALUE(GravityEngine, gravity),
 	};
 	return table;
 }
@@ -90,6 +94,9 @@ py::tuple readContainers(Scene& scene)
 	return py::make_tuple(scene.engines.size(), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
 }
 
+/// Number of functors that make a collider's bounding boxes.
+size_t countBoundFunctors(const Collider& collider) { return collider.boundDispatcher->functors.size(); }
+
 } // namespace
 
 void defineLayoutGuard()
@@ -100,5 +107,6 @@ void defineLayoutGuard()
 	py::def("swap_scene", &swapScene, (py::arg("scene")));
 	py::def("energy_address", &energyAddress, (py::arg("scene")));
 	py::def("read_containers", &readContainers, (py::arg("scene")));
+	py::def("count_bound_functors", &countBoundFunctors, (py::arg("collider")));
 	py::def("address", &address, (py::arg("object")));
 }

@@ -63,7 +63,7 @@ def rest(options, skip):
 def collider(options, skip):
     run = shaken(options)
     if not skip:
-        scene.find_engine(yw.CollisionTrigger).margin = 0.0
+        O.engines = [e.collider if isinstance(e, yw.CollisionTrigger) else e for e in O.engines]
     return run
 
 

@@ -200,7 +200,7 @@ namespace {
 				default: return id.meeting() == Meeting::EdgeEdge;
 			}
 		};
-		return size_t(std::find_if_not(first + 1, std::min(end, first + laneCount), isAlike) - first);
+		return size_t(std::find_if_not(first + 1, first + std::min<std::ptrdiff_t>(end - first, laneCount), isAlike) - first);
 	}
 
 	/// Points of `count` candidates that are alike.
@@ -288,6 +288,7 @@ namespace {
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
+	if (!cache.fits(a, b, patterns)) cache = CandidateCache(a, b, patterns);
 	const bool touched = !points.empty();
 	points.clear();
 	const Mat3 turnA = poseA.orientation.toRotationMatrix();

@@ -45,13 +45,16 @@ struct ContactPoint {
 struct Patterns {
 	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex, which the paper ignores
 	bool flushSupports = true; ///< a vertex exactly over the border of a face is supported by it
+	bool operator==(const Patterns& o) const { return vertexEdge == o.vertexEdge && flushSupports == o.flushSupports; }
 };
 
 /// Candidate feature pairs of two bodies and the relative motion that keeps them complete: the body B may move by `margin`
 /// at `centre`, where the bodies are near each other, and turn by `margin` over `region`, together no more than one of them.
 /// A slender member that rocks on its end thus keeps its candidates although its far end moves a lot.
-/// Holds no result: an empty cache gives the same manifold.
+/// Holds no result: an empty cache gives the same manifold. One of other bodies or patterns counts as empty.
 struct CandidateCache {
+	unsigned long serialA = 0, serialB = 0; ///< of the bodies
+	Patterns patterns;
 	std::vector<FeatureId> candidates;
 	Mat3 rotation = Mat3::Identity(); ///< of B in the frame of A, at the search
 	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< in the frames of A and B [m]
@@ -64,6 +67,14 @@ struct CandidateCache {
 	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart, at the search or when they were last looked at for it
 	double farA = 0; ///< how far A reaches along it [m]
 
+	CandidateCache() = default;
+	CandidateCache(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p)
+	        : serialA(a.serial)
+	        , serialB(b.serial)
+	        , patterns(p)
+	{
+	}
+	bool fits(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const { return serialA == a.serial && serialB == b.serial && patterns == p; }
 	bool searched() const { return margin >= 0; }
 	/// Since the search. [m]
 	double motion(const Mat3& nowRotation, const Vec3& nowTranslation) const

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -310,7 +311,9 @@ Mat3 principalAxes(const Mat3& inertia)
 /// are made plane with growing tolerance, as long as two core corners are too close to be two contacts.
 RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 {
+	static std::atomic<unsigned long> made { 0 };
 	RoundedPolyhedron body;
+	body.serial = ++made;
 	body.radius = radius > 0 ? radius : radiusShare * sharp.shortestEdge();
 	std::string reason;
 	bool clear = false;

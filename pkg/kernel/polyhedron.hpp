@@ -72,6 +72,7 @@ struct RoundedPolyhedron {
 	double radius = 0; ///< [m]
 	Vec3 span = Vec3::Zero(); ///< largest distance of a core vertex from the frame's origin along each axis [m]
 	double reach = 0; ///< distance of the farthest core vertex from the frame's origin [m]
+	unsigned long serial = 0; ///< another one for each that was made from vertices: what was kept for a body is known by it
 	double coreHalfThickness = 0; ///< deepest overlap beyond the cores' contact that a face or edge answers to [m]
 
 	/// radius <= 0 takes the paper's 10 % of the shortest edge. Warped faces may become plane in `sharp` (warpShare).

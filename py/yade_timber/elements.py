@@ -39,7 +39,7 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     Raises ValueError when the vertices are no corners of a convex polyhedron or the radius leaves no core, TypeError for a
     material of another kind.
     """
-    if material is not None and not isinstance(material, yw.ElementMat):
+    if material is not None and not isinstance(material, (yw.TimberMat, yw.SnowMat)):
         raise TypeError(f"material {type(material).__name__}: it must come from timber() or snow()")
     vertices = np.asarray(vertices, float)
     if vertices.ndim != 2 or vertices.shape[1] != 3:

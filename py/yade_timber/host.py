@@ -115,7 +115,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """Scene's containers, which are no Python attributes, in a scene of their own. Raises ImportError like check_layout."""
+    """Containers that are no Python attributes of their own: a scene's, and a collider's functors. Raises ImportError like check_layout."""
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
@@ -129,6 +129,8 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
         plugin.swap_scene(before)
     for name, stored, found in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
         check_value(f"Scene.{name}", stored, found, record, host)
+    collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
+    check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
 
 
 def load(package: str, directory):

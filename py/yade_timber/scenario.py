@@ -134,5 +134,4 @@ def house_monitor(model, ids):
         bodies=[ids[e.name] for e, _ in marks],
         levels=[level for _, level in marks],
         heights=[head - foot for _, (foot, head) in sorted(storeys.items())],
-        gravity=Vector3(*scene.GRAVITY),
     )

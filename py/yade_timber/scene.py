@@ -55,9 +55,8 @@ def engines(
     geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=vertex_edge, flushSupports=flush_supports)
     chain = [
         yw.ForceResetter(),
-        yw.CollisionTrigger(margin=BOUND_MARGIN),
         # verletDist = 0: the boxes' own margin and CollisionTrigger do that work without NewtonIntegrator
-        yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0),
+        yw.CollisionTrigger(collider=yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0)),
         yw.ContactLoop(loop=yw.InteractionLoop([geometry], pairs, laws)),
     ]
     kept = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
@@ -204,7 +203,7 @@ def energy():
     """
     monitor = find_engine(yw.HouseMonitor)
     if monitor is None:
-        monitor = yw.HouseMonitor(gravity=gravity_now())
+        monitor = yw.HouseMonitor()
     return dict(monitor.energy())
 
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """ContactLoop leaves pairs alone that cannot touch; everything else is as with YADE's InteractionLoop."""
+import math
+
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Quaternion, Vector3
 from yade_timber import scenario, scene
 from yade_timber.motion import default_motion
 
@@ -117,34 +119,92 @@ def test_pairs_that_were_reset_by_hand():
 
 
 def test_other_shapes_are_left_to_yade():
-    """Spheres that fly at each other beside a box on the ground: as with the InteractionLoop alone."""
+    """Small spheres, whose boxes have no margin, fly at each other beside a box on the ground: as with YADE's collider and InteractionLoop alone."""
 
     def run(wrapped):
         O.reset()
         O.materials.append(yw.FrictMat(young=1e7, density=1000))
         box(0.1, fixed=True)
         box(0.3)
-        for x, speed in ((2, 1), (2.25, -1)):
-            ball = yw.Body(shape=yw.Sphere(radius=0.1), material=O.materials[0])
-            ball.state.mass, ball.state.inertia = 4.2, Vector3(0.017, 0.017, 0.017)
+        for x, speed in ((2, 1), (2.025, -1)):
+            ball = yw.Body(shape=yw.Sphere(radius=0.01), material=O.materials[0])
+            ball.state.mass, ball.state.inertia = 4.2e-3, Vector3(1.7e-7, 1.7e-7, 1.7e-7)
             ball.state.pos, ball.state.vel = Vector3(x, 0, 0), Vector3(speed, 0, 0)
             O.bodies.append(ball)
-        start(1e-4)
-        for engine in O.engines:
-            if isinstance(engine, yw.InsertionSortCollider):
-                engine.boundDispatcher.functors = [*engine.boundDispatcher.functors, yw.Bo1_Sphere_Aabb(aabbEnlargeFactor=1.1)]
+        start(1e-5)
+        bounds = scene.find_engine(yw.CollisionTrigger).collider.boundDispatcher
+        bounds.functors = [*bounds.functors, yw.Bo1_Sphere_Aabb()]
         loop = scene.interaction_loop()
         loop.geomDispatcher.functors = [*loop.geomDispatcher.functors, yw.Ig2_Sphere_Sphere_ScGeom()]
         loop.physDispatcher.functors = [*loop.physDispatcher.functors, yw.Ip2_FrictMat_FrictMat_FrictPhys()]
         loop.lawDispatcher.functors = [*loop.lawDispatcher.functors, yw.Law2_ScGeom_FrictPhys_CundallStrack()]
         if not wrapped:
             unwrap()
+            O.engines = [e.collider if isinstance(e, yw.CollisionTrigger) else e for e in O.engines]
         O.run(1000, True)
         return places()
 
     expected = run(False)
     assert run(True) == expected
     assert expected[2][0][0] < 2  # the spheres met and flew apart
+    assert O.bodies[2].state.vel[0] == pytest.approx(-1, rel=1e-2)
+
+
+def test_a_body_in_the_place_of_one_that_is_gone():
+    """The scene is still, and the new body has the old one's id."""
+    O.reset()
+    box(0.1, fixed=True)
+    upper = box(0.3)
+    start()
+    O.run(200, True)
+    O.bodies.erase(upper)
+    O.run(200, True)
+    O.bodies.insertAtId(yt.box((0.4, 0.3, 0.2), (0, 0, 0.3), name="new"), upper)
+    O.run(500, True)
+    assert O.bodies[upper].shape.name == "new" and O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
+
+
+def test_a_trigger_that_is_switched_off():
+    """What is known of the bodies' motion then grows old: pairs are looked at in each step."""
+    O.reset()
+    box(0.1, fixed=True)
+    upper = box(0.301)  # it falls by 1 mm
+    start()
+    O.step()
+    scene.find_engine(yw.CollisionTrigger).dead = True
+    O.run(500, True)
+    assert O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
+
+
+def test_patterns_and_shapes_that_change():
+    """What is kept of a pair at rest is not taken for that of other patterns or other shapes."""
+
+    def points(vertex_edge):
+        loop = scene.interaction_loop()
+        loop.geomDispatcher.functors[0].vertexEdge = vertex_edge
+        O.step()
+        return len(yt.contacts(0, upper))
+
+    O.reset()
+    box(0.1, fixed=True)  # both have a radius of 2 cm
+    turn = Quaternion()
+    turn.setFromTwoVectors(Vector3(-1, -1, -1).normalized(), Vector3(0, 0, -1))
+    corner = Vector3(0.19, 0, 0.18 + math.sqrt(0.0399**2 - 0.01**2))  # of the core: 1 cm beyond the core's edge below, 0.1 mm deep
+    upper = O.bodies.append(yt.box((0.4, 0.3, 0.2), corner - turn * Vector3(-0.18, -0.13, -0.08), orientation=turn))
+    start()
+    O.engines = [e for e in O.engines if not isinstance(e, yw.UniformGravity)]
+    counts = [points(vertex_edge) for vertex_edge in (False, True, False, True)]
+    assert counts == [0, 1, 0, 1]
+    O.bodies[upper].shape.vertices = [Vector3(*v) for v in ((-0.2, -0.15, -0.1), (0.2, -0.15, -0.1), (0, 0.15, -0.1), (0, 0, 0.1))]
+    O.run(5, True)  # the features that met do not exist any more
+
+
+def test_without_a_collider():
+    O.reset()
+    box(0.1)
+    O.engines = [yw.ForceResetter(), yw.CollisionTrigger()]
+    with pytest.raises(Exception, match="needs a collider"):
+        O.step()
 
 
 def test_without_an_interaction_loop():

@@ -92,11 +92,84 @@ def test_loaded_body_released(steps):
         assert max(b.state.vel.norm() for b in O.bodies) < 0.05  # [m/s] its own contacts close by x = 63 micrometres: sqrt(g x) = 0.025; with the gains of the held body 1.8
 
 
+@pytest.mark.parametrize("held_first", [True, False])
+def test_mass_of_a_pair_follows_its_bodies(held_first):
+    """The equivalent mass (Eq. 43) of a body held, or let go, later: 0.34 kg under 340 kg. Dashpots depend on it."""
+    O.reset()
+    light = O.bodies.append(yt.box((0.1, 0.1, 0.1), (0, 0, 0.05), fixed=held_first))
+    heavy = O.bodies.append(yt.box((1, 1, 1), (0, 0, 0.6)))
+    O.dt, O.engines = 1e-5, yt.engines(gravity=(0, 0, 0))
+    O.bodies[heavy].state.pos -= (0, 0, 1e-6)
+    masses = {True: 340.0, False: 0.34 * 340 / 340.34}
+    for held in (held_first, not held_first):
+        O.bodies[light].dynamic = not held
+        O.run(2, True)
+        assert O.interactions[light, heavy].phys.mass == pytest.approx(masses[held], rel=1e-9)
+
+
+def test_held_bodies_go_on_with_their_velocities():
+    """A table turns by 1 rad in 1 s and carries what lies on it; a body that is held stops, and does not spin when it is let go."""
+    O.reset()
+    table = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    block = O.bodies.append(yt.box((0.2, 0.2, 0.1), (0.3, 0, 0.05)))
+    O.dt, O.engines = 2e-4, yt.engines()
+    O.run(500, True)
+    yt.set_velocity(O.bodies[table], (0, 0, 0), (0, 0, 1))
+    O.run(5000, True)
+    turned = O.bodies[table].state.ori.toAngleAxis()
+    assert turned[0] == pytest.approx(1, abs=1e-6) and turned[1][2] == pytest.approx(1)
+    x, y, _ = O.bodies[block].state.pos
+    assert np.arctan2(y, x) == pytest.approx(1, abs=0.05)
+    O.bodies[block].dynamic = False
+    O.step()
+    O.bodies[block].dynamic = True
+    yt.set_velocity(O.bodies[table], (0, 0, 0))
+    O.step()
+    assert O.bodies[block].state.angVel.norm() < 1e-2
+
+
+def test_numbers_that_would_end_the_process():
+    for refused in (lambda: yw.HealthCheck(every=0), lambda: yw.RestSkipper(grain=0), lambda: yw.RoundedPolyhedron().massProperties()):
+        with pytest.raises((ValueError, RuntimeError)):
+            refused()
+    column_on_plate()
+    O.engines = [*O.engines, yw.HouseMonitor(heights=[1.0], bodies=[1, 1000000], levels=[1, 1])]
+    O.run(200, True)  # a body that is not there marks no level
+
+
+def test_a_joint_that_was_changed_by_hand():
+    """One that does not fit together is refused and holds nothing; springs broken by hand have no force."""
+    column_on_plate()
+    joint = scene.find_engine(yt.JointEngine).joints[0]
+    assert joint.load > 0
+    joint.broken = [1] * 4
+    assert joint.load == 0 and all(spring["stretch"] == 0 for spring in joint.springs)
+    with pytest.raises(ValueError):
+        joint.anchors1 = joint.anchors1[:1]
+    O.run(10, True)
+    assert joint.isFinished
+    with pytest.raises(ValueError):
+        scene.find_engine(yt.JointEngine).append(yw.TimberJoint(id1=0, id2=1, anchors1=[(0, 0, 0)]))
+
+
+def test_bare_element_material_is_refused():
+    with pytest.raises(TypeError):
+        yt.box((1, 1, 1), (0, 0, 0), material=yw.ElementMat())
+
+
 def test_gravity_of_either_engine():
+    """Also in the energies: a free fall."""
     column_on_plate()
     assert scene.gravity_now()[2] == -9.81
     O.engines = [yw.GravityEngine(gravity=(0, 0, -5)) if isinstance(e, yw.UniformGravity) else e for e in O.engines]
     assert scene.gravity_now()[2] == -5
+    for own in (True, False):
+        O.reset()
+        O.bodies.append(yt.box((1, 1, 1), (0, 0, 0)))
+        chain = yt.engines(gravity=(0, 0, -3 if own else 0))
+        O.dt, O.engines = 1e-3, chain if own else [*chain[:-3], yw.GravityEngine(gravity=(0, 0, -5)), *chain[-3:]]
+        O.run(100, True)
+        assert abs(yt.energy_residual(yt.energy())) < 1e-9 * yt.energy()["kinetic"]
     O.engines = yt.engines(gravity=(0, 0, 0))
     assert scene.gravity_now().norm() == 0
 
