@@ -42,7 +42,7 @@ def engines(
     vertex_edge    whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them)
     flush_supports whether a vertex exactly over a face's border is supported
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
-    damping_ratio  share of critical damping [-]
+    damping_ratio  share of critical damping [-]; below 1, contacts that last fewer than some ten steps may gain energy (docs/theory.md, section 5)
     sweeps         most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper
     tolerance      share of an island's contact impulses, each over the root of its equivalent mass, that the last sweep may change [-]
     track_energy   whether `energy()` can be asked

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 6: weight, rest, arches and frames, against statics and the linear model of planar_frame.py.
 
-Steps are 1e-4 s, that of the house scenarios, unless a row says otherwise.
+Steps are those of the house scenarios.
 """
 import numpy as np
 import yade.wrapper as yw
@@ -17,7 +17,7 @@ from yade_timber import scenario, scene
 
 case = Registry()
 O = yw.Omega()
-DT = 1e-4
+DT = scenario.DEFAULT_DT
 """[s]"""
 
 
@@ -61,9 +61,9 @@ def stack_at_rest(duration=10.0, blocks=20):
     settled = places()
     advance(duration - 2)
     note = f"stack of {blocks}, {duration:g} s"
-    # Weight: an equilibrium has no other error than rounding of some 1e3 N; 1e-14 was seen.
-    # Creep: the last of the settling in, 6e-9 m, against the 0.01 mm of the requirement. Energy: 1e-18 J was seen, 1e-23 of
-    # m g h; it stands for speeds of 1e-10 m/s, the rounding of a position over a step: 1e-16 m / 1e-4 s, times sqrt(noise).
+    # Weight: an equilibrium has no other error than the last of its swing, 4e-12 after 10 s, and rounding, 3e-14 after 60 s.
+    # Creep: the last of the settling in, 4e-8 m, against the 0.01 mm of the requirement; no more of it in 60 s. Energy: 1e-16 J
+    # was seen, the last of the swing, speeds of 2e-9 m/s; 3e-23 J after 20 s.
     return [
         Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
         Row("6", "stack: creep after 2 s [m]", 0, abs(places() - settled).max(), bound=1e-7, dt=DT, note=note),
@@ -148,7 +148,7 @@ def wedge_of_32():
     force = load_on_fixed()
     total = weight()
     lost, _ = run_parts(wedge_parts(), 0.05, 0.5)
-    # As for the stack: the weight to rounding, no creep but rounding (5e-17 m seen), against 0.01 mm of the requirement.
+    # As for the stack: the weight to rounding, no creep but rounding (7e-16 m seen), against 0.01 mm of the requirement.
     return [
         Row("6", "wedge of 32: force on the slopes [N]", total, force, bound=1e-10, dt=DT, note="friction 0.7"),
         Row("6", "wedge of 32: creep in 0.5 s [m]", 0, creep, bound=1e-12, dt=DT, note="friction 0.7"),
@@ -203,7 +203,7 @@ def beam_at():
 
 def lateral_stiffness(frame, model, name, push=1.0, steps=50):
     """Push the beam sideways, slowly, until the frame rests; force over displacement against the linear model."""
-    build_frame(frame)
+    build_frame(frame, DT)
     advance(3)
     before = recorded(1, 1e-2, beam_at).mean()
     for k in range(steps):
@@ -214,14 +214,14 @@ def lateral_stiffness(frame, model, name, push=1.0, steps=50):
     x = 3 * list(model.bodies).index(BEAM)
     load = np.zeros(len(model.rest))
     load[x] = push
-    # The push turns the feet by 8 % of what would lift them, and Hertz's law is not linear: 8 %^2 / 9 = 7e-4, seen to fall to 5e-5
+    # The push turns the feet by 8 % of what would lift them, and Hertz's law is not linear: 8 %^2 / 9 = 7e-4, seen to fall to 7e-5
     # with a third of the push. What is left of the swing of the brace in its undamped joints: 1e-8 m in 1e-5 m.
     return Row("6", f"{name} frame: lateral stiffness [N/m]", push / model.deflection(load)[x], got, bound=2e-3, dt=DT)
 
 
 def lowest_frequency(frame, model, name, cycles):
     """Start in the lowest mode, without dashpots, and count swings of the beam against the linear model's eigenvalue."""
-    build_frame(frame)
+    build_frame(frame, DT)
     advance(3)
     undamp()
     frequencies, shapes = model.modes()
@@ -230,7 +230,7 @@ def lowest_frequency(frame, model, name, cycles):
     start_in_mode(frame, model.bodies, 1e-5 * 2 * np.pi * frequencies[0] * shape)
     swing = recorded(cycles / frequencies[0], every, beam_at) - rest
     got = swing_frequency(every * np.arange(len(swing)), swing)
-    # Amplitude 10 um of the 300 um that would lift a foot: Hertz's law softens by its square. Observed: 1e-4.
+    # Amplitude 10 um of the 300 um that would lift a foot: Hertz's law softens by its square. Observed: 5e-5.
     return Row("6", f"{name} frame: lowest frequency [Hz]", frequencies[0], got, bound=1e-3, dt=DT)
 
 
@@ -262,5 +262,5 @@ def house_weight(settle=0.5, average=0.2):
     for _ in range(10):
         advance(average / 10)
         forces.append(load_on_fixed())
-    # What still swings: light beams of the entrance hang in their undamped joints, snow on its soft springs. Observed: 2e-4 (C2), 8e-6 when averaged after 1.2 s.
+    # What still swings: light beams of the entrance hang in their undamped joints, snow on its soft springs. Observed: 1.3e-4 (C2), 1e-6 when averaged after 1.2 s.
     return [Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT, note="mean of 0.2 s after 0.5 s")]
