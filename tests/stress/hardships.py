@@ -10,7 +10,7 @@ from yade_timber.motion import GroundMotion, default_motion
 O = yw.Omega()
 
 GAIN = 1e-3
-"""Energy that the balance may show too much, of all that went in [-]: none was seen to appear at all."""
+"""Energy that the balance may show too much, of all that went in [-]: net, none was seen to appear."""
 LOSS = 0.03
 """Energy that it may miss [-]: impacts that last a step or two lose some unbooked, 0.8 % in the worst whole run (C2, earthquake, default step), 1.9 % at 2.5e-4 s."""
 SPIKE = 100.0
