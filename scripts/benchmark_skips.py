@@ -132,7 +132,7 @@ def fixed(options, skip):
 
 CASES = {  # words, scene -> build
     ("rest: grains of steps while the house rests and the ground is quiet", f"at rest under snow, {RESTING:g} s"): rest,
-    ("the collider, until a body may have left its box", "strong shaking, snow"): collider,
+    ("the collider, until a body may have left its box, and with it YADE's dispatch", "strong shaking, snow"): collider,
     ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
     ("energies that nobody asks for", "strong shaking, snow"): energies,
     ("the engine of joints, where all are broken", "strong shaking, snow, no joints"): joints,
