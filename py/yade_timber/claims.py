@@ -13,6 +13,8 @@ starts to tilt    last time before the tilt (drift 1/10) at which the drift was 
 import math
 from dataclasses import dataclass
 
+from .words import ratio
+
 SWAY = 1 / 120
 """A sway that is seen and felt: drift at which Japanese practice takes a timber house for undamaged no longer. [-]"""
 GREAT_SWAY = 1 / 30
@@ -77,7 +79,7 @@ def worse(run, other):
 
 
 def drift_text(value):
-    return f"{value:.3f}" if value >= 0.5 else f"1/{round(1 / value)}" if value >= 1e-3 else "<1/1000"
+    return ratio(value, "<")
 
 
 def sway_text(run):

@@ -39,8 +39,8 @@ def direction_name(key):
     return {"ns": "N-S", "ew": "E-W"}.get(key, key)
 
 
-def ratio(drift):
+def ratio(drift, below="below "):
     """A drift as people of the trade write it: 1/85."""
     if drift < 1e-3:
-        return "below 1/1000"
+        return f"{below}1/1000"
     return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"

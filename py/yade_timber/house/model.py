@@ -2,7 +2,7 @@
 """What a house is once built: elements (convex polyhedra), joints (spring points), and counts of both."""
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -91,7 +91,6 @@ class HouseModel:
     law: dict                # 'joint_reading', 'vertex_edge_contacts', 'flush_supports', 'hertz'
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
-    options: dict = field(default_factory=dict)
 
     @cached_property
     def by_name(self):
