@@ -20,6 +20,9 @@ def arguments():
 
 def main():
     options = arguments()
+    names = [folder.resolve().name for folder in options.folder]
+    if options.out and len(set(names)) < len(names):
+        sys.exit("error: --out: two of the runs have folders of the same name; show them one by one")
     for folder in options.folder:
         out = folder if options.out is None else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
         try:

@@ -154,8 +154,8 @@ def main():
     if any(entry["status"] != "done" for entry in found if (entry["braces"], entry["set"]) == (None, None)):
         sys.exit("error: nothing to compare: the house as it is did not run")
     table, without = ranking(found)
-    write_table(options.to / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])
-    plot(table, without, options, options.to / "brace.png")
+    write_table((options.to or options.out) / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])
+    plot(table, without, options, (options.to or options.out) / "brace.png")
     print(f"as it is: {without[0]:.4f} ({min(without):.4f} to {max(without):.4f} out of plumb); best: {table[0]['brace']} {table[0]['peak_drift']:.4f}")
     sys.exit(any(entry["status"] != "done" for entry in found))
 

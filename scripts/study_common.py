@@ -31,8 +31,7 @@ def parser(about, name):
     made.add_argument("--end", type=float, default=END, metavar="S", help="the motion up to here [s] (default %(default)g)")
     made.add_argument("--dt", metavar="S", default="*", help="time step [s] (default: that of the runs)")
     made.add_argument("--out", type=Path, default=Path("results") / name, metavar="DIR", help="folder of the runs (default %(default)s)")
-    to = HERE.parent / "docs" / "studies"
-    made.add_argument("--to", type=Path, default=to, metavar="DIR", help="folder of the study's CSV and PNG (default docs/studies)")
+    made.add_argument("--to", type=Path, metavar="DIR", help="folder of the study's CSV and PNG (default: that of the runs)")
     return made
 
 
@@ -48,6 +47,8 @@ def numbers(text):
 
 def run_all(rows, options):
     """Run the rows (dicts of columns, all alike) through yade-batch; their results, see `yade_timber.batch.collect`. Ends the process on errors."""
+    if not rows:
+        sys.exit("error: no run is asked for")
     options.out.mkdir(parents=True, exist_ok=True)
     table = options.out / "table.txt"
     rows = [{**row, "start": options.start, "end": options.end, "dt": options.dt} for row in rows]

@@ -130,8 +130,8 @@ def draw(axis, house, curve, shift):
 def main():
     options = arguments()
     table = points(run_all(rows(options), options))
-    write_table(options.to / "fragility.csv", table)
-    plot(table, options.snow, options.to / "fragility.png")
+    write_table((options.to or options.out) / "fragility.csv", table)
+    plot(table, options.snow, (options.to or options.out) / "fragility.png")
     for house in map(label, options.houses.split(",")):
         for snow in options.snow:
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]

@@ -11,7 +11,7 @@ from pathlib import Path
 from .errors import RunError
 from .house import load_house, shipped_houses
 from .motion import add_motion_options, motion_request
-from .scenario import DEFAULT_DT, MAX_DT, Scenario
+from .scenario import DEFAULT_DT, MAX_DT, MIN_DT, Scenario
 
 SNOW_DEPTH = 1.0
 """Snow on the roof of the snow runs. [m] (paper, section 3.4)"""
@@ -52,7 +52,7 @@ def parser(script):
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
     made.add_argument("--no-views", action="store_true", help="make no pictures; scripts/show_run.py makes them later from the recorded frames")
     made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
-    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: without computing anything)")
+    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
     made.add_argument("--every-step", action="store_true", help="compute rest, too: by default the time in which the house rests and the ground is quiet is skipped")
     made.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_motion_options(made)
@@ -137,8 +137,8 @@ def _is_number(word):
 
 def _check_numbers(given):
     """Ranges of all numbers; NaN is in none of them."""
-    if not 0 < given.dt <= MAX_DT:
-        raise RunError(f"--dt {given.dt:g}: the time step must be > 0 and at most {MAX_DT:g} s, beyond which joints of floors and roofs are unstable")
+    if not MIN_DT <= given.dt <= MAX_DT:
+        raise RunError(f"--dt {given.dt:g}: the time step must be between {MIN_DT:g} s and {MAX_DT:g} s, beyond which joints of floors and roofs are unstable")
     for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
         if value is not None and not 0 <= value < math.inf:
             raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")

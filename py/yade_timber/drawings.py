@@ -38,8 +38,8 @@ def page(model, dpi):
     for ax, view in ((front, FRONT), (side, SIDE)):
         draw_elevation(ax, view, solids, model, dpi)
     draw_plan(plan, model)
-    figure.text(0.03, 0.963, f"House {model.name}", fontsize=14, fontweight="bold", va="center")
-    figure.text(0.03, 0.944, describe(model), fontsize=9, va="top", linespacing=1.4)
+    figure.text(0.03, 0.963, f"House {model.name}", parse_math=False, fontsize=14, fontweight="bold", va="center")
+    figure.text(0.03, 0.944, describe(model), parse_math=False, fontsize=9, va="top", linespacing=1.4)
     legend(figure, solids, model)
     return figure
 

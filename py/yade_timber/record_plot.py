@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra. Needs no YADE."""
+from textwrap import fill
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -7,7 +9,7 @@ from matplotlib.ticker import FuncFormatter
 
 from . import motion as gm
 from .palette import DIRECTIONS
-from .sheets import PRINT, save
+from .sheets import LETTERS, PRINT, save
 
 DPI = 150
 QUIET = 0.01
@@ -28,8 +30,8 @@ def page(motion, corner):
     FigureCanvasAgg(figure)
     axes = figure.subplots(3, 2, width_ratios=(1.25, 1))
     figure.subplots_adjust(left=0.07, right=0.985, top=0.87, bottom=0.07, hspace=0.28, wspace=0.17)
-    figure.text(0.03, 0.965, f"Ground motion {motion.name}", fontsize=14, fontweight="bold", va="center")
-    figure.text(0.03, 0.925, describe(motion), fontsize=9, va="center")
+    figure.text(0.03, 0.965, f"Ground motion {motion.name}", parse_math=False, fontsize=14, fontweight="bold", va="center")
+    figure.text(0.03, 0.925, fill(describe(motion), int(LETTERS * 0.94 * PRINT.width)), parse_math=False, fontsize=9, va="center")
     draw_accelerations(axes[:, 0], motion)
     draw_curves(axes[0, 1], motion.time, 100 * gm.velocity(motion, corner), "velocity [cm/s]")
     draw_curves(axes[1, 1], motion.time, 100 * gm.displacement(motion, corner), "displacement [cm]")
@@ -70,7 +72,7 @@ def draw_curves(axis, time, values, label):
         axis.plot(time, values[:, column], color=DIRECTIONS[key], ls=dashes, lw=0.9, label=name)
     axis.set_ylabel(label, fontsize=8)
     axis.set_xlabel("time [s]", fontsize=8)
-    axis.legend(loc="upper left", fontsize=8, framealpha=0.9)
+    axis.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, fontsize=8, frameon=False, borderaxespad=0)  # above: it hides no peak
 
 
 def draw_spectra(axis, motion):

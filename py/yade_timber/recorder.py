@@ -13,18 +13,19 @@ class Recorder:
     """Frames of the run that is loaded in YADE; the caller decides when (frames.steps_between)."""
 
     def __init__(self, scenario, model, title):
-        self.joints = scene.find_engine(yw.JointEngine)
         version = results.versions()["package"]
-        self.frames = frames.Frames(title, scenario.name, model.name, version, describe_elements(model), describe_joints(model, self.joints), motion=describe_motion())
+        self.frames = frames.Frames(title, scenario.name, model.name, version, describe_elements(model), describe_joints(model, scene.find_engine(yw.JointEngine)), motion=describe_motion())
 
     def take(self, time, last=False):
         """Record the scene as it is now, unless that is done. time [s]; last: whether it is the final state."""
         kept = self.frames
-        if kept.time and kept.time[-1] == time:
+        if kept.time and kept.time[-1] > time + O.dt / 2:  # an earlier state was loaded
+            self._keep(kept, time)
+        if kept.time and kept.time[-1] > time - O.dt / 2:
             return
         kept.time.append(time)
         position, orientation = _plugin.packed_placements()
-        load, broken = _plugin.packed_joints(self.joints)
+        load, broken = _plugin.packed_joints(scene.find_engine(yw.JointEngine))
         kept.position.append(np.frombuffer(position, "f4").reshape(-1, 3))
         kept.orientation.append(np.frombuffer(orientation, "f4").reshape(-1, 4))
         kept.load.append(np.frombuffer(load, "f4"))
@@ -42,12 +43,15 @@ class Recorder:
 
     def restore(self, path):
         """Take over the frames of a file up to the present time. Raises RunError when it cannot be read."""
-        before = frames.load(path)
-        count = np.searchsorted(before.time, O.time + O.dt / 2)
+        self._keep(frames.load(path), O.time)
+
+    def _keep(self, given, time):
+        """Take over frames up to a time [s]."""
+        count = np.searchsorted(given.time, time + O.dt / 2)
         for name in ("time", "position", "orientation", "load", "broken"):
-            setattr(self.frames, name, list(getattr(before, name)[:count]))
-        count = np.searchsorted(before.contacts.time, O.time + O.dt / 2)
-        for name, values in vars(before.contacts).items():
+            setattr(self.frames, name, list(getattr(given, name)[:count]))
+        count = np.searchsorted(given.contacts.time, time + O.dt / 2)
+        for name, values in list(vars(given.contacts).items()):
             setattr(self.frames.contacts, name, values[:count])
 
     def save(self, path):
@@ -59,7 +63,7 @@ class Recorder:
         monitor = scene.find_engine(yw.HouseMonitor)
         self.frames.summary = found
         self.frames.history = list(monitor.columns()), np.reshape(monitor.rows, (-1, len(monitor.columns())))
-        self.frames.breaks = describe_breaks(self.joints)
+        self.frames.breaks = describe_breaks(scene.find_engine(yw.JointEngine))
         self.save(path)
 
 

@@ -88,7 +88,7 @@ def at(joints, model, storey, side):
 def count_columns(model):
     """The part `columns`: total; fallen: tilted by more than FALLEN; loose: not fallen, but no joint of theirs has a spring left."""
     held = {name for spec, joint in zip(model.joints, scene.find_engine(yw.JointEngine).joints) if not joint.isFinished for name in (spec.a, spec.b)}
-    columns = [(element.name, tilt(O.bodies[k])) for k, element in enumerate(model.elements) if element.kind == "column"]
+    columns = [(element.name, tilt(O.bodies[k])) for k, element in enumerate(model.elements) if element.kind == "column" and O.bodies[k] is not None]
     return {
         "total": len(columns),
         "fallen": sum(angle > FALLEN for _, angle in columns),
@@ -146,7 +146,8 @@ def storey_moves(model, structure):
     """How far the levels of a structure have moved since the start, from below, with the heights of their storeys: [((3,) mean [m], [m])]."""
     bodies, moves = {body.shape.name: body for body in O.bodies}, {}
     for element, level in level_marks(model, structure):
-        moves.setdefault(level, []).append(bodies[element.name].state.displ())
+        if element.name in bodies:
+            moves.setdefault(level, []).append(bodies[element.name].state.displ())
     heights = {level: head - foot for level, (foot, head) in model.storey_levels[structure].items()}
     return [(sum(found, Vector3.Zero) / len(found), heights[level]) for level, found in sorted(moves.items())]
 

@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+import uuid
 from contextlib import ExitStack
 from dataclasses import replace
 
@@ -26,6 +27,8 @@ from .recorder import Recorder
 from .scenario import build
 from .words import sentence
 
+TAG = "yade-timber run"
+"""Of the scene: which run it belongs to."""
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 O = yw.Omega()
@@ -47,6 +50,8 @@ class Run:
         self.wall_s = 0.0  # [s] spent on steps, also by the runs before a resume
         self.last_saved = None  # step of the last checkpoint
         self.signal = None
+        self.only_export = bool(output.export) and self.steps == 0  # what is in the folder is left alone
+        self.tag = uuid.uuid4().hex
         self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
         resumed = output.resume and self.checkpoint_path.exists() and self._load()
         if not resumed:
@@ -54,14 +59,17 @@ class Run:
         skipper = scene.find_engine(yw.RestSkipper)
         if skipper:
             skipper.last = self.steps
-        if output.export and not resumed:
-            self._export()
 
     # --- start --------------------------------------------------------------------------------------------------------
 
     def _start(self):
         """Build the scene."""
         self.model = build(self.scenario)
+        if self.output.export:
+            self._export()
+        if self.only_export:
+            return
+        O.tags[TAG] = self.tag
         self.identity = self._identity()
         self._clear(frames.NAME, checkpoint.NAME)
         self.recorder = self._recorder()
@@ -84,6 +92,7 @@ class Run:
             self.wall_s = 0.0
             return False
         self.last_saved = O.iter
+        self.tag = O.tags[TAG]
         if self.output.frames and not self.frames_path.exists():
             self.output = replace(self.output, frames=False, views=False)
             print(f"note: no frames of the first {O.time:.2f} s were recorded, and so none of the rest are", file=sys.stderr)
@@ -170,15 +179,21 @@ class Run:
     def save(self):
         """Save a checkpoint now, unless checkpoints are switched off. The frames go first: those after a checkpoint can be dropped."""
         if self.output.checkpoint_interval > 0:
-            if self.recorder:
-                self.recorder.save(self.frames_path)
-            checkpoint.save(self.checkpoint_path, self.identity, self.wall_s)
+            try:
+                if self.recorder:
+                    self.recorder.save(self.frames_path)
+                checkpoint.save(self.checkpoint_path, self.identity, self.wall_s)
+            except (OSError, RuntimeError) as problem:  # of YADE's writer
+                raise RunError(f"{self.checkpoint_path}: cannot be written ({problem}); the run stops at {O.time:.2f} s, the checkpoint before is whole") from None
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self):
         """Write results and pictures of the scene as it is now, and say so."""
+        if self.only_export:
+            self.say(f"written: {self.output.export}")
+            return
         folder = self.output.folder
         found = {**results.summary(self.scenario, self.model, self.wall_s), "made_from": made_from(self.output.options)}
         written = []
@@ -226,15 +241,25 @@ class Run:
         O.engines = O.engines + [yw.PyRunner(command=command, iterPeriod=self.chunk, iterLast=before, nDone=1)]
 
     def _watch(self):
-        while O.iter < self.steps:
+        while self.is_loaded() and O.iter < self.steps:
             time.sleep(0.5)
         O.wait()
         self.wall_s += time.perf_counter() - self._since
         self._end()
 
+    def is_loaded(self):
+        """Whether the scene in YADE is this run's, also after it was saved and loaded again."""
+        return self._tagged() or time.sleep(1) or self._tagged()  # while YADE loads a scene, it has none for a moment
+
+    def _tagged(self):
+        return TAG in O.tags.keys() and O.tags[TAG] == self.tag
+
     def _end(self):
         with self._hold:
-            self.write()
+            if self.only_export or self.is_loaded():
+                self.write()
+            else:
+                print(f"{self.output.folder}: another scene was loaded before the run's end; it has no results", file=sys.stderr)
 
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
@@ -243,7 +268,7 @@ class Run:
 
 def record_frame():
     """Record the state that the present step of the live run, whose bodies have moved already, leads to."""
-    if live and O.iter + 1 < live.steps:
+    if live and live.is_loaded() and O.iter + 1 < live.steps:
         live.recorder.take(O.time + O.dt)
 
 
@@ -272,22 +297,28 @@ def launch(read, argv=None):
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
+    output = None
     try:
         scenario, output = read(sys.argv if argv is None else argv)
-        live = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
+        stays = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
+        if stays and O.running:
+            O.pause()  # a live run: the new one takes its place
+            O.wait()
         cli.prepare_folder(output.folder)
         with ExitStack() as hold:
             if not hold.enter_context(locked(output.folder)):
                 raise RunError(f"{output.folder}: another process is computing a run there; wait for it, or choose another folder with --out")
             run = Run(scenario, output)
-            run.start(hold.pop_all()) if live else run.complete()
+            run.start(hold.pop_all()) if stays else run.complete()
     except (RunError, RecordError, HouseError) as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
         number = stop.args[0]
         remedy = "go on with --resume" if output.checkpoint_interval > 0 else "nothing was saved (--checkpoint 0)"
         leave(f"stopped at {O.time:.2f} s by {signal.Signals(number).name}; {remedy}", 128 + number)
-    if live:
+    except KeyboardInterrupt:  # before the first step, or while results and pictures are written
+        leave(f"stopped by SIGINT; what is missing in {output.folder if output else 'the folder'} is made by the same command, pictures by scripts/show_run.py", 128 + signal.SIGINT)
+    if stays:
         print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results follow in {run.output.folder}")
     return run
 

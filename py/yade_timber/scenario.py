@@ -19,6 +19,8 @@ DEFAULT_DT = 2e-4
 """Time step of the house scenarios. [s]"""
 MAX_DT = 5e-4
 """Largest time step that a house scenario takes [s]: the joints of floors and roof are unstable at 5.1e-4."""
+MIN_DT = 1e-7
+"""Smallest time step that a house scenario takes [s]: a hundredth of the paper's."""
 JOINT_SAFETY = 0.98
 """Largest time step over the joints' stability limit, which is that of linear springs without dashpots. [-]"""
 

@@ -117,9 +117,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     """
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
-    for body in (id1, id2):
-        if not 0 <= body < len(O.bodies) or O.bodies[body] is None:
-            raise ValueError(f"connect: there is no body {body}; the last one has the id {len(O.bodies) - 1}")
+    require_bodies("connect", id1, id2)
     if per not in JOINT_READINGS:
         raise ValueError(f"connect: per = {per!r}: it must be one of {', '.join(JOINT_READINGS)}")
     points = np.atleast_2d(np.asarray(points, float))
@@ -139,6 +137,21 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
         O.engines = chain[:place] + [engine] + chain[place:]
     engine.append(joint)
     return joint
+
+
+def require_ids(caller, *ids):
+    """Raise ValueError for what is no id of a body of the scene, there or taken out: YADE itself would read beyond its list."""
+    for body in ids:
+        if not isinstance(body, (int, np.integer)) or not 0 <= body < len(O.bodies):
+            raise ValueError(f"{caller}: there is no body {body}; bodies have the ids 0 ... {len(O.bodies) - 1}")
+
+
+def require_bodies(caller, *ids):
+    """Raise ValueError for what is no id of a body in the scene."""
+    require_ids(caller, *ids)
+    for body in ids:
+        if O.bodies[body] is None:
+            raise ValueError(f"{caller}: body {body} was taken out")
 
 
 def joins_bodies(joint):
@@ -171,8 +184,9 @@ def contacts(id1, id2):
     """Contact points between two bodies: list of dictionaries, world frame.
 
     position [m], normal (from id1 to id2), overlap [m], normal_force [N] (elastic and dashpot, >= 0), shear_force (3,) on
-    id2 [N]. Empty when they do not touch. Forces are those of the last step.
+    id2 [N]. Empty when they do not touch. Forces are those of the last step. Raises ValueError for what was never a body.
     """
+    require_ids("contacts", id1, id2)
     interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
     if interaction is None or not interaction.isReal:
         return []

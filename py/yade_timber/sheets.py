@@ -103,11 +103,11 @@ def places(form, count, columns, density, box):
 def heading(figure, frames, what):
     """Title and result at the top of a sheet."""
     width, height = figure.get_size_inches()
-    figure.text(EDGE / width, 1 - 0.30 / height, f"{frames.title}. {what}", fontsize=14, fontweight="bold", va="center")
+    figure.text(EDGE / width, 1 - 0.30 / height, f"{frames.title}. {what}", parse_math=False, fontsize=14, fontweight="bold", va="center")
     if frames.summary:
         result = re.sub(r"(?<=\d) (?=[st]\b)", "\u00a0", sentence(frames.summary))  # units stay with their numbers
         result = fill(result, int(LETTERS * (width - 2 * EDGE)))
-        figure.text(EDGE / width, 1 - 0.46 / height, result, fontsize=10, va="top")
+        figure.text(EDGE / width, 1 - 0.46 / height, result, parse_math=False, fontsize=10, va="top")
 
 
 def write_end(stem, frames):

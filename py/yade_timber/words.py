@@ -20,7 +20,9 @@ def sentence(found):
         broken += f", snow {found['snow_mass_kg'] / 1000:.1f} t"
     fallen = [] if found["collapsed"] else found.get("fallen_structures", [])
     others = [f", {' and '.join(names)} {what}" for names, what in ((fallen, "down"), (found.get("leaning_structures", []), "leaning")) if names]
-    return f"House {found['model']} {fate(found)}{''.join(others)}, {broken}"
+    onset = (found.get("record") or {}).get("onset_s")
+    early = f"; the run ends before strong shaking sets in ({onset:.1f} s)" if onset and found.get("duration_s", onset) < onset else ""
+    return f"House {found['model']} {fate(found)}{''.join(others)}, {broken}{early}"
 
 
 def fate(found):

@@ -8,7 +8,7 @@ from yade_timber import cli
 from yade_timber.errors import RunError
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
 from yade_timber.runner import main
-from yade_timber.scenario import MAX_DT
+from yade_timber.scenario import MAX_DT, MIN_DT
 
 
 @pytest.fixture
@@ -35,9 +35,9 @@ def refused(tmp_path, capsys):
     return call
 
 
-@pytest.mark.parametrize("dt", ["0", "-1e-4", "nan", "inf", "1e-2"])
+@pytest.mark.parametrize("dt", ["0", "-1e-4", "nan", "inf", "1e-2", "1e-8"])
 def test_time_step(refused, dt):
-    assert "--dt" in refused("--dt", dt) and f"at most {MAX_DT:g} s" in refused("--dt", dt)
+    assert "--dt" in refused("--dt", dt) and f"between {MIN_DT:g} s and {MAX_DT:g} s" in refused("--dt", dt)
 
 
 @pytest.mark.parametrize("option", ["--duration", "--scale", "--checkpoint"])

@@ -142,6 +142,8 @@ MISTAKES = {  # what is wrong: (old text, new text, line of the new text that th
                               22, ["column store.column1.x0y1 carries nothing", "z 2.100"]),
     "impossible friction": ("between: [timber, timber], coefficient: 0.5", "between: [timber, snow], coefficient: 0.7", 6, ["friction of timber and snow is 0.7", "timber's own (0.5)"]),
     "damage to no side": ("snow: {depth: 0.5}", "damage: {regions: [{side: easst, storey: 1}]}", 32, ["'easst' is unknown, did you mean 'east'?"]),
+    "no storey": ("      - {layer: columns, height: 2}\n", "", 20, ["structures.store.columns: its stack has no layer of columns"]),
+    "ground too small": ("ground: {size: 10", "ground: {size: 1.5", 7, ["ground.size: 1.5 m do not reach below the whole house", "at least 2.2"]),
     "name with a blank": ("  store:", "  the store:", 9, ["structures: 'the store' is no name", "letters, digits, _ and -"]),
     "beside nothing": ("origin: [0, 0]", "beside: barn", 10, ["no structure 'barn' before this one"]),
 }

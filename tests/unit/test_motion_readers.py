@@ -165,7 +165,7 @@ def test_at2_azimuth_gives_signs_and_projections(tmp_path):
 
 def test_at2_component_stated_by_the_caller(tmp_path):
     path = write(tmp_path, "nowhere.AT2", at2_text(WAVES["ud"], "somewhere"))
-    with pytest.raises(RecordError, match="direction not stated; give component="):
+    with pytest.raises(RecordError, match="direction not stated; give it: --component"):
         read_motion(path)
     np.testing.assert_allclose(read_motion(path, component="ud").ud / GAL, WAVES["ud"], rtol=1e-6)
     numbered = write(tmp_path, "k_001.at2", at2_text(WAVES["ew"], "090"))

@@ -243,6 +243,16 @@ def test_nothing_simulated(tmp_path):
     assert found["steps"] == 0 and found["made_from"]["options"] == ["--duration", "0", "--dt", "2e-4"]
 
 
+def test_export_alone(tmp_path):
+    """With no time to simulate nothing else is written; what lies in the folder stays, also when the file cannot be written."""
+    assert run("modelA_snow", *SHORT, "--duration", 0.02, "--out", tmp_path).returncode == 0
+    before = {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir() if path.name != lock.LOCK}
+    assert run("modelA_snow", *SHORT, "--duration", 0, "--export", tmp_path.with_suffix(".json"), "--out", tmp_path).returncode == 0
+    assert run("modelA_snow", *SHORT, "--duration", 0.02, "--export", tmp_path / "no" / "where.json", "--out", tmp_path).returncode == 1
+    assert json.loads(tmp_path.with_suffix(".json").read_text())["elements"]
+    assert before == {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir() if path.name != lock.LOCK}
+
+
 def test_failed_run_leaves_no_summary(tmp_path):
     """A ground motion beyond all physics: the health check's line, status 1, and the results of an earlier run are gone."""
     record = tmp_path / "wild.csv"
@@ -250,7 +260,7 @@ def test_failed_run_leaves_no_summary(tmp_path):
     (tmp_path / "summary.json").write_text("{}")
     done = run("modelA_quake", *SHORT, "--no-frames", "--duration", 0.2, "--record", record, "--out", tmp_path)
     lines = own_errors(done)
-    assert done.returncode == 1 and len(lines) == 1 and "left the physical range" in lines[0] and "without results" in lines[0], done.stderr
+    assert done.returncode == 1 and len(lines) == 2 and "is the unit right?" in lines[0] and "left the physical range" in lines[1] and "without results" in lines[1], done.stderr
     assert not (tmp_path / "summary.json").exists() and not (tmp_path / frames.NAME).exists()
 
 

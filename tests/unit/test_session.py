@@ -152,6 +152,18 @@ def test_a_joint_that_was_changed_by_hand():
         scene.find_engine(yt.JointEngine).append(yw.TimberJoint(id1=0, id2=1, anchors1=[(0, 0, 0)]))
 
 
+def test_ids_that_are_none():
+    """YADE itself would read beyond its list."""
+    plate, column = column_on_plate()
+    for ids in ((0, -1), (0, 99), ("a", 1), (1.5, 0)):
+        with pytest.raises(ValueError, match="there is no body"):
+            yt.contacts(*ids)
+    O.bodies.erase(column)
+    assert yt.contacts(plate, column) == []
+    with pytest.raises(ValueError, match="taken out"):
+        yt.connect(plate, column, [(0, 0, 0)])
+
+
 def test_bare_element_material_is_refused():
     with pytest.raises(TypeError):
         yt.box((1, 1, 1), (0, 0, 0), material=yw.ElementMat())

@@ -21,7 +21,7 @@ from ..files import write_text
 from ..house import HouseError, changed_house, load_house
 from ..lock import locked
 from ..motion import MotionRequest, RecordError
-from ..scenario import DEFAULT_DT, MAX_DT, Scenario
+from ..scenario import DEFAULT_DT, MAX_DT, MIN_DT, Scenario
 from .collect import END
 from .table import MOTION, NO_EARTHQUAKE, BatchError, read_table
 
@@ -32,7 +32,7 @@ def scenario(row, folder):
     duration = row.value("duration", motion.duration if motion else QUIET_DURATION)
     house, dt = _house(row, folder), row.value("dt", DEFAULT_DT)
     snow = row.value("snow", load_house(house).data["snow"]["depth"])
-    for column, value, low, high in (("snow", snow, 0, 20), ("duration", duration, 0, 1e5), ("dt", dt, 1e-7, MAX_DT)):
+    for column, value, low, high in (("snow", snow, 0, 20), ("duration", duration, 0, 1e5), ("dt", dt, MIN_DT, MAX_DT)):
         if not low <= value <= high:
             raise BatchError(f"{row.where(column)}: {value:g}: must be between {low:g} and {high:g}")
     return Scenario(row.name, house, motion, snow, scale=scale, dt=dt, duration=duration)

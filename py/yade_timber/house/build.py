@@ -27,6 +27,7 @@ def build_house(description, snow_depth=None, check=True):
     structures = {}
     for name, table in data["structures"].items():
         structures[name] = Structure(name, table, data["materials"], structures)
+    _require_storeys(structures)
     elements = [_ground(data, structures)]
     for structure in structures.values():
         elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
@@ -38,6 +39,16 @@ def build_house(description, snow_depth=None, check=True):
     if check:
         check_house(model)
     return model
+
+
+def _require_storeys(structures):
+    """Storey drifts are those of the first structure; columns stand in layers."""
+    for name, structure in structures.items():
+        if structure.table["columns"] and not structure.storeys:
+            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns that they could stand in")
+    name, main = next(iter(structures.items()))
+    if not main.storeys:
+        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as storey drifts are taken from it; put it behind one that has")
 
 
 def _snow_depth(data, snow_depth):
@@ -97,6 +108,9 @@ def _ground(data, structures):
     ground = data["ground"]
     centre = np.mean(next(iter(structures.values())).area(), axis=0)
     half = ground["size"] / 2
+    reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
+    if reach > half:
+        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m do not reach below the whole house; give at least {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where)

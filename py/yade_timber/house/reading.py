@@ -114,6 +114,8 @@ def _parse(path):
     loader = _Loader(text)
     try:
         value = _convert(loader, loader.get_single_node(), path.name)
+    except RecursionError:
+        raise HouseError(f"{path.name}:1: an entry contains itself, or entries are nested too deeply") from None
     except yaml.YAMLError as problem:
         raise HouseError(_syntax_message(problem, path.name)) from None
     if not isinstance(value, Table):

@@ -8,13 +8,14 @@ from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its 
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from .formats import parse
 from .processing import round_off, turned
-from .record import GroundMotion, RecordError
+from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
 from .text import DOWN, UP, direction_of, read_lines
 
 RIGHT_ANGLE_TOLERANCE = 1.0
@@ -30,6 +31,8 @@ _SUFFIXES = (
 sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
 
 
+SURPRISING = 5 * STANDARD_GRAVITY
+"""[m/s2]"""
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
 """The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 
@@ -57,6 +60,8 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     directions = _directions(channels, component)
     dt, values = _aligned(channels, trim_to_shortest)
     acceleration = _to_house_axes(str(record), values, directions)
+    if np.abs(acceleration).max() > SURPRISING:
+        warnings.warn(f"{record}: {np.abs(acceleration).max() / GAL:.0f} gal, more than was ever recorded: is the unit right?", RecordWarning, stacklevel=2)
     motion = GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions), _beginning(channels))
     return turned(motion, angle)
 
@@ -68,13 +73,13 @@ def find_files(record):
         return [path]
     if path.is_dir():
         raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
-    if "," in str(record):
-        paths = [Path(part.strip()).expanduser() for part in str(record).split(",")]
-        for part in paths:
-            if not part.is_file():
-                raise RecordError(f"{part}: no such file")
-        return paths
-    return _find_by_prefix(path)
+    parts = [Path(part.strip()).expanduser() for part in str(record).split(",")]
+    if len(parts) == 1 or path.parent.is_dir() and "," not in path.name:
+        return _find_by_prefix(path)
+    for part in parts:
+        if not part.is_file():
+            raise RecordError(f"{part}: no such file")
+    return parts
 
 
 def _find_by_prefix(prefix):
@@ -103,7 +108,7 @@ def _directions(channels, component):
         directions = [_stated_direction(word) for word in words]
     for channel, direction in zip(channels, directions):
         if direction is None:
-            raise RecordError(f"{channel.path}: direction not stated; give component= ns, ew, ud or an azimuth")
+            raise RecordError(f"{channel.path}: direction not stated; give it: --component ns, ew, ud or an azimuth")
     return directions
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What ground motion is asked for: one set of names for command lines and for the columns of batch tables."""
 
+import math
 from dataclasses import dataclass, field, fields
 
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
@@ -21,7 +22,7 @@ class MotionRequest:
     `scale` is left to the run, which records it beside the motion.
     """
 
-    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV (default: synthetic, like Ojiya 2004)")
+    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; a file, a prefix, or files with commas between (default: synthetic, like Ojiya 2004)")
     seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
     component: str = _option(str, "WORDS", "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, with commas between")
     units: str = _option(str, "UNIT", "gal, m/s2 or g, where the record does not say")
@@ -47,7 +48,7 @@ class MotionRequest:
         for f in fields(self):
             value, low, high = getattr(self, f.name), f.metadata["low"], f.metadata["high"]
             if value is not None and low is not None and not low <= value <= high:
-                raise RecordError(f"{name.format(f.name)} {value:g}: must be {_range(low, high)}; {f.metadata['help']}")
+                raise RecordError(f"{name.format(f.name)} {value:g}: must be {_range(value, low, high)}; {f.metadata['help']}")
         for one, other in (("record", "seed"), ("pga", "intensity"), ("pga", "scale"), ("intensity", "scale")):
             if getattr(self, one) is not None and getattr(self, other) is not None:
                 raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
@@ -78,8 +79,9 @@ class MotionRequest:
         return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
 
 
-def _range(low, high):
-    return f">= {low:g}" if high >= 1e5 else f"between {low:g} and {high:g}"
+def _range(value, low, high):
+    beyond = high < value < math.inf
+    return f">= {low:g}" if high >= 1e5 and not beyond else f"between {low:g} and {high:g}"
 
 
 def add_motion_options(parser):

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What people do to the scene of a live run: load another one or an earlier state, take members out. At a terminal: test_run."""
+import time
+from contextlib import ExitStack
+
+import numpy as np
+import pytest
+from yade import O
+from yade_timber import frames, lock, runner, scenario
+from yade_timber.cli import Output
+
+
+def begin(folder, steps=4000):
+    """A live run of house A under snow, going on in the background."""
+    run = runner.Run(scenario.Scenario("live", "A", snow_depth=1.0, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
+    hold = ExitStack()
+    assert hold.enter_context(lock.locked(folder))
+    run.start(hold)
+    return run
+
+
+def wait_for(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def step_to(iteration):
+    wait_for(lambda: O.iter >= iteration)
+    O.pause()
+    O.wait()
+
+
+def test_another_scene(tmp_path, capfd):
+    """The run ends without results, and lets its folder go."""
+    begin(tmp_path)
+    step_to(100)
+    O.reset()
+    wait_for(lambda: not lock.held(tmp_path))
+    assert "another scene was loaded" in capfd.readouterr().err and not (tmp_path / "summary.json").exists()
+
+
+def test_an_earlier_state(tmp_path):
+    """Frames go back with it."""
+    run = begin(tmp_path, 1500)
+    step_to(600)
+    saved = O.iter
+    O.save(str(tmp_path / "state.yade.gz"), quiet=True)
+    O.run()
+    step_to(saved + 300)
+    O.load(str(tmp_path / "state.yade.gz"), quiet=True)
+    assert run.is_loaded()
+    O.run(run.steps - O.iter)
+    wait_for(lambda: not lock.held(tmp_path))
+    made = frames.load(tmp_path / frames.NAME)
+    assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary["steps"] == 1500
+
+
+def test_a_member_taken_out(tmp_path):
+    run = begin(tmp_path, 1000)
+    step_to(100)
+    column, beam = (next(k for k, e in enumerate(run.model.elements) if e.kind == kind) for kind in ("column", "beam"))
+    for body in (column, beam):
+        O.bodies.erase(body)
+    O.run(run.steps - O.iter)
+    wait_for(lambda: not lock.held(tmp_path))
+    assert frames.load(tmp_path / frames.NAME).summary["columns"]["total"] == len(run.model.of_kind("column")) - 1
+
+
+@pytest.fixture(autouse=True)
+def no_live_run():
+    yield
+    O.pause()
+    runner.live = None
