@@ -151,6 +151,53 @@ TEST(Coupled, FaceWithFourPointsNeedsFewSweeps)
 	EXPECT_LT(errorOf(heap, dense, 1e-4, 60), 1e-4); // linear convergence of the sweeps
 }
 
+/// A long beam lands on one of its lower edges: what pushes it up also turns it, and the edge slips. The tangential impulse answers that in the
+/// same visit (coupling).
+TEST(Coupled, ImpulseAcrossAnswersThatAlong)
+{
+	const double mass = 20, side = 0.12, length = 4;
+	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(mass, { 0, 0, -1 }) };
+	bodies[1].inverseInertia = Vec3(12 / (mass * length * length), 6 / (mass * side * side), 12 / (mass * length * length)).asDiagonal();
+	HeapPoint p = central(1e8);
+	p.armB = { side / 2, 0, -side / 2 };
+	p.friction = 1e9;
+	std::vector<HeapPoint> points { p };
+	EXPECT_LE(solveDashpots(bodies, points, 1e-4, 1000, 1e-9), 30); // 22; 42 without
+	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed is left
+}
+
+/// Passes alternate in direction: a push at the last body of a row, which the first pass meets last, crosses the whole row in the second.
+TEST(Coupled, TwoPassesCrossARow)
+{
+	const int last = 5;
+	std::vector<DashpotBody> bodies { body(1, Vec3::Zero()) };
+	std::vector<HeapPoint> points;
+	for (int k = 1; k <= last; ++k) {
+		bodies.push_back(body(1, { 0, 0, k == last ? -1. : 0. }));
+		points.push_back(central(1e10));
+		points.back().bodyA = k - 1;
+		points.back().bodyB = k;
+	}
+	solveDashpots(bodies, points, 1e-4, 2);
+	for (int k = 1; k <= last; ++k) // two bodies that meet get their mean velocity: 1/2 is left of the push, then 1/4, ...
+		EXPECT_NEAR(bodies[k].newVelocity.z(), -std::pow(0.5, last - k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity is left
+	EXPECT_NEAR(bodies[0].newVelocity.z(), bodies[1].newVelocity.z(), 1e-5);
+}
+
+/// So do the points of a pair: after the second pass the first point's equation holds, not the last one's.
+TEST(Coupled, PointsTakeTurnsInBeingTheLast)
+{
+	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(1, { 0, 0, -1 }) };
+	std::vector<HeapPoint> points(2, central(1e10));
+	points[0].armB.x() = -0.5;
+	points[1].armB.x() = 0.5;
+	solveDashpots(bodies, points, 1e-4, 2);
+	const auto speed = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
+	const double other = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): what one point's answer does to the other
+	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed is left
+	EXPECT_NEAR(speed(points[1]), other * other * (other - 1), 1e-5);
+}
+
 /// Two heaps on the same fixed body, solved together, as they are one by one: bit for bit, although one needs more sweeps.
 TEST(Islands, DoNotInfluenceEachOther)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The candidate cache holds no result: along any trajectory it gives the bits that an empty cache gives.
 #include "shapes.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <kernel/constants.hpp>
 
@@ -62,6 +63,20 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 	return inContact;
 }
 
+/// Points after a move that the margin allows: from the candidates of the placement before as from an empty cache.
+std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before, const Pose& after, const Patterns& patterns = {})
+{
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	updateManifold(a, b, {}, before, patterns, cache, points);
+	updateManifold(a, b, {}, after, patterns, cache, points);
+	EXPECT_EQ(cache.uses, 1); // no other search
+	EXPECT_TRUE(identical(points, contacts(a, b, {}, after, patterns)));
+	return points;
+}
+
+constexpr double move = (1 - 1e-6) * candidateSkin; ///< just allowed [m]
+
 } // namespace
 
 TEST(CandidateCache, SimilarBodies)
@@ -101,26 +116,88 @@ TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 	EXPECT_GT(inContact, 1000);
 }
 
-/// A corner sinks towards a place just beyond an edge, along the axis on which the gap was measured: the face still
-/// supports it (flushTolerance) when the gap along the axis is a little larger than both radii together.
+/// An edge sinks towards a place just beyond another edge, along the normal of its own leaning face, on which the gap was
+/// measured: the face still supports its vertices (flushTolerance) when that gap is a little larger than both radii
+/// together. The skin taken off the margin covers it, and so does the second skin within which candidates are sought.
 TEST(CandidateCache, ObliqueApproachFromAfar)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
-	const double lean = 0.049;
-	const Vec3 axis(std::sin(lean), 0, std::cos(lean)), along = Vec3(std::cos(lean), 1, -std::sin(lean)).normalized(), side = axis.cross(along);
-	Mat3 turn;
-	turn << along, (axis + side).normalized(), (axis - side).normalized();
-	if (turn.determinant() < 0) turn.col(1).swap(turn.col(2));
-	CandidateCache cache;
-	std::vector<ContactPoint> points;
-	bool supported = false;
-	for (double distance = 0.0502; distance > 0.0019; distance -= distance > 0.004 ? 1e-3 : 2e-7) {
-		const Pose poseB { Vec3(0.499, 0, 0.499) + distance * axis + turn * Vec3::Constant(0.049), Quat(turn) };
-		updateManifold(large, small, {}, poseB, {}, cache, points);
-		ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
-		supported = supported || (distance > 0.002 && !points.empty());
+	const double touch = 0.002;
+	const Quat lean = about(Vec3::UnitY(), 0.049);
+	const Vec3 axis = lean * Vec3::UnitZ(), upper(0.499, 0, 0.499), lower(0.049, 0, -0.049);
+	for (const double start : { 0.05, touch + candidateSkin + 1e-6 }) {
+		CandidateCache cache;
+		std::vector<ContactPoint> points;
+		bool supported = false;
+		for (double distance = start; distance > touch - 1e-4; distance -= distance > 2 * touch ? 1e-3 : 2e-7) {
+			const Pose poseB { upper + distance * axis - lean * lower, lean };
+			updateManifold(large, small, {}, poseB, {}, cache, points);
+			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
+			supported = supported || (distance > touch && !points.empty());
+			if (distance == start) {
+				EXPECT_LT((cache.axis - axis).norm(), 1e-12); // the gap is measured on the leaning face
+			}
+		}
+		EXPECT_TRUE(supported); // the case that the test is about did occur
 	}
-	EXPECT_TRUE(supported); // the case that the test is about did occur
+}
+
+/// A corner beyond a border by the move and half of what the flush rule reaches: it is supported after the move.
+TEST(CandidateCache, AFaceReachesBeyondItsBorder)
+{
+	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
+	const Vec3 above(0.499 + 0.049 + flushTolerance / 2, 0, 0.499 + 0.049 + 0.0015);
+	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() }, { above, Quat::Identity() }), Meeting::FaceVertex), 2);
+}
+
+/// A corner that comes towards an edge's end from beyond it: the edge still answers there (flushTolerance) when its end is a little farther than both
+/// radii together.
+TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
+{
+	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
+	const Vec3 outward = Vec3(1, 0, 1).normalized(), beyond = 0.99 * flushTolerance * Vec3::UnitY() + (0.002 - 1e-8) * outward;
+	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), -outward);
+	const Vec3 centre = Vec3::Constant(0.499) + beyond + 0.049 * std::sqrt(3.) * outward;
+	const auto points = afterMove(large, small, { centre + move * beyond.normalized(), onCorner }, { centre, onCorner }, { true, true });
+	EXPECT_EQ(count(points, Meeting::EdgeVertex), 1);
+}
+
+/// Edges that are parallel have no crossing until the upper box turns.
+TEST(CandidateCache, ParallelEdgesThatTurn)
+{
+	const auto cube = roundedBox({ 0.3, 0.3, 0.3 }, 0.01);
+	const Vec3 above(0, 1e-3, 0.299);
+	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() }, { above, about(Vec3::UnitZ(), 2 * parallelSine) }), Meeting::EdgeEdge), 8);
+}
+
+/// Crossed laths go through each other within a move: those edges meet that were on the far sides, deeper than both radii together.
+TEST(CandidateCache, LathsThatPassThroughEachOther)
+{
+	const auto lath = roundedBox({ 0.1, 0.0032, 0.0032 }, 1e-4);
+	const Quat across = about(Vec3::UnitZ(), M_PI / 2);
+	const auto points = afterMove(lath, lath, { { 0, 0, move / 2 }, across }, { { 0, 0, -move / 2 }, across });
+	EXPECT_EQ(count(points, Meeting::EdgeEdge), 4);
+	for (const auto& p : points)
+		EXPECT_NEAR(p.overlap, 0.0032 - move / 2, 1e-13); // rounding of placements
+}
+
+/// Two ridges at a small angle, one deep in the other near its end, where they do not cross: a little pitch moves their crossing by the depth times
+/// the pitch over the square of the angle's sine, onto both.
+TEST(CandidateCache, CrossingsOfDeepEdgesRunFar)
+{
+	const Quat onEdge = about(Vec3::UnitX(), M_PI / 4);
+	const auto lower = rounded(moved(boxVertices({ 1, 0.18, 0.18 }), onEdge, { -0.49, 0, 0 }), 0.01), upper = roundedBox({ 2, 0.18, 0.18 }, 0.01);
+	const double half = 0.08 * std::sqrt(2.), depth = 0.07, beyond = 0.04, sine = 0.21, pitch = 0.03;
+	const Vec3 end(0, 0, half), along(std::sqrt(1 - sine * sine), sine, 0);
+	const Pose before { { beyond, 0, 2 * half - depth }, about(Vec3::UnitZ(), std::asin(sine)) * onEdge };
+	const Pose after = carried({ before.position - end, before.orientation }, about(Vec3::UnitZ().cross(along), pitch), end);
+	const auto isDeep = [&](const ContactPoint& p) { return p.overlap > 0.02 + depth; };
+	for (const auto& p : contacts(lower, upper, {}, before))
+		EXPECT_FALSE(isDeep(p));
+	const auto points = afterMove(lower, upper, before, after);
+	const auto crossing = std::find_if(points.begin(), points.end(), isDeep);
+	ASSERT_NE(crossing, points.end());
+	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine), 2e-3); // to first order; (pitch / sine)^2 = 2 %
 }
 
 /// Pairs that tremble for longer than quietSteps, and then move: what a still pair does not look at must come back in time.
@@ -162,7 +239,6 @@ TEST(CandidateCache, PairsThatSettled)
 	EXPECT_EQ(cache.skin, quietSkin);
 }
 
-/// A placement that is no number spoils its own step only.
 /// A cube above another slides past its edge and down: the axis of the search no longer shows the gap, and is replaced within axisUses.
 TEST(CandidateCache, APairThatSlidPastAnEdgeGetsANewAxis)
 {
@@ -182,6 +258,7 @@ TEST(CandidateCache, APairThatSlidPastAnEdgeGetsANewAxis)
 	EXPECT_FALSE(points.empty());
 }
 
+/// A placement that is no number spoils its own step only.
 TEST(CandidateCache, APlacementThatIsNoNumberIsForgotten)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
@@ -190,6 +267,26 @@ TEST(CandidateCache, APlacementThatIsNoNumberIsForgotten)
 	updateManifold(cube, cube, {}, { Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity() }, {}, cache, points);
 	updateManifold(cube, cube, {}, { { 0, 0, 0.999 }, Quat::Identity() }, {}, cache, points);
 	EXPECT_EQ(points.size(), 4u);
+}
+
+/// A cache of other bodies or patterns counts as empty.
+TEST(CandidateCache, IsThatOfItsBodiesAndPatterns)
+{
+	const auto cube = roundedBox({ 1, 1, 1 }), prism = rounded(hexagonalPrismVertices(0.5, 1), 0.02);
+	const Pose above { { 0, 0, 0.999 }, Quat::Identity() };
+	CandidateCache cache;
+	std::vector<ContactPoint> points;
+	const auto expectFresh = [&](const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& patterns) {
+		updateManifold(a, b, {}, above, patterns, cache, points);
+		EXPECT_TRUE(identical(points, contacts(a, b, {}, above, patterns)));
+		EXPECT_FALSE(points.empty());
+	};
+	expectFresh(cube, cube, {});
+	expectFresh(cube, prism, {});
+	expectFresh(cube, cube, {});
+	expectFresh(prism, cube, {});
+	expectFresh(prism, prism, {});
+	expectFresh(prism, prism, { true, false });
 }
 
 TEST(CandidateCache, FindsNothingWhenApart)

@@ -111,6 +111,27 @@ TEST(DeepOverlap, CorePointPartsThePairInOneMove)
 	EXPECT_GE(gapOf(plate, plate, { crossing.position + 1.000001 * depth * points[0].normal, crossing.orientation }), 0);
 }
 
+/// A block sinks into the top of a ridge whose sides slope back under it: the two of its vertices that have come out through
+/// the side are below the top's plane and over the top, but outside the ridge, and do not count.
+TEST(DeepOverlap, VertexUnderAFaceButOutsideASlopeDoesNotCount)
+{
+	const double radius = 0.01, depth = 0.05, side = 0.5 - radius * (1 + M_SQRT2) - depth; // where the core's slope of 45 degrees is at that depth
+	const auto ridge = rounded(prismVertices({ { -0.5, 0 }, { -0.1, -0.4 }, { 0.1, -0.4 }, { 0.5, 0 } }, 1), radius);
+	const auto block = roundedBox({ 0.2 + 2 * radius, 0.3, 0.3 }, radius);
+	for (const double out : { -0.02, 0.02 }) {
+		const auto points = contacts(ridge, block, {}, { { side + out - 0.1, 0.15 - 2 * radius - depth, 0 }, Quat::Identity() });
+		EXPECT_EQ(count(points, Meeting::FaceVertex), out > 0 ? 2 : 4);
+		EXPECT_EQ(points.size(), out > 0 ? 2u : 4u);
+		for (const auto& p : points) {
+			EXPECT_NEAR(p.overlap, 2 * radius + depth, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.normal.y(), 1, 1e-13);
+			if (out > 0) {
+				EXPECT_NEAR(p.position.x(), side + out - 0.2, 1e-13);
+			}
+		}
+	}
+}
+
 /// Crossed beams from first touch until deeper than half a beam: always pushed up.
 TEST(DeepOverlap, CrossedBeams)
 {

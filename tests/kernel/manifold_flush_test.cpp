@@ -108,6 +108,31 @@ TEST(CoincidentVertices, ExtraPatternsCountEachCornerOnce)
 		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding of metre-sized placements
 }
 
+/// A bar on its edge at the border of a box: each of its ends is in the box's top, and each of the box's corners in the bar's side. The places are
+/// the same, the normals are not: both count.
+TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
+{
+	const auto box = roundedBox({ 1, 1, 1 }, 0.001), bar = roundedBox({ 0.1, 1, 0.1 }, 0.001);
+	const double inside = 1e-4, above = 5e-5, half = 0.049 * std::sqrt(2.); // of the bar's core edge, from the box's
+	const auto points = contacts(box, bar, {}, { { 0.499 - inside, 0, 0.499 + above + half }, about(Vec3::UnitY(), M_PI / 4) });
+	EXPECT_EQ(count(points, Meeting::VertexFace), 2);
+	EXPECT_EQ(count(points, Meeting::FaceVertex), 2);
+	EXPECT_EQ(points.size(), 4u);
+	for (const auto& p : points) {
+		const bool side = p.id.meeting() == Meeting::VertexFace;
+		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13); // rounding of metre-sized placements
+		EXPECT_NEAR(p.normal.z(), side ? std::sqrt(0.5) : 1, 1e-13);
+		EXPECT_LT((p.position - points[0].position).cwiseProduct(Vec3(1, 0, 1)).norm(), 2e-4);
+	}
+}
+
+/// Corner exactly on corner: there is no direction between them, and no point.
+TEST(CoincidentVertices, CornerExactlyOnCorner)
+{
+	const auto cube = roundedBox({ 1, 1, 1 }, 0.125);
+	EXPECT_TRUE(contacts(cube, cube, {}, { Vec3::Constant(0.75), Quat::Identity() }, { true, false }).empty());
+}
+
 /// Equal boxes slid along one side by less and more than the rule's reach: always four supports.
 TEST(CoincidentVertices, SlidAlongOneSide)
 {

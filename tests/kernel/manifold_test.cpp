@@ -196,6 +196,28 @@ TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 		expectPoint(p, towards, press, 1e-12);
 }
 
+/// A corner on a slope just below a narrow ridge is within reach of the ridge's farther edge, too, but behind it: only the slope
+/// answers.
+TEST(CornerOnEdge, AnEdgeDoesNotAnswerBehindIt)
+{
+	const double radius = 0.01, width = 0.005, below = 0.005, rest = width / 2 + radius * (M_SQRT2 - 1);
+	const auto ridge = rounded(prismVertices({ { -rest - 0.2, -0.2 }, { rest + 0.2, -0.2 }, { rest, 0 }, { -rest, 0 } }, 0.5), radius);
+	const auto cube = roundedBox({ 0.2, 0.2, 0.2 }, radius);
+	const Vec3 slope = Vec3(-1, 1, 0).normalized(), down = Vec3(-1, -1, 0).normalized();
+	const Vec3 foot = Vec3(-width / 2, -radius, 0) + below * down, corner = foot + radius * slope;
+	const Vec3 towards = Vec3(width / 2, -radius, 0) - corner;
+	ASSERT_LT(towards.norm(), 2 * radius); // within reach of the farther edge,
+	ASSERT_GT(towards.dot(Vec3(1, 1 + M_SQRT2, 0)), 0); // behind it
+	const Pose poseB { corner + (0.1 - radius) * std::sqrt(3.) * slope, Quat::FromTwoVectors(Vec3(1, 1, 1), -slope) };
+	for (const bool swapped : { false, true }) {
+		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true }) : contacts(ridge, cube, {}, poseB, { true, true });
+		EXPECT_EQ(count(points, swapped ? Meeting::VertexFace : Meeting::FaceVertex), 1);
+		expectPlaces(points, { foot + radius / 2 * slope }, 1e-12); // the turn onto the corner is itself rounded
+		for (const auto& p : points)
+			expectPoint(p, swapped ? Vec3(-slope) : slope, radius, 1e-12);
+	}
+}
+
 /// A brace bears in the corner of its bay: four points on the beam below, four on the column beside.
 class BraceInCorner : public testing::Test {
 protected:
