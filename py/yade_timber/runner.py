@@ -249,9 +249,10 @@ class Run:
 
     def is_loaded(self):
         """Whether the scene in YADE is this run's, also after it was saved and loaded again."""
-        return self._tagged() or time.sleep(1) or self._tagged()  # while YADE loads a scene, it has none for a moment
+        return self.is_tagged() or time.sleep(1) or self.is_tagged()  # while YADE loads a scene, it has none for a moment
 
-    def _tagged(self):
+    def is_tagged(self):
+        """The same, at once: what a step asks."""
         return TAG in O.tags.keys() and O.tags[TAG] == self.tag
 
     def _end(self):
@@ -268,7 +269,7 @@ class Run:
 
 def record_frame():
     """Record the state that the present step of the live run, whose bodies have moved already, leads to."""
-    if live and live.is_loaded() and O.iter + 1 < live.steps:
+    if live and live.is_tagged() and O.iter + 1 < live.steps:
         live.recorder.take(O.time + O.dt)
 
 

@@ -156,7 +156,7 @@ def require_bodies(caller, *ids):
 
 def joins_bodies(joint):
     """Whether both bodies of a TimberJoint are still in the scene."""
-    return all(O.bodies[body] is not None for body in (joint.id1, joint.id2))
+    return all(0 <= body < len(O.bodies) and O.bodies[body] is not None for body in (joint.id1, joint.id2))
 
 
 def make_joint(body1, body2, id1, id2, points, normal, kn, ks, strength, per, kind="", name="", broken=False):

@@ -53,7 +53,9 @@ def test_plate_taken_out_from_under_a_joint():
 
 def test_joint_of_a_body_that_never_was():
     column_on_plate()
+    alone = yt.stable_dt()
     scene.find_engine(yt.JointEngine).append(yt.TimberJoint(id1=0, id2=77, anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1))
+    assert yt.stable_dt() == pytest.approx(alone, rel=1e-6)
     O.run(2, True)
     assert scene.find_engine(yt.JointEngine).joints[1].isFinished
 
