@@ -258,13 +258,11 @@ bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pai
 /// Returns whether another sweep is needed.
 bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep)
 {
-	const bool forwards = sweep % 2 == 0;
-	const size_t count = size_t(island.last - island.first);
 	bool changed = false;
-	for (size_t k = 0; k < count; ++k) {
-		Pair& pair = pairs[island.first[forwards ? k : count - 1 - k]];
+	for (const int k : island) {
+		Pair& pair = pairs[k];
 		if (awake[pair.bodyA] < sweep && awake[pair.bodyB] < sweep) continue;
-		relax(bodies, pair, forwards);
+		relax(bodies, pair, sweep % 2 == 0);
 		changed = wake(bodies, pair, allowed, sweep) || changed;
 	}
 	return changed;

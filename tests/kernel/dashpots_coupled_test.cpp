@@ -166,25 +166,32 @@ TEST(Coupled, ImpulseAcrossAnswersThatAlong)
 	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed is left
 }
 
-/// Passes alternate in direction: a push at the last body of a row, which the first pass meets last, crosses the whole row in the second.
-TEST(Coupled, TwoPassesCrossARow)
+/// Pairs are always visited in the same order: a push at the first body of a row crosses the whole row in one pass, and the next begins at the first pair again.
+TEST(Coupled, PairsKeepTheirOrder)
 {
 	const int last = 5;
-	std::vector<DashpotBody> bodies { body(1, Vec3::Zero()) };
+	std::vector<DashpotBody> row { body(1, { 0, 0, 1 }) };
 	std::vector<HeapPoint> points;
 	for (int k = 1; k <= last; ++k) {
-		bodies.push_back(body(1, { 0, 0, k == last ? -1. : 0. }));
+		row.push_back(body(1, Vec3::Zero()));
 		points.push_back(central(1e10));
 		points.back().bodyA = k - 1;
 		points.back().bodyB = k;
 	}
-	solveDashpots(bodies, points, 1e-4, 2);
-	for (int k = 1; k <= last; ++k) // two bodies that meet get their mean velocity: 1/2 is left of the push, then 1/4, ...
-		EXPECT_NEAR(bodies[k].newVelocity.z(), -std::pow(0.5, last - k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity is left
-	EXPECT_NEAR(bodies[0].newVelocity.z(), bodies[1].newVelocity.z(), 1e-5);
+	const auto after = [&](int passes) {
+		std::vector<DashpotBody> bodies = row;
+		std::vector<HeapPoint> fresh = points;
+		solveDashpots(bodies, fresh, 1e-4, passes);
+		return bodies;
+	};
+	const std::vector<DashpotBody> one = after(1);
+	for (int k = 0; k < last; ++k) // two bodies that meet get their mean velocity: half of the push goes on
+		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity is left
+	EXPECT_NEAR(one[last].newVelocity.z(), one[last - 1].newVelocity.z(), 1e-5);
+	EXPECT_NEAR(after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second pass came back
 }
 
-/// So do the points of a pair: after the second pass the first point's equation holds, not the last one's.
+/// The points of a pair take turns in being the last, so that no side of a face is favoured: after the second pass the first point's equation holds, not the last one's.
 TEST(Coupled, PointsTakeTurnsInBeingTheLast)
 {
 	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(1, { 0, 0, -1 }) };
