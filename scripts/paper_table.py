@@ -11,7 +11,8 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
+SCRIPTS = Path(__file__).resolve().parent
+sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs are made of
 
 from yade_timber import campaign, claims_table  # noqa: E402
 from yade_timber.claims import RUNS, judge, loads  # noqa: E402
@@ -22,7 +23,7 @@ def main():
     campaign.add_arguments(parser, "results")
     options = parser.parse_args()
     tasks = [campaign.Task(run, options.out / run, campaign.handed_on(options, earthquake=loads(run)[1])) for run in RUNS]
-    done = campaign.run_missing(tasks, options.jobs)
+    done = campaign.run_missing(tasks, SCRIPTS, options.jobs)
     summaries = {task.script: summary for task, summary in done.items() if summary is not None}
     results = judge(summaries)
     print(claims_table.markdown(results, summaries))

@@ -12,7 +12,8 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
+SCRIPTS = Path(__file__).resolve().parent
+sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs are made of
 
 from yade_timber import campaign, claims_table  # noqa: E402
 from yade_timber.claims import RUNS, loads  # noqa: E402
@@ -51,7 +52,7 @@ def main():
     names = campaign.chosen(options.only, known, "--only")
     tasks = {name: tasks_of(name, known[name][1], options.out) for name in names}
     same_strength = [name for name in names if name == "shipped" or name.startswith("seed-")]
-    return claims_table.study({name: known[name][0] for name in names}, tasks, options.jobs, options.out, "robustness.md", same_strength if len(same_strength) > 2 else ())
+    return claims_table.study({name: known[name][0] for name in names}, tasks, SCRIPTS, options.jobs, options.out, "robustness.md", same_strength if len(same_strength) > 2 else ())
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "py"))
+SCRIPTS = Path(__file__).resolve().parent
+sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs are made of
 
 from yade_timber import campaign, claims_table  # noqa: E402
 from yade_timber.claims import RUNS, loads  # noqa: E402
@@ -39,7 +40,7 @@ def main():
     readings = campaign.chosen(options.only, READINGS, "--only")
     runs = campaign.chosen(options.runs, RUNS, "--runs")
     tasks = {name: tasks_of(name, options.out, runs, options) for name in readings}
-    return claims_table.study({name: READINGS[name].words for name in readings}, tasks, options.jobs, options.out, "sensitivity.md")
+    return claims_table.study({name: READINGS[name].words for name in readings}, tasks, SCRIPTS, options.jobs, options.out, "sensitivity.md")
 
 
 if __name__ == "__main__":

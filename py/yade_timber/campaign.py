@@ -12,7 +12,6 @@ from pathlib import Path
 
 from .provenance import made_from
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 FAILURE, SUMMARY = "failed.txt", "summary.json"
 
 MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
@@ -64,8 +63,8 @@ def chosen(text, known, option):
     return names
 
 
-def run_missing(tasks, jobs=None, scripts=SCRIPTS, say=print):
-    """Do the tasks that have no results yet, `jobs` at a time (default: all cores). Returns {task: summary or None}.
+def run_missing(tasks, scripts, jobs=None, say=print):
+    """Do the tasks that have no results yet, with the scripts of that folder, `jobs` at a time (default: all cores). Returns {task: summary or None}.
 
     A run that was stopped goes on from its checkpoint; one that was made from other options, files or another state of this package is done
     again; one that fails leaves its last words in failed.txt, and the others go on.
@@ -88,10 +87,11 @@ def _run(task, scripts):
     words = [*command(scripts / f"{task.script}.py"), "--out", str(task.folder), "--no-views", "--quiet", "--resume", "--or-anew", *map(str, task.options)]
     since = time.monotonic()
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    if done.returncode == 0:
+    if task.summary is not None:
         return f"done{' again (other options, files or package)' if again else ''} in {time.monotonic() - since:.0f} s"
-    (task.folder / FAILURE).write_text(done.stderr)
-    return f"failed: {done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f'exit status {done.returncode}'}"
+    words = done.stderr if done.returncode else f"error: made by another yade_timber than that of this study in {Path(__file__).parent}: start it with YADE's Python"
+    (task.folder / FAILURE).write_text(words)
+    return f"failed: {words.strip().splitlines()[-1] if words.strip() else f'exit status {done.returncode}'}"
 
 
 def command(script):

@@ -102,14 +102,15 @@ def middles(found):
     return {run: middle([some[run] for some in found]) for run in RUNS if all(run in some for some in found)}
 
 
-def study(words, tasks, jobs, folder, name, together=()):
+def study(words, tasks, scripts, jobs, folder, name, together=()):
     """Do the runs of a study, print and write its table and those of each case; returns the exit status: 1 when runs failed.
 
     words    {case: what it is}
     tasks    {case: list of Task}
+    scripts  folder of the run scripts
     together cases whose middle is judged, too, as the case MIDDLE
     """
-    done = campaign.run_missing(list(dict.fromkeys(task for some in tasks.values() for task in some)), jobs)
+    done = campaign.run_missing(list(dict.fromkeys(task for some in tasks.values() for task in some)), scripts, jobs)
     found = {case: {task.folder.name: done[task] for task in some if done[task] is not None} for case, some in tasks.items()}
     if together:
         found[MIDDLE] = middles([found[case] for case in together])

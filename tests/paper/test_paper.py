@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 from yade_timber import campaign, claims
 
-GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "paper_runs.json"
+TESTS = Path(__file__).resolve().parents[1]
+GOLDEN, SCRIPTS = TESTS / "golden" / "paper_runs.json", TESTS.parent / "scripts"
 LEFT_OUT = ("wall_s", "real_time_factor", "threads", "made_from")
 """Differ from machine to machine and from one state of the package to the next."""
 STILL_ATOL = 1e-6
@@ -23,7 +24,7 @@ STILL_ATOL = 1e-6
 @pytest.fixture(scope="module")
 def runs():
     tasks = [campaign.Task(run, Path("results").absolute() / run) for run in claims.RUNS]
-    found = {task.script: summary for task, summary in campaign.run_missing(tasks).items()}
+    found = {task.script: summary for task, summary in campaign.run_missing(tasks, SCRIPTS).items()}
     if os.environ.get("YADE_TIMBER_UPDATE_GOLDEN"):
         write(found)
     return found

@@ -5,6 +5,7 @@ import argparse
 import json
 import runpy
 import sys
+from pathlib import Path
 
 import pytest
 from yade_timber import campaign, claims, claims_table, provenance, readings
@@ -212,7 +213,7 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     old = {"old": 1, "made_from": made_from(())}
     (tasks[2].folder / "summary.json").write_text(json.dumps(old))
     said = []
-    done = campaign.run_missing(tasks, 2, scripts, said.append)
+    done = campaign.run_missing(tasks, scripts, 2, said.append)
     assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
     assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
     assert done[tasks[2]] == old and said[0] == "2 of 3 runs to do"
@@ -230,7 +231,7 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     def runs_done(seed=1):
         task = campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
         del said[:]
-        assert campaign.run_missing([task], 1, scripts, said.append)[task]["made_from"]["options"][-1] == str(seed)
+        assert campaign.run_missing([task], scripts, 1, said.append)[task]["made_from"]["options"][-1] == str(seed)
         return len(said) and "again" in said[-1]
 
     assert runs_done() is False and runs_done() == 0
@@ -239,7 +240,9 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
         file.write_text(file.read_text() + "# changed\n")
         assert runs_done(seed=2) and runs_done(seed=2) == 0
     monkeypatch.setattr(provenance, "package", lambda: "another")
-    assert campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2)).summary is None
+    task = campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2))
+    assert task.summary is None and campaign.run_missing([task], scripts, 1, said.append) == {task: None}
+    assert "made by another yade_timber" in said[-1] and "another" in (task.folder / "failed.txt").read_text()
 
 
 def test_motions_are_handed_only_to_shaken_runs():
@@ -257,7 +260,7 @@ def test_middle_of_summaries():
 
 
 def test_houses_that_a_reading_leaves_alone_are_not_run_again(tmp_path):
-    tasks_of = runpy.run_path(str(campaign.SCRIPTS / "sensitivity_study.py"))["tasks_of"]
+    tasks_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "sensitivity_study.py"))["tasks_of"]
     tasks = {task.folder.name: task for task in tasks_of("braces-inwards", tmp_path, claims.RUNS, argparse.Namespace())}
     assert {name for name, task in tasks.items() if task.folder.parent.name == "braces-inwards"} == {name for name in tasks if name.startswith("modelB")}
     assert tasks["modelA_quake"].folder == tmp_path / "shipped" / "modelA_quake"

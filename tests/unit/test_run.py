@@ -10,6 +10,7 @@ import pty
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -125,6 +126,14 @@ def test_energy_is_accounted_for(straight):
     kept = energy["kinetic"] + energy["elastic"] + sum(energy["dissipated"].values())
     assert kept - energy["input"] == pytest.approx(energy["residual"], abs=1e-9 * energy["input"])
     assert energy["residual_fraction"] == pytest.approx(abs(energy["residual"]) / energy["input"])
+
+
+@pytest.mark.parametrize("study", ["paper_table", "robustness_study", "sensitivity_study"])
+def test_studies_take_the_runs_that_they_make(straight, study):
+    """A study, which needs no YADE, imports the same state of the package as its runs."""
+    options = summary(straight)["made_from"]["options"]
+    asks = f"import runpy; of = runpy.run_path({str(SCRIPTS / study)!r} + '.py'); print(of['campaign'].Task('run', of['Path']({str(straight)!r}), {options!r}).summary is not None)"
+    assert subprocess.run([sys.executable, "-c", asks], capture_output=True, text=True).stdout == "True\n"
 
 
 def assert_same_results(one, other):
