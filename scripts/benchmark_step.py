@@ -4,10 +4,12 @@
     yade -j1 -n -x scripts/benchmark_step.py [--house C2] [--snow 1] [--blocks 15] [--steps 300] [--engines] [--out FOLDER]
 
 The empty step has ForceResetter, InsertionSortCollider, InteractionLoop without functors and NewtonIntegrator. Both are timed in turns, in
-CPU time of the process (with one thread: nothing else on the machine counts), in two states of the house: at rest, and in strong shaking.
+CPU time of the process (with one thread: nothing else on the machine counts), in two states of the house: at rest, and in strong shaking; at
+rest also as runs have it, with RestSkipper, which computes one step of each grain.
 """
 import argparse
 import sys
+import time
 from pathlib import Path
 
 import yade.wrapper as yw
@@ -21,6 +23,13 @@ from yade_timber.motion import default_motion  # noqa: E402
 O = yw.Omega()
 
 EMPTY, HOUSE, DEFAULT = "empty step", "whole step", "empty step, collider in each step"
+SKIPPED = "at rest, as in runs (RestSkipper)"
+REST = 4.0
+"""Simulated time until RestSkipper skips [s]."""
+GRAINS = 100
+"""Of RestSkipper in a block. The last one, in which YADE stops, is not skipped."""
+QUIET = -1e3
+"""A start of the ground motion that lies far ahead [s]."""
 HEADS = ("state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio", "empty, collider in each step [us]")
 
 
@@ -36,12 +45,11 @@ def arguments():
     return parser.parse_args()
 
 
-def build_house(options, start):
+def build_house(options, start, skipping):
     """The house in the current scene, `start` seconds into the ground motion, settled."""
-    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt, options={"skip_rest": 0}))
+    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt, options={} if skipping else {"skip_rest": 0}))
     scene.find_engine(yw.GroundMotionEngine).start = -start
-    O.step()
-    cpu_per_step(round(SETTLING / options.dt))
+    O.run(round((REST if skipping else SETTLING) / options.dt), True)
 
 
 def bodies_now():
@@ -63,14 +71,21 @@ def build_empty(placed, dt, verlet):
     O.step()
 
 
-def in_scene(number, steps):
+def in_scene(number, per_step, steps):
     """Time of a block of steps in one of YADE's scenes."""
 
     def measure():
         O.switchToScene(number)
-        return (cpu_per_step if O.numThreads == 1 else wall_per_step)(steps)
+        return per_step(steps)
 
     return measure
+
+
+def skipping_per_step(steps):
+    """CPU time per step of a run that may skip steps [s]."""
+    since = time.process_time()
+    O.run(steps, True)
+    return (time.process_time() - since) / steps
 
 
 def engine_table(steps):
@@ -84,17 +99,25 @@ def engine_table(steps):
     O.timingEnabled = False
 
 
-def measure(options, name, start):
+def measure(options, name, start, skipping=False):
     """One row of the table for one state of the house."""
     O.reset()
-    build_house(options, start)
+    build_house(options, start, skipping)
+    skipper = scene.find_engine(yw.RestSkipper)
     placed = bodies_now()
     scenes = {HOUSE: 0}
     for kind, verlet in ((EMPTY, scene.BOUND_MARGIN), (DEFAULT, 0.0)):
         scenes[kind] = O.addScene()
         O.switchToScene(scenes[kind])
         build_empty(placed, options.dt, verlet)
-    times = interleaved([(kind, in_scene(number, options.steps)) for kind, number in scenes.items()], options.blocks)
+    per_step = cpu_per_step if O.numThreads == 1 else wall_per_step
+    calls = {kind: in_scene(number, per_step, options.steps) for kind, number in scenes.items()}
+    if skipping:
+        calls[HOUSE] = in_scene(scenes[HOUSE], skipping_per_step, GRAINS * skipper.grain)
+        skipped = skipper.skipped
+    times = interleaved(calls.items(), options.blocks)
+    if skipping and skipper.skipped - skipped < 0.98 * options.blocks * GRAINS * (skipper.grain - 1) * options.dt:
+        sys.exit("error: the house was not at rest")
     O.switchToScene(scenes[HOUSE])
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     if options.engines:
@@ -115,6 +138,7 @@ def section(options, rows):
 def main():
     options = arguments()
     rows = [measure(options, name, start) for name, start in STATES.items()]
+    rows.append(measure(options, SKIPPED, QUIET, skipping=True))
     publish(options.out, "step", section(options, rows), HEADS, rows)
 
 
