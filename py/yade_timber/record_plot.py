@@ -35,6 +35,7 @@ def page(motion, corner):
     draw_accelerations(axes[:, 0], motion)
     draw_curves(axes[0, 1], motion.time, 100 * gm.velocity(motion, corner), "velocity [cm/s]")
     draw_curves(axes[1, 1], motion.time, 100 * gm.displacement(motion, corner), "displacement [cm]")
+    axes[1, 1].set_xlabel("time [s]", fontsize=8)
     draw_spectra(axes[2, 1], motion)
     first, last = gm.shaking_window(motion, QUIET * gm.pga(motion))
     for axis in (*axes[:, 0], *axes[:2, 1]):
@@ -71,7 +72,6 @@ def draw_curves(axis, time, values, label):
     for key, column, name, dashes in reversed(ROWS):
         axis.plot(time, values[:, column], color=DIRECTIONS[key], ls=dashes, lw=0.9, label=name)
     axis.set_ylabel(label, fontsize=8)
-    axis.set_xlabel("time [s]", fontsize=8)
     axis.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, fontsize=8, frameon=False, borderaxespad=0)  # above: it hides no peak
 
 
