@@ -89,9 +89,9 @@ def _run(task, scripts):
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
     if task.summary is not None:
         return f"done{' again (other options, files or package)' if again else ''} in {time.monotonic() - since:.0f} s"
-    words = done.stderr if done.returncode else f"error: made by another yade_timber than that of this study in {Path(__file__).parent}: start it with YADE's Python"
-    (task.folder / FAILURE).write_text(words)
-    return f"failed: {words.strip().splitlines()[-1] if words.strip() else f'exit status {done.returncode}'}"
+    said = done.stderr if done.returncode else f"error: made by another yade_timber than that of this study in {Path(__file__).parent}: start it with YADE's Python"
+    (task.folder / FAILURE).write_text(said)
+    return f"failed: {said.strip().splitlines()[-1] if said.strip() else f'exit status {done.returncode}'}"
 
 
 def command(script):
