@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "py"))
+sys.path.append(str(HERE.parent / "py"))  # after the installed package, which the runs are made of
 
 from yade_timber.batch import BatchError, read_table, run_table, write_runs  # noqa: E402
 from yade_timber.batch.collect import RUNS, STATES  # noqa: E402

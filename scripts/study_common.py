@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "py"))
+sys.path.append(str(HERE.parent / "py"))  # after the installed package, which the runs are made of
 
 import matplotlib  # noqa: E402
 

@@ -125,7 +125,7 @@ public:
 		const int* end() const { return last; }
 	};
 
-	/// Starts a step. sweeps: most passes over the points, pairs always in the same order, the points of each there and back; 0: explicit dashpots.
+	/// Starts a step. sweeps: most passes over the points, pairs always in the same order (fewer of them), the points of each there and back (no side of a face is favoured); 0: explicit dashpots.
 	void clear(int sweeps);
 	/// Makes room for the points of two bodies. Returns the pair's number.
 	size_t addPair(int bodyA, int bodyB, size_t count);

@@ -62,8 +62,8 @@ def stack_at_rest(duration=10.0, blocks=20):
     advance(duration - 2)
     note = f"stack of {blocks}, {duration:g} s"
     # Weight: an equilibrium has no other error than the last of its swing, 4e-12 after 10 s, and rounding, 3e-14 after 60 s.
-    # Creep: the last of the settling in, 4e-8 m, against the 0.01 mm of the requirement; no more of it in 60 s. Energy: 1e-16 J
-    # was seen, the last of the swing, speeds of 2e-9 m/s; 3e-23 J after 20 s.
+    # Creep: the last of the settling in, 2e-8 m, against the 0.01 mm of the requirement; no more of it in 60 s. Energy: 3e-17 J
+    # was seen, the last of the swing, speeds of 1e-9 m/s; 3e-23 J after 20 s. Sweeps that favour a side of the faces push it ten times as far.
     return [
         Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
         Row("6", "stack: creep after 2 s [m]", 0, abs(places() - settled).max(), bound=1e-7, dt=DT, note=note),
