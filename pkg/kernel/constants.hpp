@@ -55,4 +55,9 @@ constexpr double leastRegion = 25;
 /// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.
 constexpr double outwardCosine = 0.5;
 
+/// Changes in the first sweep of a step count from this share of the tolerance on, those in later sweeps from the tolerance itself. [-]
+/// 1: stiff loaded members (braces under snow, the foot of a stack, steps of 2.5e-4 s) tremble by what the first sweep leaves over,
+/// since the start's error does not die; 1e-4: by so much less (1e-8 of a stack's weight); 0: two sweeps of what rests to the last bit.
+constexpr double firstSweepShare = 1e-8;
+
 } // namespace timber

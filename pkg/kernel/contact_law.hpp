@@ -69,6 +69,7 @@ struct PointState : Springs<double>, PointResponse {
 	FeatureId id;
 	Vec3 dashpot = Vec3::Zero(); ///< what the force of the last step had besides the elastic one, on B [N]
 	double closing = 0; ///< closing displacement of the step that follows, by its velocities [m]
+	double arrival = 0; ///< closing displacement that brought a new point, until its first step is booked; 0: it is none, or others paid for it [m]
 };
 
 /// Motion of B against A at a contact point.
@@ -113,6 +114,20 @@ template <class Number> [[gnu::always_inline]] inline Vec3Of<Number> turned(cons
 template <class Law, class Number> Number grazingForce(const Law& law, Number n, Number d)
 {
 	return most(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
+}
+
+/// The same for the books, once it is known how far a new point goes on: the force at n whose work over the step that brought the
+/// point, d, and the next one, d', is the energy that the spring has then, F' (d + d') / 2 + F(n + d') d' / 2 = U(n + d'). Dashpots stop
+/// a light fast member where grazingForce() has it fly on; what the force of the step had besides F' is theirs. With F ~ n^e,
+/// e (e + 1) = K n^2 / U. A point on its way out that parts in the step after that has only the grazing force then.
+/// At n: energy U [J], stiffness K [N/m], overlap n [m]; arrival d >= n, next d' [m]; returns [N].
+inline double arrivalForce(double energy, double stiffness, double overlap, double arrival, double next)
+{
+	const double left = overlap + next;
+	if (left <= 0 || energy == 0) return 0; // it parts again within the step; or hardly touches
+	const double power = (std::sqrt(1 + 4 * stiffness * overlap * overlap / energy) - 1) / 2, force = stiffness * overlap / power, share = left / overlap;
+	if (left < -next) return 2 * std::max(0., energy + force * next / 2) / (arrival + next);
+	return (2 * energy * std::pow(share, power + 1) - force * std::pow(share, power) * next) / (arrival + next);
 }
 
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dashpots.hpp"
+#include "constants.hpp"
 #include "threads.hpp"
 #include <algorithm>
 #include <cmath>
@@ -276,7 +277,7 @@ int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, dou
 	const double allowed = threshold(bodies, island, tolerance);
 	bool changed = false;
 	for (const int k : island)
-		changed = wake(bodies, pairs[k], allowed, 0) || changed;
+		changed = wake(bodies, pairs[k], firstSweepShare * firstSweepShare * allowed, 0) || changed;
 	int done = 1;
 	while (changed && done < sweeps)
 		changed = sweepOn(bodies, island, allowed, done++);

@@ -135,7 +135,7 @@ public:
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
 	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
 	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
-	/// points [-], each over the root of its equivalent mass, changes nobody. Few fixed passes would do for a standing house, but
+	/// points [-], each over the root of its equivalent mass, changes nobody (firstSweepShare of it in the first pass). Few fixed passes would do for a standing house, but
 	/// between heavy and light members in an impact they are far from the solution, and what is left of the start would create
 	/// energy. Returns the number of passes, of the island that took most.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);

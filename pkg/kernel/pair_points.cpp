@@ -41,12 +41,14 @@ namespace {
 			return law.energy(pressed) + (left - pressed) * s.normal + shearEnergy<double>(s, pair);
 		}
 
-		/// Gives a new point the overlap it may start with; returns what it takes of `energy`. [J]
+		/// First step of a new point, with the overlap it may start with; returns what it takes of `energy`. [J]
 		double bear(const ContactPoint& point, double energy, PointState& state) const
 		{
 			const double speed = std::max(0., -motionAt<double>(point.position, a, b, h).velocity.dot(point.normal)), approach = approachOverlap(law, pair.mass, speed, h);
 			const double counted = bornOverlap(law, point.overlap, approach, energy);
 			state.excess = point.overlap - counted;
+			step(point, state);
+			if (counted <= std::min(approach, pair.overlapLimit) && form == NormalForm::Closed) state.arrival = std::max(speed * h, state.overlap);
 			return law.energy(counted) - law.energy(std::min(counted, approach));
 		}
 
@@ -107,14 +109,30 @@ namespace {
 			for (; old != states.end(); ++old)
 				lost += leaving(*old);
 			for (size_t k = 0; k < next.size(); ++k) {
-				if (!placed && !(next[k].id == points[k].id)) lost -= bear(points[k], lost, next[k]);
+				const bool isNew = !(next[k].id == points[k].id);
 				next[k].id = points[k].id;
-				step(points[k], next[k]);
+				if (isNew && !placed) lost -= bear(points[k], lost, next[k]);
+				else step(points[k], next[k]);
 			}
 			states.swap(next);
 			return lost;
 		}
 	};
+
+	/// Books the springs of new points with arrivalForce(), and what they were booked with besides to the dashpots.
+	void bookArrivals(const DashpotSolver& solver, size_t k, const DashpotBody& a, const DashpotBody& b, double h, States& states, PairEnergies& books)
+	{
+		for (size_t i = 0; i < states.size(); ++i) {
+			PointState& s = states[i];
+			if (s.arrival == 0) continue;
+			const DashpotSolver::Row row = solver.row(k, i);
+			const double before = -relativeVelocity<double>(row.armA, row.armB, a.velocity, a.spin, b.velocity, b.spin).dot(row.normal) * h;
+			const double besides = s.normal - arrivalForce(s.energy, s.stiffness, s.overlap, s.arrival, s.closing);
+			books.dashpotNormal += besides * (before + s.closing) / 2;
+			books.elasticPower -= besides * s.closing / h;
+			s.arrival = 0;
+		}
+	}
 
 	/// Rows of the k-th pair from a point on, as many as a Number has lanes.
 	template <class Number> decltype(auto) rowsOf(const DashpotSolver& solver, size_t k, size_t point)
@@ -198,6 +216,7 @@ PairForce takeForces(const DashpotSolver& solver, size_t k, const std::vector<Da
 		books.add<Number>(count, normalWork, shearWork, slid, Number(kept.get(&PointState::energy)), stored, Number(-(elasticNormal * normal + shear).dot(after)));
 	});
 	own = { books[0], books[1], books[2], books[3], books[4], books[5] };
+	bookArrivals(solver, k, a, b, h, states, own);
 	return { sums.vector(0), sums.vector(3), sums.vector(6) };
 }
 

@@ -15,7 +15,7 @@ from .house.friction import own_coefficient
 
 O = yw.Omega()
 
-DEFAULT_DT = 2e-4
+DEFAULT_DT = 2.5e-4
 """Time step of the house scenarios. [s]"""
 MAX_DT = 5e-4
 """Largest time step that a house scenario takes [s]: the joints of floors and roof are unstable at 5.1e-4."""

@@ -127,6 +127,28 @@ TEST(NormalSpring, ComingOrGoingWithinAStepDoesTheWorkThatIsStored)
 	EXPECT_EQ(grazingForce(timberLaw, 1e-9, d), 0); // never pulls
 }
 
+/// However far the point goes on, also on its way out. The trapezoid sum over the steps d and d': 0, the booked force, that of the law.
+template <class Law> void expectBookedWork(const Law& law)
+{
+	const double n = 6e-4, d = 1e-3, energy = law.energy(n), stiffness = law.stiffness(n);
+	for (const double next : { 2e-3, 1e-3, 1e-4, 0., -1e-4, -n / 2 }) {
+		const double work = arrivalForce(energy, stiffness, n, d, next) * (d + next) / 2 + law.force(n + next) * next / 2;
+		EXPECT_NEAR(work, law.energy(n + next), 10 * rounding * energy) << next;
+	}
+	for (const double next : { -0.51 * n, -0.6 * n, -0.9 * n }) { // parts in the step after that: the spring has done no work, all in all
+		const double grazing = grazingForce(law, n + next, -next), work = arrivalForce(energy, stiffness, n, d, next) * (d + next) / 2 + grazing * next;
+		EXPECT_NEAR(work, 0, 10 * rounding * energy) << next;
+	}
+	for (const double next : { -n, -2 * n, -2 * d })
+		EXPECT_EQ(arrivalForce(energy, stiffness, n, d, next), 0);
+	EXPECT_EQ(arrivalForce(0, 0, 1e-200, 1e-200, 0), 0); // too little to be stored
+}
+TEST(NormalSpring, NewPointsAreBookedWithTheWorkThatIsStored)
+{
+	expectBookedWork(timberLaw);
+	expectBookedWork(LinearLaw { 1e6 });
+}
+
 TEST(ShearSpring, OpposesTheSlide)
 {
 	Spring<LinearLaw> spring { { 1e6 }, pairOf(0.4) };

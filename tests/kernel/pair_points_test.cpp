@@ -158,3 +158,45 @@ TEST(Handover, OnlyPlacedBodiesStartPressed)
 			expectOverlap(states[k], placed ? double(k + 1) * overlap : 0, double(k + 1) * overlap);
 	}
 }
+
+/// A light body flies against a fixed one: springs and dashpots take up what it loses, although it is stopped within a step or two.
+/// Seen: up to 0.9 %, from the way out, on which a step is the whole of the spring and Hertz's law is not linear in it; 14 % before new points were booked anew.
+TEST(Books, ABlowOfAStepOrTwoIsBalanced)
+{
+	constexpr double mass = 3, speed = 5, dt = 2.5e-4; // a brace: 34 J, stopped by 1.2 mm
+	PairProperties light = pair;
+	light.mass = mass;
+	for (const double share : { 0.05, 0.2, 0.4, 0.6, 0.8, 0.95 }) { // of the step in which it touches
+		std::vector<DashpotBody> bodies(2);
+		bodies[0].velocity = bodies[0].spin = bodies[1].spin = Vec3::Zero();
+		bodies[0].inverseMass = 0;
+		bodies[0].inverseInertia = bodies[1].inverseInertia = Mat3::Zero();
+		bodies[1].inverseMass = 1 / mass;
+		bodies[1].velocity = { 0, 0, -speed };
+		double at = share * speed * dt, booked = 0, elastic = 0, lost = 0;
+		std::vector<PointState> states;
+		for (int k = 0; k < 20; ++k) {
+			std::vector<ContactPoint> points;
+			if (at > 0) points.push_back(pointOf(vertex, at));
+			const Vec3 none = Vec3::Zero();
+			lost += elasticPair(law, light, { none, none, none }, { none, bodies[1].velocity, none }, dt, NormalForm::Closed, false, points, states);
+			for (DashpotBody& b : bodies)
+				b.newVelocity = b.velocity, b.newSpin = b.spin;
+			DashpotSolver solver;
+			solver.clear(100);
+			solver.addPair(0, 1, points.size());
+			setRows(solver, 0, bodies, light, 1, dt, true, points, states);
+			solver.solve(bodies, 1e-12);
+			PairEnergies own;
+			takeForces(solver, 0, bodies, light, dt, states, &own);
+			booked += own.dashpotNormal;
+			elastic = own.elasticNormal + dt / 2 * own.elasticPower;
+			bodies[1].velocity = bodies[1].newVelocity;
+			at -= bodies[1].velocity.z() * dt;
+		}
+		EXPECT_TRUE(states.empty());
+		const double start = mass / 2 * speed * speed, left = mass / 2 * bodies[1].velocity.squaredNorm();
+		EXPECT_LT(left, start);
+		EXPECT_NEAR((booked + elastic + lost + left) / start, 1, 0.01) << share;
+	}
+}

@@ -226,7 +226,7 @@ def lowest_frequency(frame, model, name, cycles):
     undamp()
     frequencies, shapes = model.modes()
     shape = shapes[:, 0] / shapes[3 * list(model.bodies).index(BEAM), 0]
-    rest, every = beam_at(), 2e-4
+    rest, every = beam_at(), DT
     start_in_mode(frame, model.bodies, 1e-5 * 2 * np.pi * frequencies[0] * shape)
     swing = recorded(cycles / frequencies[0], every, beam_at) - rest
     got = swing_frequency(every * np.arange(len(swing)), swing)

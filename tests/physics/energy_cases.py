@@ -17,7 +17,7 @@ EVERY = 0.01
 DEFAULT = scenario.DEFAULT_DT
 """Time step of the house scenarios. [s]"""
 REQUIRED = 1e-3
-"""Of the input [-]; held against DEFAULT, where light members hit each other within a step or two against a half or a quarter of it."""
+"""Of the input [-]; held against DEFAULT, where light members hit each other within a step or two against half of it."""
 
 
 def shaken_portal(dt, scale=1.0, strength=None, beam=0.3):
@@ -72,23 +72,48 @@ def closing(name, build, duration, judged, dts=(DEFAULT, DEFAULT / 2, DEFAULT / 
 
 @case
 def loaded_portal():
-    """Beam of 880 kg: feet slide and lift. Seen: 1.8e-4, 1.1e-4, 2e-6."""
+    """Beam of 880 kg: feet slide and lift. Seen: 3e-5, 9e-6, 1e-6."""
     return closing("loaded portal, shaken", lambda dt: shaken_portal(dt, beam=1.0), 1.0, DEFAULT)
 
 
 @case
 def light_portal():
-    """Beam of 80 kg, on columns of 9 kg. Seen: 5.2e-3, 5e-4, 4e-5; a column lands with 3 m/s in one step."""
+    """Beam of 80 kg, on columns of 9 kg. Seen: 1.3e-3, 1.9e-4, 4e-5; a column lands with 3 m/s in one step."""
     return closing("light portal, shaken", shaken_portal, 1.0, DEFAULT / 2, note="impacts of 9 kg members last a few steps")
 
 
 @case
 def falling_frame():
-    """Springs of 2 kN break, the frame falls apart. Seen: 3.7e-3, 1.7e-3, 8e-5: one step of the brace's blow at 3 m/s."""
-    return closing("frame, breaks and falls", lambda dt: shaken_portal(dt, 3.0, 2000.0), 1.5, DEFAULT / 4, note="impacts of 4 kg members last one step")
+    """Springs of 2 kN break, the frame falls apart. Seen: 7.2e-3, 2.0e-4, 1.5e-5: the brace's blow at 3 m/s, over in two steps."""
+    return closing("frame, breaks and falls", lambda dt: shaken_portal(dt, 3.0, 2000.0), 1.5, DEFAULT / 2, note="impacts of 4 kg members last one step")
 
 
 @case
 def house_in_strong_shaking(duration=0.25, dts=(DEFAULT, DEFAULT / 2)):
-    """House B, strong shaking at once. Seen: 2.3e-5, 1.0e-5 of 1 kJ; too little of a slope for an order."""
+    """House B, strong shaking at once. Seen: 2.9e-5, 1.3e-5 of 1 kJ; too little of a slope for an order."""
     return closing("house B, strong shaking", shaken_house, duration, DEFAULT, dts, least_order=None)
+
+
+def blow(speed, dt, share):
+    """A brace (2.8 kg) that flies upright against a plate; share: of the step in which it touches. Returns the residual over its kinetic energy. [-]"""
+    O.reset()
+    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    brace = yt.box((0.045, 0.09, 2.0), (0, 0, 1.001 + share * speed * dt))
+    O.bodies.append(brace)
+    O.engines, O.dt = yt.engines(gravity=(0, 0, 0)), dt
+    yt.set_velocity(brace, (0, 0, -speed))
+    O.run(1, True)
+    kinetic, before = yt.energy()["kinetic"], yt.energy_residual(yt.energy())
+    O.run(math.ceil(0.01 / dt), True)
+    return (yt.energy_residual(yt.energy()) - before) / kinetic
+
+
+@case
+def blows_of_a_step_or_two():
+    """Four points that each stop it within a step. Seen: 5e-11, 0.09, 0.04, where a step is most of the way out, over which Hertz's law is
+    not linear; 1.1, 1.5 and 1.7 while new points were booked as if they flew on."""
+    shares = [(k + 0.5) / 16 for k in range(16)]
+    return [
+        Row("7", f"blow of a brace, {v:g} m/s: residual / kinetic [-]", 0, max((blow(v, DEFAULT, s) for s in shares), key=abs), bound=bound, dt=DEFAULT, note="over in two steps")
+        for v, bound in ((5.0, 1e-9), (10.0, 0.1), (20.0, 0.1))
+    ]

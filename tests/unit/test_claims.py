@@ -71,7 +71,7 @@ WRONG = [  # claim, run, what is changed in its summary: one condition of the cl
     ("E1", "modelA_quake", STOOD),
     ("E1", "modelA_quake", {"tilt_direction": "ew"}),
     ("E1", "modelA_quake", {"leans_from_s": 17.4}),  # strong shaking sets in at 18.5 s
-    ("E1", "modelA_quake", {"leans_from_s": 21.6}),
+    ("E1", "modelA_quake", {"leans_from_s": 21.51}),  # a sample too late
     ("E1", "modelA_quake", {"collapse_time_s": 21.4}),
     ("E1", "modelA_quake", {"collapse_time_s": 27.6}),
     ("E2", "modelB_quake", FELL),
@@ -110,6 +110,7 @@ WRONG = [  # claim, run, what is changed in its summary: one condition of the cl
 STILL_RIGHT = [  # the same up to the edges of what the criteria grant
     ("E1", "modelA_quake", {"leans_from_s": 17.5, "collapse_time_s": 21.5}),
     ("E1", "modelA_quake", {"leans_from_s": 21.5, "collapse_time_s": 27.5}),
+    ("E1", "modelA_quake", {"leans_from_s": 21.5 + 3e-11}),  # rounding of the clock
     ("S1", "modelA_snow", {"leans_from_s": 1.0, "collapse_time_s": 6.0}),
     ("S1", "modelA_snow", {"collapse_time_s": 18.0}),
     ("S2", "modelB_snow", {"peak_drift": drift(0.0083, 0.0083)}),

@@ -12,7 +12,7 @@ from yade_timber.cli import Output
 
 def begin(folder, steps=4000):
     """A live run of house A under snow, going on in the background."""
-    run = runner.Run(scenario.Scenario("live", "A", snow_depth=1.0, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
+    run = runner.Run(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
     hold = ExitStack()
     assert hold.enter_context(lock.locked(folder))
     run.start(hold)
