@@ -42,7 +42,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("positional", nargs="?", metavar="RECORD", help="the same as --record")
     gm.add_motion_options(parser)
-    parser.add_argument("--dt", type=float, default=2e-4, help="time step of a run [s], for --resample (default %(default)g)")
+    parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run [s], for --resample (default %(default)g)")
     parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD are taken [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=Path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     options = parser.parse_args()

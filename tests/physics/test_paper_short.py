@@ -12,7 +12,6 @@ from yade_timber import scenario, scene
 from yade_timber.claims import STILL
 from yade_timber.motion import default_motion, trim
 
-DT = 2e-4  # [s]
 START, END = 16.6, 26.0  # [s] of the default motion: strong shaking
 
 
@@ -36,7 +35,7 @@ structures:
 
 def monitored(house, snow=0.0, motion=None, duration=1.0, until=lambda monitor: False):
     """HouseMonitor after `duration` [s], or once `until` holds."""
-    scenario.build(scenario.Scenario("short", house, motion, snow_depth=snow, dt=DT, options={"track_energy": False}))
+    scenario.build(scenario.Scenario("short", house, motion, snow_depth=snow, options={"track_energy": False}))
     monitor = scene.find_engine(yw.HouseMonitor)
     while O.time < duration and not until(monitor):
         O.run(250, True)
