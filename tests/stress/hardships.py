@@ -10,7 +10,7 @@ from yade_timber.motion import GroundMotion, default_motion
 O = yw.Omega()
 
 GAIN = 1e-3
-"""Energy that the balance may show too much, of all that went in [-]: net, none was seen to appear."""
+"""Energy that the balance may show too much, of all that went in [-]: net; 0.04 % was seen, in six seconds of strong shaking under snow at 5e-4 s."""
 LOSS = 0.01
 """Energy that it may miss [-]: blows above some 10 m/s that last a step or two leave up to a tenth of their energy unbooked; 0.13 % in the worst whole run (A, earthquake)."""
 SPIKE = 100.0
