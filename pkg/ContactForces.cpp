@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactForces.hpp>
 #include <kernel/threads.hpp>
+#include <numeric>
 
 namespace yade {
 
@@ -11,35 +12,25 @@ constexpr int responseSteps = 32;
 
 void ContactForces::sortPairs()
 {
-	pairs.clear();
-	for (const shared_ptr<Interaction>& I : seen)
-		pairs.push_back({ I.get(), nullptr, nullptr });
-	const auto ids = [](const Pair& p) { return std::minmax(p.interaction->getId1(), p.interaction->getId2()); };
-	std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return ids(p) < ids(q); });
+	const auto ids = [this](size_t k) { return std::minmax(found[k].id1, found[k].id2); };
+	order.resize(found.size());
+	std::iota(order.begin(), order.end(), 0);
+	std::sort(order.begin(), order.end(), [&](size_t k, size_t l) { return ids(k) < ids(l); });
 }
 
 void ContactForces::collectPairs()
 {
-	static const int ours    = ManifoldGeom::getClassIndexStatic();
-	size_t           count   = 0;
-	bool             changed = false;
+	static const int ours = ManifoldGeom::getClassIndexStatic();
+	found.clear();
 	for (const shared_ptr<Interaction>& I : *scene->interactions) {
 		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
-		if (static_cast<ManifoldPhys*>(I->phys.get())->isIdle()) continue;
-		if (count == seen.size()) seen.push_back(nullptr);
-		if (seen[count] != I) {
-			seen[count] = I;
-			changed     = true;
-		}
-		++count;
+		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
+		if (!phys.isIdle()) found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.states.size(), phys.lostEnergy });
 	}
-	changed = changed || count != pairs.size();
-	seen.resize(count);
-	if (changed) sortPairs();
-	for (Pair& p : pairs) {
-		p.geom = static_cast<ManifoldGeom*>(p.interaction->geom.get());
-		p.phys = static_cast<ManifoldPhys*>(p.interaction->phys.get());
-	}
+	const auto wasSame = [this](const Pair& p, size_t place) { return p == found[place]; };
+	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), wasSame)) sortPairs();
+	pairs.resize(found.size());
+	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t place) { return found[place]; });
 }
 
 void ContactForces::collectBody(Body::id_t id)
@@ -72,66 +63,78 @@ void ContactForces::collectBodies()
 	timber::forAll(count, [this](int id) { collectBody(id); });
 }
 
-void ContactForces::collectPoints(size_t k)
+void ContactForces::findIslands()
 {
-	const Pair& pair = pairs[k];
-	const int   id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
-	const Real  inverseMass = timber::inverseMass(bodies[id1], bodies[id2]);
-	if (inverseMass > 0) pair.phys->mass = 1 / inverseMass; // bodies are held and released, and get other masses
-	const bool  refresh = (scene->iter + id1 + id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-	timber::setRows(solver, k, bodies, pair.phys->properties(), pair.phys->dampingRatio, scene->dt, refresh, pair.geom->contactPoints, pair.phys->states);
+	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
+	links.resize(pairs.size());
+	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const Pair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
+	islands.find(bodies.size(), links);
 }
 
-void ContactForces::collectPoints()
+void ContactForces::setRows(timber::DashpotSolver& solver, size_t k, const Pair& p)
 {
+	const Real inverseMass = timber::inverseMass(bodies[p.id1], bodies[p.id2]);
+	if (inverseMass > 0) p.phys->mass = 1 / inverseMass; // bodies are held and released, and get other masses
+	const bool refresh = (scene->iter + p.id1 + p.id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
+	timber::setRows(solver, k, bodies, p.phys->properties(), p.phys->dampingRatio, scene->dt, refresh, p.geom->contactPoints, p.phys->states);
+}
+
+void ContactForces::storeForces(const timber::DashpotSolver& solver, size_t k, const Pair& p, timber::PairEnergies& books)
+{
+	const timber::PairForce f = timber::takeForces(solver, k, bodies, p.phys->properties(), scene->dt, p.phys->states, trackEnergy ? &books : nullptr);
+	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // fixed bodies belong to several islands, which other threads work on
+	if (bodies[p.id2].inverseMass > 0) sums.add(p.id2, f.onB, f.torqueB);
+}
+
+/// All of a step's work on an island, while it is in the processor's cache.
+ContactForces::Result ContactForces::solve(timber::Islands::Island island)
+{
+	Result                 result;
+	timber::DashpotSolver& solver = solvers[timber::threadNumber()];
+	const int              count  = int(island.size());
 	solver.clear(sweeps);
-	for (const Pair& pair : pairs)
-		solver.addPair(pair.interaction->getId1(), pair.interaction->getId2(), pair.phys->states.size());
-	timber::forAll(int(pairs.size()), [this](int k) { collectPoints(k); });
+	for (const int pair : island)
+		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
+	timber::forAll(count, [&](int k) { setRows(solver, k, pairs[island[k]]); });
+	result.sweeps = solver.solve(bodies, tolerance);
+	for (int k = 0; k < count; ++k)
+		storeForces(solver, k, pairs[island[k]], result.books);
+	return result;
 }
 
-void ContactForces::storePoints(size_t k, timber::PairEnergies& own)
+void ContactForces::solveAll()
 {
-	const timber::DashpotSolver::Pair& pair = solver.pair(k);
-	ManifoldPhys&                      phys = *pairs[k].phys;
-	const timber::PairForce            f    = timber::takeForces(solver, k, bodies, phys.properties(), scene->dt, phys.states, trackEnergy ? &own : nullptr);
-	if (bodies[pair.bodyA].inverseMass > 0) sums.add(pair.bodyA, -f.onB, f.torqueA); // fixed bodies belong to several islands, which other threads work on
-	if (bodies[pair.bodyB].inverseMass > 0) sums.add(pair.bodyB, f.onB, f.torqueB);
+	const int count = int(islands.count());
+	results.resize(count);
+	solvers.resize(timber::threadCount());
+	if (count > 0) timber::forAll(count, [this](int k) { results[k] = solve(islands[k]); }, int(pairs.size()) / count);
 }
 
-void ContactForces::storePoints()
-{
-	const int count = int(solver.islandCount());
-	books.assign(count, timber::PairEnergies());
-	timber::forAllUnlike(count, 1, [this](int island) {
-		for (const int pair : solver.island(island))
-			storePoints(pair, books[island]);
-	});
-}
-
-void ContactForces::sumBooks()
+void ContactForces::sumResults()
 {
 	elasticNormal = elasticShear = elasticPower = 0;
 	for (const Pair& pair : pairs)
-		if (trackEnergy) lost += pair.phys->lostEnergy;
-	for (const timber::PairEnergies& own : books) {
-		dashpotNormal += own.dashpotNormal;
-		dashpotShear += own.dashpotShear;
-		friction += own.friction;
-		elasticNormal += own.elasticNormal;
-		elasticShear += own.elasticShear;
-		elasticPower += own.elasticPower;
+		if (trackEnergy) lost += pair.lost;
+	int most = 0;
+	for (const Result& of : results) {
+		dashpotNormal += of.books.dashpotNormal;
+		dashpotShear += of.books.dashpotShear;
+		friction += of.books.friction;
+		elasticNormal += of.books.elasticNormal;
+		elasticShear += of.books.elasticShear;
+		elasticPower += of.books.elasticPower;
+		most = std::max(most, of.sweeps);
 	}
+	sweepsDone += most;
 }
 
 void ContactForces::action()
 {
 	collectPairs();
 	collectBodies();
-	collectPoints();
-	sweepsDone += solver.solve(bodies, tolerance);
-	storePoints();
-	sumBooks();
+	findIslands();
+	solveAll();
+	sumResults();
 	sums.handOver(*scene);
 }
 
@@ -142,8 +145,8 @@ Real ContactForces::largestEigenvalue(const boost::python::list& extra)
 	collectBodies();
 	std::vector<timber::StiffPoint> stiff;
 	for (const Pair& pair : pairs) {
-		const int id1 = pair.interaction->getId1(), id2 = pair.interaction->getId2();
-		for (size_t k = 0; k < pair.phys->states.size(); ++k) {
+		const int id1 = pair.id1, id2 = pair.id2;
+		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
 			const Real                  kn = pair.phys->states[k].stiffness;
 			stiff.push_back({ id1, id2, at.position - Body::byId(id1, scene)->state->pos, at.position - Body::byId(id2, scene)->state->pos, at.normal, kn, pair.phys->shearRatio * kn });

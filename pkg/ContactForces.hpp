@@ -4,6 +4,7 @@
 #include <ContactPhys.hpp>
 #include <bodies.hpp>
 #include <kernel/dashpots.hpp>
+#include <kernel/islands.hpp>
 #include <kernel/stiffness.hpp>
 
 namespace yade {
@@ -12,27 +13,38 @@ class ContactForces : public GlobalEngine {
 	/// A contact pair in this step. Pairs are handled island by island, in the order of their body ids, whatever the container's
 	/// order: the sums then do not depend on threads or on when the collider saw the pair.
 	struct Pair {
-		Interaction*        interaction; ///< kept alive by `seen`
+		Body::id_t          id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets new ones
 		ManifoldPhys*       phys;
+		size_t              points;
+		Real                lost; ///< [J]
+		bool                operator==(const Pair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
-	std::vector<Pair>                 pairs;
-	std::vector<shared_ptr<Interaction>> seen; ///< the interactions that `pairs` was sorted for, in the container's order
-	timber::DashpotSolver             solver;
-	std::vector<timber::DashpotBody>  bodies; ///< indexed by body id
-	BodyForces                        sums; ///< of the contacts, on free bodies
+	std::vector<Pair>                  pairs, found; ///< sorted, and in the container's order
+	std::vector<size_t>                order; ///< of each of `pairs`, its place in `found`
+	timber::Islands                    islands;
+	std::vector<timber::Link>          links; ///< of each pair
+	std::vector<timber::DashpotSolver> solvers; ///< of each thread
+	std::vector<timber::DashpotBody>   bodies; ///< indexed by body id
+	BodyForces                         sums; ///< of the contacts, on free bodies
 
-	std::vector<timber::PairEnergies> books; ///< of each island: summed in their order, whoever did them
+	/// What a step makes of an island; summed in their order, whoever did them.
+	struct Result {
+		timber::PairEnergies books;
+		int                  sweeps = 0;
+	};
+	std::vector<Result> results;
 
-	void sortPairs();
-	void collectPairs();
-	void collectBody(Body::id_t);
-	void collectBodies();
-	void collectPoints(size_t pair);
-	void collectPoints();
-	void storePoints(size_t pair, timber::PairEnergies&);
-	void storePoints();
-	void sumBooks();
+	void   sortPairs();
+	void   collectPairs();
+	void   collectBody(Body::id_t);
+	void   collectBodies();
+	void   findIslands();
+	void   setRows(timber::DashpotSolver&, size_t k, const Pair&);
+	void   storeForces(const timber::DashpotSolver&, size_t k, const Pair&, timber::PairEnergies&);
+	Result solve(timber::Islands::Island);
+	void   solveAll();
+	void   sumResults();
 
 public:
 	void action() override;

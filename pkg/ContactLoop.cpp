@@ -9,9 +9,6 @@ namespace yade {
 
 YADE_PLUGIN((ContactLoop));
 
-/// Pairs that a thread takes at a time: few for an even share, enough to outweigh the asking. [-]
-constexpr int pairShare = 16;
-
 namespace {
 	bool isRounded(const Scene& scene, Body::id_t id)
 	{
@@ -71,7 +68,7 @@ void ContactLoop::action()
 {
 	const CollisionTrigger* trigger = findEngine<CollisionTrigger>(*scene);
 	if (!isCurrent(trigger)) return lookAtAll(trigger);
-	timber::forAllUnlike(int(pairs.size()), pairShare, [&](int k) { look(pairs[k], *trigger); });
+	timber::forAll(int(pairs.size()), [&](int k) { look(pairs[k], *trigger); });
 }
 
 } // namespace yade

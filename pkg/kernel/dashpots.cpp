@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dashpots.hpp"
 #include "constants.hpp"
-#include "threads.hpp"
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
 
 namespace timber {
@@ -81,9 +79,6 @@ namespace {
 		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
-	/// No body is joined: both ends the same free one, which no pair has.
-	constexpr std::pair<int, int> noLink { 0, 0 };
-
 	/// Velocities of a pair while its points are worked on.
 	struct Motion {
 		Vec3 velocityA, spinA, velocityB, spinB;
@@ -110,7 +105,6 @@ namespace {
 			velocityB += b.inverseMass * impulse;
 			spinB += b.inverseInertia * row.armB.cross(impulse);
 		}
-		/// Fixed bodies belong to several islands, which other threads work on: they are never written to.
 		void store(DashpotBody& a, DashpotBody& b) const
 		{
 			if (a.inverseMass > 0) a.newVelocity = velocityA, a.newSpin = spinA;
@@ -153,61 +147,6 @@ template <class Number> void DashpotSolver::set(size_t k, size_t first, const st
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<double>&, double);
 template void DashpotSolver::set(size_t, size_t, const std::vector<DashpotBody>&, const DashpotPoint<Lanes>&, double);
 
-// --- islands ------------------------------------------------------------------------------------------------------------
-
-int DashpotSolver::root(int body)
-{
-	while (parent[body] != body)
-		body = parent[body] = parent[parent[body]];
-	return body;
-}
-
-/// The body that tells which island a pair belongs to.
-int DashpotSolver::islandBody(const Link& link) { return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second; }
-
-/// Whether other bodies are joined than when the islands were found.
-bool DashpotSolver::linksChange(const std::vector<DashpotBody>& bodies)
-{
-	bool changed = links.size() != pairs.size() || parent.size() != bodies.size();
-	links.resize(pairs.size());
-	const auto end = [&](int body) { return bodies[body].inverseMass > 0 ? body : ~body; };
-	for (size_t k = 0; k < pairs.size(); ++k) {
-		const Pair& p = pairs[k];
-		const Link now = p.count > 0 ? Link(end(p.bodyA), end(p.bodyB)) : noLink;
-		changed = changed || links[k] != now;
-		links[k] = now;
-	}
-	return changed;
-}
-
-/// Islands in the order of their first pairs. Fixed bodies join nothing.
-void DashpotSolver::findIslands(const std::vector<DashpotBody>& bodies)
-{
-	if (!linksChange(bodies)) return;
-	parent.resize(bodies.size());
-	std::iota(parent.begin(), parent.end(), 0);
-	for (const Link& link : links)
-		if (link != noLink && link.first >= 0 && link.second >= 0) parent[root(link.second)] = root(link.first);
-	islandOf.assign(bodies.size(), -1);
-	islandStarts.assign(1, 0);
-	for (const Link& link : links) {
-		if (link == noLink) continue;
-		int& island = islandOf[islandBody(link)];
-		if (island < 0) {
-			island = int(islandStarts.size()) - 1;
-			islandStarts.push_back(0);
-		}
-		++islandStarts[island + 1];
-	}
-	std::partial_sum(islandStarts.begin(), islandStarts.end(), islandStarts.begin());
-	order.resize(islandStarts.back());
-	std::vector<size_t> next = islandStarts;
-	for (size_t k = 0; k < links.size(); ++k)
-		if (links[k] != noLink) order[next[islandOf[islandBody(links[k])]]++] = int(k);
-}
-
-// --- sweeps -------------------------------------------------------------------------------------------------------------
-
 void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards)
 {
 	DashpotBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
@@ -231,56 +170,57 @@ void DashpotSolver::relax(std::vector<DashpotBody>& bodies, Pair& pair, bool for
 }
 
 /// Change of a point, as in Pair::change, that counts as none. [J]
-double DashpotSolver::threshold(const std::vector<DashpotBody>& bodies, Island island, double tolerance) const
+double DashpotSolver::threshold(const std::vector<DashpotBody>& bodies, double tolerance) const
 {
 	double size = 0;
 	size_t count = 0;
-	for (const int k : island) {
-		const Pair& pair = pairs[k];
+	for (const Pair& pair : pairs) {
 		Sums<1> squares(0.);
 		for (size_t point = 0; point < pair.count; point += laneCount)
 			squares.add<Lanes>(pair.count - point, rowsAt(pair, point).impulse.squaredNorm());
 		size += squares[0] * inverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
 		count += pair.count;
 	}
-	return tolerance * tolerance * size / double(count);
+	return tolerance * tolerance * size / std::max(1., double(count));
 }
 
-/// Has the neighbours of a pair looked at in this sweep (if their turn is still to come) and in the next one, if the pair
+/// Has the neighbours of a pair looked at in this pass (if their turn is still to come) and in the next one, if the pair
 /// has changed by more than `allowed` per point.
-bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep)
+bool DashpotSolver::wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed)
 {
 	if (pair.change <= allowed * double(pair.count)) return false;
 	for (const int body : { pair.bodyA, pair.bodyB })
-		if (bodies[body].inverseMass > 0) awake[body] = sweep + 1;
+		if (bodies[body].inverseMass > 0) awake[body] = passes + 1;
 	return true;
 }
 
-/// Returns whether another sweep is needed.
-bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep)
+/// A pass over the pairs that are awake. Returns whether another one is needed.
+bool DashpotSolver::sweepOn(std::vector<DashpotBody>& bodies, double allowed, bool forwards)
 {
 	bool changed = false;
-	for (const int k : island) {
-		Pair& pair = pairs[k];
-		if (awake[pair.bodyA] < sweep && awake[pair.bodyB] < sweep) continue;
-		relax(bodies, pair, sweep % 2 == 0);
-		changed = wake(bodies, pair, allowed, sweep) || changed;
+	++passes;
+	for (Pair& pair : pairs) {
+		if (awake[pair.bodyA] < passes && awake[pair.bodyB] < passes) continue;
+		relax(bodies, pair, forwards);
+		changed = wake(bodies, pair, allowed) || changed;
 	}
 	return changed;
 }
 
-/// Returns the number of sweeps.
-int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance)
+/// Returns the number of passes.
+int DashpotSolver::sweepAll(std::vector<DashpotBody>& bodies, double tolerance)
 {
-	for (const int k : island)
-		relax(bodies, pairs[k], true);
-	const double allowed = threshold(bodies, island, tolerance);
+	awake.resize(bodies.size(), 0);
+	++passes;
+	for (Pair& pair : pairs)
+		relax(bodies, pair, true);
+	const double allowed = threshold(bodies, tolerance);
 	bool changed = false;
-	for (const int k : island)
-		changed = wake(bodies, pairs[k], firstSweepShare * firstSweepShare * allowed, 0) || changed;
+	for (const Pair& pair : pairs)
+		changed = wake(bodies, pair, firstSweepShare * firstSweepShare * allowed) || changed;
 	int done = 1;
-	while (changed && done < sweeps)
-		changed = sweepOn(bodies, island, allowed, done++);
+	for (; changed && done < sweeps; ++done)
+		changed = sweepOn(bodies, allowed, done % 2 == 0);
 	return done;
 }
 
@@ -297,21 +237,11 @@ void DashpotSolver::pushAll(std::vector<DashpotBody>& bodies, const Pair& pair)
 	Motion(all).store(a, b);
 }
 
-int DashpotSolver::solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance)
-{
-	for (const int k : island)
-		pushAll(bodies, pairs[k]);
-	return sweeps == 0 ? 0 : sweepAll(bodies, island, tolerance);
-}
-
 int DashpotSolver::solve(std::vector<DashpotBody>& bodies, double tolerance)
 {
-	findIslands(bodies);
-	awake.assign(bodies.size(), 0);
-	const int count = int(islandCount());
-	std::vector<int> done(count, 0);
-	forAllUnlike(count, 1, [&](int k) { done[k] = solveIsland(bodies, island(k), tolerance); });
-	return done.empty() ? 0 : *std::max_element(done.begin(), done.end());
+	for (const Pair& pair : pairs)
+		pushAll(bodies, pair);
+	return sweeps == 0 ? 0 : sweepAll(bodies, tolerance);
 }
 
 } // namespace timber

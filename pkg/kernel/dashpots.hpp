@@ -13,12 +13,9 @@
 /// at any step. Spring and dashpot together have at most the force of friction.
 /// The coupled equations are solved by projected Gauss-Seidel sweeps over the points, started from the last step's dashpots,
 /// until they change little. No sweeps: explicit springs and dashpots, as the paper has them.
-/// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
-/// not influence each other, not even by rounding, and threads may share the work.
 #pragma once
 #include "lanes.hpp"
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace timber {
@@ -105,7 +102,7 @@ template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number l
 /// e_s after sliding: at most friction times the normal force. [N]
 template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce) { return clipped<Number>(elasticShear, friction * normalForce); }
 
-/// Finds the impulses of all points of a step: clear(), addPair() for each pair, set() for each of their points, solve().
+/// Finds the impulses of all points of an island (islands.hpp) in a step: clear(), addPair() for each pair, set() for each of their points, solve().
 class DashpotSolver {
 public:
 	using Row = DashpotRow<double>;
@@ -118,12 +115,6 @@ public:
 		size_t count; ///< of its points
 		double change; ///< of the impulses in the last sweep, squared and over the equivalent mass: what light members notice counts [J]
 	};
-	/// Indices of the pairs of an island, ascending.
-	struct Island {
-		const int *first, *last;
-		const int* begin() const { return first; }
-		const int* end() const { return last; }
-	};
 
 	/// Starts a step. sweeps: most passes over the points, pairs always in the same order (fewer of them), the points of each there and back (no side of a face is favoured); 0: explicit dashpots.
 	void clear(int sweeps);
@@ -134,29 +125,23 @@ public:
 	/// by several threads, each for pairs of its own.
 	template <class Number> void set(size_t k, size_t first, const std::vector<DashpotBody>& bodies, const DashpotPoint<Number>& points, double h);
 	/// Impulses of all rows, and the bodies' velocities with them. After the first, a pass looks only at pairs of which a body
-	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the island's
+	/// has just been changed; a pair whose impulses change by less than `tolerance` of the root mean square of the
 	/// points [-], each over the root of its equivalent mass, changes nobody (firstSweepShare of it in the first pass). Few fixed passes would do for a standing house, but
 	/// between heavy and light members in an impact they are far from the solution, and what is left of the start would create
-	/// energy. Returns the number of passes, of the island that took most.
+	/// energy. Returns the number of passes. Fixed bodies are only read: they may belong to several islands, which other threads work on.
 	int solve(std::vector<DashpotBody>& bodies, double tolerance = 0);
 
 	const Pair& pair(size_t k) const { return pairs[k]; }
 	/// Of the k-th pair: the row of a point, and the Rows that begin with it, a multiple of laneCount.
 	Row row(size_t k, size_t point) const { return rowAt(pairs[k], point); }
 	const Rows& rowsFrom(size_t k, size_t point) const { return rowsAt(pairs[k], point); }
-	size_t islandCount() const { return islandStarts.empty() ? 0 : islandStarts.size() - 1; }
-	Island island(size_t k) const { return { order.data() + islandStarts[k], order.data() + islandStarts[k + 1] }; }
 
 private:
 	int sweeps = 0;
 	std::vector<Rows> rows;
 	std::vector<Pair> pairs;
-	std::vector<int> order; ///< pairs by island
-	std::vector<size_t> islandStarts; ///< in `order`, and its end
-	using Link = std::pair<int, int>; ///< bodies of a pair with points, ~body of a fixed one; noLink of a pair without
-	std::vector<Link> links; ///< of each pair, when the islands were found
-	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
-	std::vector<int> awake; ///< of each body: last sweep for which its velocity may have changed enough to look again
+	std::vector<long> awake; ///< of each body: last pass for which its velocity may have changed enough to look again
+	long passes = 0; ///< since the solver was made: bodies of islands that were solved before are no longer awake
 
 	const Rows& rowsAt(const Pair& pair, size_t point) const { return rows[pair.first + point / laneCount]; }
 	[[gnu::always_inline]] Row rowAt(const Pair& pair, size_t point) const
@@ -165,16 +150,11 @@ private:
 		forMembers(row, rowsAt(pair, point), [&](auto& one, const auto& all) { one = lane(all, point % laneCount); });
 		return row;
 	}
-	int root(int body);
-	bool linksChange(const std::vector<DashpotBody>& bodies);
-	int islandBody(const Link& link);
-	void findIslands(const std::vector<DashpotBody>& bodies);
-	double threshold(const std::vector<DashpotBody>& bodies, Island island, double tolerance) const;
-	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed, int sweep);
-	bool sweepOn(std::vector<DashpotBody>& bodies, Island island, double allowed, int sweep);
-	int sweepAll(std::vector<DashpotBody>& bodies, Island island, double tolerance);
+	double threshold(const std::vector<DashpotBody>& bodies, double tolerance) const;
+	bool wake(const std::vector<DashpotBody>& bodies, const Pair& pair, double allowed);
+	bool sweepOn(std::vector<DashpotBody>& bodies, double allowed, bool forwards);
+	int sweepAll(std::vector<DashpotBody>& bodies, double tolerance);
 	void pushAll(std::vector<DashpotBody>& bodies, const Pair& pair);
-	int solveIsland(std::vector<DashpotBody>& bodies, Island island, double tolerance);
 	void relax(std::vector<DashpotBody>& bodies, Pair& pair, bool forwards);
 };
 

@@ -26,14 +26,14 @@ def shade(solids, view, box, density, sky=SKY):
     """
     face, depth, faces = _scan(solids, view, box, density * SUPERSAMPLING)
     shown = [(s.vertices @ view.toward).max() for s in solids if s.kind != "ground"]
-    haze = _haze(face, depth, max(shown, default=0.0))
     sky = np.broadcast_to(np.float32(sky), 3)
-    colors = np.array([sky] + [_tint(solids[body], normal) for body, normal in faces], np.float32)
-    picture = colors[face + 1]
-    lines = _edges(face)
-    picture[lines] = EDGE_COLOR
-    picture += haze[..., None] * (sky - picture)
-    return _smaller(picture), depth[::SUPERSAMPLING, ::SUPERSAMPLING]
+    colors = np.array([sky] + [_tint(solids[body], normal) for body, normal in faces] + [np.full(3, EDGE_COLOR)], np.float32)
+    color = np.where(_edges(face), len(faces) + 1, face + 1)
+    haze = _haze(face, depth, max(shown, default=0.0))
+    rows, columns = (n // SUPERSAMPLING * SUPERSAMPLING for n in face.shape)  # a rest at the border goes
+    corners = [np.s_[i:rows:SUPERSAMPLING, k:columns:SUPERSAMPLING] for i in range(SUPERSAMPLING) for k in range(SUPERSAMPLING)]
+    picture = sum(_blended(colors.take(color[part], axis=0), sky, haze[part]) for part in corners)
+    return picture / np.float32(len(corners)), depth[::SUPERSAMPLING, ::SUPERSAMPLING]
 
 
 def outline(solids, view, box, density):
@@ -52,6 +52,12 @@ def _haze(face, depth, nearest):
     haze = np.clip((nearest - depth) * np.float32(HAZE / HAZE_DEPTH), 0, HAZE)
     haze[face < 0] = 0
     return haze
+
+
+def _blended(picture, sky, share):
+    """RGB picture with a share of sky over it."""
+    picture += share[..., None] * (sky - picture)
+    return picture
 
 
 def _scan(solids, view, box, density):
@@ -105,10 +111,3 @@ def _edges(face):
     lines[:-1] |= down
     lines[1:] |= down
     return lines
-
-
-def _smaller(picture):
-    """Mean over blocks of SUPERSAMPLING x SUPERSAMPLING pixels; a rest at the border goes."""
-    n = SUPERSAMPLING
-    rows, columns = picture.shape[0] // n * n, picture.shape[1] // n * n
-    return sum(picture[i:rows:n, k:columns:n] for i in range(n) for k in range(n)) / n**2

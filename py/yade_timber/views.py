@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from .raster import outline, shade
 
@@ -85,7 +83,7 @@ def draw_view(ax, view, box, density, solids, start, marks, mark_size=MARK_SIZE)
     solids, start  lists of Solid: now, and at the start (drawn as a dashed outline; None: not drawn)
     """
     picture, depth = shade(solids, view, box, density)
-    ax.imshow(picture, extent=box, interpolation="antialiased", aspect="equal")
+    ax.imshow(np.rint(255 * picture).astype(np.uint8), extent=box, interpolation="antialiased", aspect="equal")
     if start is not None:
         was = outline([s for s in start if s.kind != "ground"], view, box, OUTLINE_PIXELS)
         ax.contour(was.astype(float), [0.5], extent=box, origin="upper", colors=INK, linewidths=0.1 * mark_size, linestyles="dashed")
@@ -125,6 +123,9 @@ def scale_bar(ax, box, size, length=1.0):
 
 def legend(figure, solids, states, size, start=True, columns=6):
     """What colours and marks mean: only what occurs. states: of the marks in the picture; size of the text [pt]."""
+    from matplotlib.lines import Line2D  # not above: see pictures.write
+    from matplotlib.patches import Patch
+
     colors = {s.kind: s.color for s in reversed(solids)}
     entries = [Patch(facecolor=colors[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in LEGEND_KINDS.items() if kind in colors]
     if start:

@@ -302,6 +302,7 @@ TEST(Islands, AreThoseOfTheStep)
 		Random random(seed);
 		const Heap heap(seed, 12, 16, 200, 0.5, 50);
 		DashpotSolver kept;
+		Islands keptIslands;
 		for (int step = 0; step < 12; ++step) {
 			std::vector<HeapPoint> points;
 			for (const HeapPoint& p : heap.points)
@@ -312,34 +313,34 @@ TEST(Islands, AreThoseOfTheStep)
 			fresh = bodies;
 			std::vector<HeapPoint> same = points;
 			DashpotSolver once;
-			const size_t before = kept.islandCount();
-			EXPECT_EQ(solveDashpots(kept, bodies, points, 1e-3, 30, 1e-6), solveDashpots(once, fresh, same, 1e-3, 30, 1e-6)) << seed;
-			ASSERT_EQ(kept.islandCount(), once.islandCount()) << seed << " after " << before;
-			for (size_t k = 0; k < once.islandCount(); ++k)
-				ASSERT_TRUE(std::equal(kept.island(k).begin(), kept.island(k).end(), once.island(k).begin(), once.island(k).end())) << seed;
+			Islands islands;
+			const size_t before = keptIslands.count();
+			EXPECT_EQ(solveDashpots(kept, keptIslands, bodies, points, 1e-3, 30, 1e-6), solveDashpots(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
+			ASSERT_EQ(keptIslands.count(), islands.count()) << seed << " after " << before;
+			for (size_t k = 0; k < islands.count(); ++k)
+				ASSERT_TRUE(std::equal(keptIslands[k].begin(), keptIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;
 			for (size_t k = 0; k < bodies.size(); ++k) {
 				EXPECT_EQ(bodies[k].newVelocity, fresh[k].newVelocity) << seed;
 				EXPECT_EQ(bodies[k].newSpin, fresh[k].newSpin) << seed;
 			}
-			most = std::max(most, once.islandCount());
-			least = std::min(least, once.islandCount());
+			most = std::max(most, islands.count());
+			least = std::min(least, islands.count());
 		}
 	}
 	EXPECT_GT(most, least + 3);
 }
 
-/// Points between two held bodies are an island, too: their forces are limited and booked. They may come when the bodies are held already.
+/// Points between two held bodies are an island, too: their forces are limited and booked. Pairs that do not touch are in none.
 TEST(Islands, PairsOfHeldBodiesHaveTheirs)
 {
-	std::vector<DashpotBody> bodies { body(0, Vec3::Zero()), body(0, Vec3::Zero()) };
-	DashpotSolver solver;
-	for (const size_t count : { 0, 1, 0, 2 }) {
-		solver.clear(10);
-		solver.addPair(0, 1, count);
-		HeapPoint point = central(10, 1);
-		for (size_t k = 0; k < count; ++k)
-			solver.set<double>(0, k, bodies, point, 1e-3);
-		solver.solve(bodies);
-		EXPECT_EQ(solver.islandCount(), count > 0 ? 1u : 0u);
+	Islands islands;
+	for (const Link link : { noLink, Link(~0, ~1), noLink, Link(~1, ~0) }) {
+		islands.find(2, { link });
+		EXPECT_EQ(islands.count(), link == noLink ? 0u : 1u);
 	}
+	islands.find(4, { { 3, ~0 }, { ~0, ~1 }, noLink, { ~1, 3 }, { 2, ~0 } });
+	ASSERT_EQ(islands.count(), 3u);
+	EXPECT_EQ(std::vector<int>(islands[0].begin(), islands[0].end()), (std::vector<int> { 0, 3 }));
+	EXPECT_EQ(std::vector<int>(islands[1].begin(), islands[1].end()), std::vector<int> { 1 });
+	EXPECT_EQ(std::vector<int>(islands[2].begin(), islands[2].end()), std::vector<int> { 4 });
 }

@@ -4,6 +4,7 @@
 #include "shapes.hpp"
 #include <algorithm>
 #include <kernel/dashpots.hpp>
+#include <kernel/islands.hpp>
 
 namespace timber::shapes {
 
@@ -34,33 +35,46 @@ inline HeapPoint central(double damping, double elastic = 0)
 	return p;
 }
 
-/// One step of points whose pairs stand next to each other, by a solver that may have done others before. Returns the number of passes.
-inline int solveDashpots(DashpotSolver& solver, std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+/// One step of points whose pairs stand next to each other, by a solver and islands that may have done others before. Returns the number of
+/// passes, of the island that took most.
+inline int solveDashpots(DashpotSolver& solver, Islands& islands, std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
-	solver.clear(sweeps);
-	std::vector<std::pair<size_t, size_t>> places; // of each point: its pair, and which of its points it is
-	for (auto p = points.begin(); p != points.end();) {
-		const auto end = std::find_if_not(p, points.end(), [&](const HeapPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; });
-		const size_t pair = solver.addPair(p->bodyA, p->bodyB, size_t(end - p));
-		for (size_t i = 0; p != end; ++i, ++p)
-			places.emplace_back(pair, i);
+	using Place = std::vector<HeapPoint>::iterator;
+	std::vector<std::pair<Place, Place>> pairs; // points of each
+	std::vector<Link> links;
+	const auto linked = [&](int body) { return bodies[size_t(body)].inverseMass > 0 ? body : ~body; };
+	for (Place p = points.begin(); p != points.end(); p = pairs.back().second) {
+		pairs.emplace_back(p, std::find_if_not(p, points.end(), [&](const HeapPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; }));
+		links.emplace_back(linked(p->bodyA), linked(p->bodyB));
 	}
-	for (size_t k = 0; k < points.size(); ++k) {
-		HeapPoint& p = points[k];
-		const PointResponse response = responseAt(bodies[size_t(p.bodyA)], bodies[size_t(p.bodyB)], p.armA, p.armB, p.normal);
-		p.normalResponse = response.normalResponse;
-		p.shearResponse = response.shearResponse;
-		solver.set<double>(places[k].first, places[k].second, bodies, p, h);
+	islands.find(bodies.size(), links);
+	int most = 0;
+	for (size_t island = 0; island < islands.count(); ++island) {
+		solver.clear(sweeps);
+		for (const int pair : islands[island]) {
+			const auto [first, last] = pairs[size_t(pair)];
+			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));
+			for (Place p = first; p != last; ++p) {
+				const PointResponse response = responseAt(bodies[size_t(p->bodyA)], bodies[size_t(p->bodyB)], p->armA, p->armB, p->normal);
+				p->normalResponse = response.normalResponse;
+				p->shearResponse = response.shearResponse;
+				solver.set<double>(k, size_t(p - first), bodies, *p, h);
+			}
+		}
+		most = std::max(most, solver.solve(bodies, tolerance));
+		for (size_t k = 0; k < islands[island].size(); ++k) {
+			const auto [first, last] = pairs[size_t(islands[island][k])];
+			for (Place p = first; p != last; ++p)
+				p->impulse = solver.row(k, size_t(p - first)).impulse;
+		}
 	}
-	const int done = solver.solve(bodies, tolerance);
-	for (size_t k = 0; k < points.size(); ++k)
-		points[k].impulse = solver.row(places[k].first, places[k].second).impulse;
-	return done;
+	return most;
 }
 inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	DashpotSolver solver;
-	return solveDashpots(solver, bodies, points, h, sweeps, tolerance);
+	Islands islands;
+	return solveDashpots(solver, islands, bodies, points, h, sweeps, tolerance);
 }
 
 /// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.
