@@ -334,7 +334,7 @@ TEST(Islands, AreThoseOfTheStep)
 TEST(Islands, PairsOfHeldBodiesHaveTheirs)
 {
 	Islands islands;
-	for (const Link link : { noLink, Link(~0, ~1), noLink, Link(~1, ~0) }) {
+	for (const Link& link : { noLink, Link(~0, ~1), noLink, Link(~1, ~0) }) {
 		islands.find(2, { link });
 		EXPECT_EQ(islands.count(), link == noLink ? 0u : 1u);
 	}
