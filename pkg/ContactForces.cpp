@@ -27,7 +27,7 @@ void ContactForces::collectPairs()
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle()) found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.states.size(), phys.lostEnergy });
 	}
-	const auto wasSame = [this](const Pair& p, size_t place) { return p == found[place]; };
+	const auto wasSame = [this](const Pair& p, size_t place) { return p.hasIdsOf(found[place]); };
 	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), wasSame)) sortPairs();
 	pairs.resize(found.size());
 	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t place) { return found[place]; });

@@ -16,9 +16,9 @@ class ContactForces : public GlobalEngine {
 		Body::id_t          id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets new ones
 		ManifoldPhys*       phys;
-		size_t              points;
+		size_t              points; ///< this and the next are phys's, read while it is at hand
 		Real                lost; ///< [J]
-		bool                operator==(const Pair& p) const { return id1 == p.id1 && id2 == p.id2; }
+		bool                hasIdsOf(const Pair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
 	std::vector<Pair>                  pairs, found; ///< sorted, and in the container's order
 	std::vector<size_t>                order; ///< of each of `pairs`, its place in `found`
