@@ -2,7 +2,7 @@
 /// One pair as a step of the package handles it: manifold, elastic law, dashpots, limits.
 #pragma once
 #include "configurations.hpp"
-#include <kernel/pair_points.hpp>
+#include <kernel/contact_pair.hpp>
 
 namespace timber::bench {
 
@@ -14,8 +14,8 @@ class TimberPair {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
 	std::vector<PointState> states;
-	std::vector<DashpotBody> bodies;
-	DashpotSolver solver;
+	std::vector<SolverBody> bodies;
+	ContactSolver solver;
 	HertzLaw law { 0, 0.1 }; ///< such that the points carry the body
 	PairProperties properties;
 	static constexpr double h = 1e-4, gravity = 9.81;
@@ -29,10 +29,10 @@ class TimberPair {
 		bodies[1].newSpin = bodies[1].spin;
 		solver.clear(50);
 		solver.addPair(0, 1, points.size());
-		setRows(solver, 0, bodies, properties, 1, h, false, points, states);
+		prepareContacts(solver, 0, bodies, properties, 1, h, false, points, states);
 		passes += solver.solve(bodies, 1e-3);
 		++steps;
-		takeForces(solver, 0, bodies, properties, h, states, nullptr);
+		storeForces(solver, 0, bodies, properties, h, states, nullptr);
 	}
 
 public:
@@ -47,7 +47,7 @@ public:
 		poseB.orientation = c.turnB;
 		place = placeOfB(c, a.core.vertices, b.core.vertices, a.radius + b.radius);
 		const MassProperties m = massProperties(b.sharp);
-		bodies.assign(2, DashpotBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
+		bodies.assign(2, SolverBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
 		bodies[1].inverseMass = 1 / (340 * m.volume);
 		bodies[1].inverseInertia = (340 * m.inertia).inverse();
 		properties = { 2 * 340 * m.volume, 0.5, 1 / 2.8, a.radius + b.radius };

@@ -13,10 +13,10 @@ endif()
 
 # Reproducible results: no fused multiply-add behind the source's back, no -ffast-math. Neither errno nor floating-point traps are used: dropping them changes no number.
 add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trapping-math)
-# What GCC makes of three neighbouring numbers by itself costs more than it gains: a fifth of the sweeps' time. pkg/kernel/lanes.hpp says where vectors pay.
+# What GCC makes of three neighbouring numbers by itself costs more than it gains: a fifth of the sweeps' time. pkg/kernel/simd.hpp says where vectors pay.
 add_compile_options(-fno-tree-slp-vectorize)
 
-# Four numbers at a time instead of two (pkg/kernel/lanes.hpp), the same to the last bit. A module built so is refused by the loader of a machine that
+# Four numbers at a time instead of two (pkg/kernel/simd.hpp), the same to the last bit. A module built so is refused by the loader of a machine that
 # has no such processor.
 include(CheckCXXSourceRuns)
 check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"bmi2\") ? 0 : 1; }" TIMBER_HAS_X86_64_V3)

@@ -38,7 +38,7 @@ void ContactForces::collectBody(Body::id_t id)
 	const shared_ptr<Body>& b = (*scene->bodies)[id];
 	if (!b) return;
 	const State&         s   = *b->state;
-	timber::DashpotBody& own = bodies[id];
+	timber::SolverBody& own = bodies[id];
 	own.position = s.pos;
 	own.velocity = own.newVelocity = s.vel;
 	own.spin = own.newSpin = s.angVel;
@@ -71,17 +71,17 @@ void ContactForces::findIslands()
 	islands.find(bodies.size(), links);
 }
 
-void ContactForces::setRows(timber::DashpotSolver& solver, size_t k, const Pair& p)
+void ContactForces::prepareContacts(timber::ContactSolver& solver, size_t k, const Pair& p)
 {
 	const Real inverseMass = timber::inverseMass(bodies[p.id1], bodies[p.id2]);
 	if (inverseMass > 0) p.phys->mass = 1 / inverseMass; // bodies are held and released, and get other masses
 	const bool refresh = (scene->iter + p.id1 + p.id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-	timber::setRows(solver, k, bodies, p.phys->properties(), p.phys->dampingRatio, scene->dt, refresh, p.geom->contactPoints, p.phys->states);
+	timber::prepareContacts(solver, k, bodies, p.phys->properties(), p.phys->dampingRatio, scene->dt, refresh, p.geom->contactPoints, p.phys->states);
 }
 
-void ContactForces::storeForces(const timber::DashpotSolver& solver, size_t k, const Pair& p, timber::PairEnergies& books)
+void ContactForces::storeForces(const timber::ContactSolver& solver, size_t k, const Pair& p, timber::PairEnergies& books)
 {
-	const timber::PairForce f = timber::takeForces(solver, k, bodies, p.phys->properties(), scene->dt, p.phys->states, trackEnergy ? &books : nullptr);
+	const timber::PairForce f = timber::storeForces(solver, k, bodies, p.phys->properties(), scene->dt, p.phys->states, trackEnergy ? &books : nullptr);
 	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // fixed bodies belong to several islands, which other threads work on
 	if (bodies[p.id2].inverseMass > 0) sums.add(p.id2, f.onB, f.torqueB);
 }
@@ -90,12 +90,12 @@ void ContactForces::storeForces(const timber::DashpotSolver& solver, size_t k, c
 ContactForces::Result ContactForces::solve(timber::Islands::Island island)
 {
 	Result                 result;
-	timber::DashpotSolver& solver = solvers[timber::threadNumber()];
+	timber::ContactSolver& solver = solvers[timber::threadNumber()];
 	const int              count  = int(island.size());
 	solver.clear(sweeps);
 	for (const int pair : island)
 		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
-	timber::forAll(count, [&](int k) { setRows(solver, k, pairs[island[k]]); });
+	timber::forAll(count, [&](int k) { prepareContacts(solver, k, pairs[island[k]]); });
 	result.sweeps = solver.solve(bodies, tolerance);
 	for (int k = 0; k < count; ++k)
 		storeForces(solver, k, pairs[island[k]], result.books);

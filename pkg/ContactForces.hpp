@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// From the elastic forces of all contacts to the total forces on the bodies.
 #pragma once
-#include <ContactPhys.hpp>
+#include <ContactPhysics.hpp>
 #include <bodies.hpp>
-#include <kernel/dashpots.hpp>
+#include <kernel/contact_solver.hpp>
 #include <kernel/islands.hpp>
-#include <kernel/stiffness.hpp>
+#include <kernel/stability.hpp>
 
 namespace yade {
 
@@ -24,8 +24,8 @@ class ContactForces : public GlobalEngine {
 	std::vector<size_t>                order; ///< of each of `pairs`, its place in `found`
 	timber::Islands                    islands;
 	std::vector<timber::Link>          links; ///< of each pair
-	std::vector<timber::DashpotSolver> solvers; ///< of each thread
-	std::vector<timber::DashpotBody>   bodies; ///< indexed by body id
+	std::vector<timber::ContactSolver> solvers; ///< of each thread
+	std::vector<timber::SolverBody>   bodies; ///< indexed by body id
 	BodyForces                         sums; ///< of the contacts, on free bodies
 
 	/// What a step makes of an island; summed in their order, whoever did them.
@@ -40,8 +40,8 @@ class ContactForces : public GlobalEngine {
 	void   collectBody(Body::id_t);
 	void   collectBodies();
 	void   findIslands();
-	void   setRows(timber::DashpotSolver&, size_t k, const Pair&);
-	void   storeForces(const timber::DashpotSolver&, size_t k, const Pair&, timber::PairEnergies&);
+	void   prepareContacts(timber::ContactSolver&, size_t k, const Pair&);
+	void   storeForces(const timber::ContactSolver&, size_t k, const Pair&, timber::PairEnergies&);
 	Result solve(timber::Islands::Island);
 	void   solveAll();
 	void   sumResults();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactLoop.hpp>
-#include <ContactPhys.hpp>
-#include <Integrators.hpp>
+#include <CollisionTrigger.hpp>
+#include <ContactPhysics.hpp>
 #include <bodies.hpp>
 #include <kernel/threads.hpp>
 

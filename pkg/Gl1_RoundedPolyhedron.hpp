@@ -2,7 +2,7 @@
 /// The elements in YADE's own viewer.
 #pragma once
 #ifdef YADE_OPENGL
-#include <RoundedPolyhedron.hpp>
+#include <Shape.hpp>
 
 namespace yade {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Watches a run: storey drift, breaks, energies; and stops it when a number is no longer finite.
+/// Watches a run: storey drift, breaks, energies.
 #pragma once
 #include <ContactForces.hpp>
-#include <GroundMotionEngine.hpp>
-#include <JointEngine.hpp>
+#include <GroundMotion.hpp>
+#include <Joints.hpp>
 
 namespace yade {
 
@@ -44,17 +44,5 @@ public:
 	boost::python::list pyColumns() const;
 };
 REGISTER_SERIALIZABLE(HouseMonitor);
-
-class HealthCheck : public GlobalEngine {
-public:
-	void postLoad(HealthCheck&);
-	void action() override;
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine, "Stops a run with an error that names the body and the step when a position or velocity is not finite or a speed is beyond all physics.",
-		((int, every, 100, Attr::triggerPostLoad, "Steps between checks. [-]"))
-		((Real, speedLimit, 200, , "Largest believable speed of a body. [m/s]")));
-	// clang-format on
-};
-REGISTER_SERIALIZABLE(HealthCheck);
 
 } // namespace yade

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <GroundMotionEngine.hpp>
+#include <GroundMotion.hpp>
 #include <bodies.hpp>
 #include <RestSkipper.hpp>
 

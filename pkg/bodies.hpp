@@ -23,6 +23,13 @@ template <class E> E* findEngine(const Scene& scene)
 	return nullptr;
 }
 
+/// Adds mass times acceleration [m/s2] to every free body.
+inline void addBodyForce(Scene& scene, const Vector3r& acceleration)
+{
+	for (const shared_ptr<Body>& b : *scene.bodies)
+		if (b && isFree(*b->state)) scene.forces.addForce(b->getId(), b->state->mass * acceleration);
+}
+
 /// Forces and torques about the centres, by body id. YADE's container adds them up in the order of its threads; sums made
 /// here, and handed over once, do not depend on them.
 struct BodyForces {

@@ -3,7 +3,7 @@
 #include <pch.hpp>
 
 #include <Gl1_RoundedPolyhedron.hpp>
-#include <Recording.hpp>
+#include <PackedScene.hpp>
 #include <build_info.hpp>
 #include <layout_guard.hpp>
 

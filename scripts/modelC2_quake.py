@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # House C2, earthquake (paper, section 4.3).
 import yade_timber as yt
-from yade_timber.runner import main
+from yade_timber.run.runner import main
 
 run = main("C2", earthquake=True)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes without dashpots, for checks against undamped solutions."""
 import yade.wrapper as yw
-from yade_timber import scene
+from yade_timber.scene import engines as scene
 
 O = yw.Omega()
 

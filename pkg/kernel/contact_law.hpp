@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Elastic part of the contact laws at one contact point (paper, sections 2.3 and 3.1). Dashpots: dashpots.hpp.
+/// Elastic part of the contact laws at one contact point (paper, sections 2.3 and 3.1). Dashpots: contact_solver.hpp.
 /// Signs: the normal runs from body A to body B; forces are those on B, A gets the opposite; a normal force is >= 0
 /// and pushes the bodies apart.
 #pragma once
 #include "constants.hpp"
-#include "dashpots.hpp"
-#include "lanes.hpp"
+#include "contact_solver.hpp"
+#include "simd.hpp"
 #include "manifold.hpp"
 #include <algorithm>
 #include <cmath>
@@ -135,7 +135,7 @@ enum class NormalForm { Closed, Increment };
 
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
-/// energy. Sliding is decided where the total normal force is known (dashpots.hpp).
+/// energy. Sliding is decided where the total normal force is known (contact_solver.hpp).
 /// in: law, pair, point, motion, dt [s]; in-out: state (a new one has only its excess).
 template <class Law, class Point, class Number>
 void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const PointMotion<Number>& motion, double dt, NormalForm form, Springs<Number>& state)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Small questions about points, segments and one convex polyhedron, all in the polyhedron's frame.
 #pragma once
-#include "lanes.hpp"
+#include "simd.hpp"
 #include "polyhedron.hpp"
 #include <algorithm>
 #include <cmath>

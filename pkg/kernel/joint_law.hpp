@@ -2,7 +2,7 @@
 /// One spring of a breakable joint (paper, sections 2.4 and 3.2), anchored in both bodies.
 /// Signs: the normal runs from body A to body B; the force is that on A, B gets the opposite.
 #pragma once
-#include "lanes.hpp"
+#include "simd.hpp"
 #include <vector>
 
 namespace timber {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "manifold.hpp"
-#include "candidates.hpp"
+#include "feature_search.hpp"
 #include "geometry.hpp"
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace timber {
 namespace {
 
 	/// What two features make of each other, in the frame of A.
-	template <class Number> struct Meet {
+	template <class Number> struct FeatureContact {
 		Vec3Of<Number> onA; ///< point on core A
 		Vec3Of<Number> normal; ///< unit, from A to B
 		Number distance; ///< of the cores along the normal, negative when they overlap [m]
@@ -28,11 +28,11 @@ namespace {
 		/// Crossings are never repeated: they keep their distance from vertices (crossingEdges).
 		bool isRepeated(const ContactPoint& next) const
 		{
-			const Meeting meeting = next.id.meeting();
-			if (meeting == Meeting::VertexFace || meeting == Meeting::EdgeEdge) return false;
-			const bool onEdge = meeting == Meeting::VertexEdge || meeting == Meeting::EdgeVertex;
+			const FeatureKind meeting = next.id.kind();
+			if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::EdgeEdge) return false;
+			const bool onEdge = meeting == FeatureKind::VertexEdge || meeting == FeatureKind::EdgeVertex;
 			return std::any_of(all.begin(), all.end(), [&](const ContactPoint& p) {
-				if (onEdge ? p.id.meeting() == Meeting::EdgeEdge : p.id.meeting() != Meeting::VertexFace) return false;
+				if (onEdge ? p.id.kind() == FeatureKind::EdgeEdge : p.id.kind() != FeatureKind::VertexFace) return false;
 				return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
 			});
 		}
@@ -46,7 +46,7 @@ namespace {
 		{
 		}
 		/// Takes over, of the pairs of features named from `first` on, those that are `on`: in the middle of the overlap, in the world.
-		template <class Number, class Condition> void add(const FeatureId* first, size_t count, Condition on, const Meet<Number>& meet)
+		template <class Number, class Condition> void add(const FeatureId* first, size_t count, Condition on, const FeatureContact<Number>& meet)
 		{
 			const Number overlap = Number(pair.touch()) - meet.distance;
 			const Vec3Of<Number> middle = meet.onA + (Number(pair.a.radius) - overlap / Number(2.)) * meet.normal;
@@ -75,10 +75,10 @@ namespace {
 	}
 
 	/// Up to laneCount vertices of one body against the same face of the other.
-	template <class Number> auto verticesMeetFace(const Pair& pair, const FeatureId* first, size_t count, Meet<Number>& meet)
+	template <class Number> auto verticesMeetFace(const Pair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& meet)
 	{
 		using Vec = Vec3Of<Number>;
-		const bool ofB = first->meeting() == Meeting::VertexFace;
+		const bool ofB = first->kind() == FeatureKind::VertexFace;
 		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
 		const int face = ofB ? first->b() : first->a();
 		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
@@ -93,7 +93,7 @@ namespace {
 
 	/// Up to laneCount edges of A, each against one of B. The crossing must lie inside both edges, farther from their ends than the border
 	/// rule reaches.
-	template <class Number> auto crossingEdges(const Pair& pair, const FeatureId* first, size_t count, Meet<Number>& meet)
+	template <class Number> auto crossingEdges(const Pair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& meet)
 	{
 		using Vec = Vec3Of<Number>;
 		const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
@@ -144,7 +144,7 @@ namespace {
 	}
 
 	/// From a point on core A to one on core B.
-	bool meetBetween(const Vec3& onA, const Vec3& onB, Meet<double>& meet)
+	bool meetBetween(const Vec3& onA, const Vec3& onB, FeatureContact<double>& meet)
 	{
 		const Vec3 way = onB - onA;
 		meet.onA = onA;
@@ -153,7 +153,7 @@ namespace {
 		return true;
 	}
 
-	bool vertexMeetsEdge(const Pair& pair, int vertex, int edge, Meet<double>& meet)
+	bool vertexMeetsEdge(const Pair& pair, int vertex, int edge, FeatureContact<double>& meet)
 	{
 		const Vec3& x = pair.a.core.vertices[vertex];
 		Vec3 foot;
@@ -161,14 +161,14 @@ namespace {
 		return meetBetween(x, pair.toA<double>(foot), meet);
 	}
 
-	bool edgeMeetsVertex(const Pair& pair, int edge, int vertex, Meet<double>& meet)
+	bool edgeMeetsVertex(const Pair& pair, int edge, int vertex, FeatureContact<double>& meet)
 	{
 		const Vec3 x = pair.toA<double>(pair.b.core.vertices[vertex]);
 		Vec3 foot;
 		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], x, foot) && meetBetween(foot, x, meet);
 	}
 
-	bool verticesMeet(const Pair& pair, int vertexA, int vertexB, Meet<double>& meet)
+	bool verticesMeet(const Pair& pair, int vertexA, int vertexB, FeatureContact<double>& meet)
 	{
 		const Vec3 &onA = pair.a.core.vertices[vertexA], onB = pair.toA<double>(pair.b.core.vertices[vertexB]);
 		const Vec3 way = onB - onA;
@@ -179,12 +179,12 @@ namespace {
 	}
 
 	/// The patterns that the paper ignores.
-	bool othersMeet(const Pair& pair, FeatureId id, Meet<double>& meet)
+	bool othersMeet(const Pair& pair, FeatureId id, FeatureContact<double>& meet)
 	{
-		switch (id.meeting()) {
-			case Meeting::VertexEdge: return vertexMeetsEdge(pair, id.a(), id.b(), meet);
-			case Meeting::EdgeVertex: return edgeMeetsVertex(pair, id.a(), id.b(), meet);
-			case Meeting::VertexVertex: return verticesMeet(pair, id.a(), id.b(), meet);
+		switch (id.kind()) {
+			case FeatureKind::VertexEdge: return vertexMeetsEdge(pair, id.a(), id.b(), meet);
+			case FeatureKind::EdgeVertex: return edgeMeetsVertex(pair, id.a(), id.b(), meet);
+			case FeatureKind::VertexVertex: return verticesMeet(pair, id.a(), id.b(), meet);
 			default: return false;
 		}
 	}
@@ -193,11 +193,11 @@ namespace {
 	size_t countAlike(const FeatureId* first, const FeatureId* end)
 	{
 		const auto isAlike = [first](FeatureId id) {
-			if (id.meeting() != first->meeting()) return false;
-			switch (id.meeting()) {
-				case Meeting::VertexFace: return id.b() == first->b();
-				case Meeting::FaceVertex: return id.a() == first->a();
-				default: return id.meeting() == Meeting::EdgeEdge;
+			if (id.kind() != first->kind()) return false;
+			switch (id.kind()) {
+				case FeatureKind::VertexFace: return id.b() == first->b();
+				case FeatureKind::FaceVertex: return id.a() == first->a();
+				default: return id.kind() == FeatureKind::EdgeEdge;
 			}
 		};
 		return size_t(std::find_if_not(first + 1, first + std::min<std::ptrdiff_t>(end - first, laneCount), isAlike) - first);
@@ -206,15 +206,15 @@ namespace {
 	/// Points of `count` candidates that are alike.
 	template <class Number> void meetAlike(const Pair& pair, const FeatureId* first, size_t count, Points& points)
 	{
-		Meet<Number> meet;
+		FeatureContact<Number> meet;
 		const auto take = [&](auto on) {
 			if (!any(on)) return;
 			if (pair.deep()) on = both(on, meet.normal.dot(wide<Number>(pair.axis)) >= Number(outwardCosine));
 			points.add(first, count, on, meet);
 		};
-		const Meeting meeting = first->meeting();
-		if (meeting == Meeting::EdgeEdge) take(crossingEdges(pair, first, count, meet));
-		else if (meeting == Meeting::VertexFace || meeting == Meeting::FaceVertex) take(verticesMeetFace(pair, first, count, meet));
+		const FeatureKind meeting = first->kind();
+		if (meeting == FeatureKind::EdgeEdge) take(crossingEdges(pair, first, count, meet));
+		else if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::FaceVertex) take(verticesMeetFace(pair, first, count, meet));
 		else if constexpr (std::is_same_v<Number, double>) take(othersMeet(pair, *first, meet));
 	}
 
@@ -229,7 +229,7 @@ namespace {
 
 	/// Cores overlap and no pair of features answers (two plates through each other): one point in their common part,
 	/// along the axis of least overlap.
-	Meet<double> meetCores(const Pair& pair)
+	FeatureContact<double> meetCores(const Pair& pair)
 	{
 		const Vec3 half = pair.gap / 2 * pair.axis;
 		Vec3 middle = commonMiddle(pair, pair.axis) * pair.axis;
@@ -304,7 +304,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 		count == 1 ? meetAlike<double>(pair, next, count, found) : meetAlike<Lanes>(pair, next, count, found);
 		next += count;
 	}
-	const FeatureId cores { Meeting::CoreCore, 0, 0 };
+	const FeatureId cores { FeatureKind::CoreCore, 0, 0 };
 	if (points.empty() && pair.deep()) found.add(&cores, 1, true, meetCores(pair));
 	return points.empty() ? seekAxis(pair, cache) : 0;
 }

@@ -17,17 +17,17 @@
 namespace timber {
 
 /// Which features of A and B meet. The order is the order of points in a manifold.
-enum class Meeting : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge, EdgeVertex, VertexVertex, CoreCore };
+enum class FeatureKind : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge, EdgeVertex, VertexVertex, CoreCore };
 
 /// Name of a contact point that lasts as long as the same two features meet: history follows it.
 struct FeatureId {
 	std::uint32_t bits = ~0u; ///< no features yet
 	FeatureId() = default;
-	FeatureId(Meeting m, int a, int b)
+	FeatureId(FeatureKind m, int a, int b)
 	        : bits(std::uint32_t(m) << 28 | std::uint32_t(a) << 14 | std::uint32_t(b))
 	{
 	}
-	Meeting meeting() const { return Meeting(bits >> 28); }
+	FeatureKind kind() const { return FeatureKind(bits >> 28); }
 	int a() const { return int(bits >> 14 & 0x3fff); }
 	int b() const { return int(bits & 0x3fff); }
 	bool operator==(FeatureId o) const { return bits == o.bits; }

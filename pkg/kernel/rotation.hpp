@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Torque-free rotation of rigid bodies.
 #pragma once
-#include "lanes.hpp"
+#include "simd.hpp"
 #include <cmath>
 #include <utility>
 

@@ -11,6 +11,6 @@ if _host.running():
 
     _plugin, _class_names = _host.load(__name__, __path__[0])
     globals().update({_name: getattr(_wrapper, _name) for _name in _class_names})
-    from .elements import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401
-    from .export import export_scene  # noqa: E402,F401
-    from .scene import connect, contacts, energy, energy_residual, engines, stable_dt  # noqa: E402,F401
+    from .scene.bodies import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401
+    from .scene.export import export_scene  # noqa: E402,F401
+    from .scene.engines import connect, contacts, energy, energy_residual, engines, stable_dt  # noqa: E402,F401

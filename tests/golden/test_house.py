@@ -12,7 +12,8 @@ import yade.config
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.motion import GroundMotion, default_motion
 
 GOLDEN = Path(__file__).with_suffix(".json")

@@ -3,7 +3,7 @@
 #pragma once
 #include "shapes.hpp"
 #include <algorithm>
-#include <kernel/dashpots.hpp>
+#include <kernel/contact_solver.hpp>
 #include <kernel/islands.hpp>
 
 namespace timber::shapes {
@@ -11,13 +11,13 @@ namespace timber::shapes {
 /// One impulse is some ten products: relative rounding.
 constexpr double rounding = 1e-13;
 
-inline DashpotBody body(double mass, const Vec3& velocity)
+inline SolverBody body(double mass, const Vec3& velocity)
 {
 	const double inertia = 0.1 * mass; // of a sphere of about 0.5 m
 	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0, mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
 }
 
-struct HeapPoint : DashpotPoint<double> {
+struct HeapPoint : ContactInput<double> {
 	int bodyA = 0, bodyB = 0; ///< indices of the bodies
 };
 
@@ -37,7 +37,7 @@ inline HeapPoint central(double damping, double elastic = 0)
 
 /// One step of points whose pairs stand next to each other, by a solver and islands that may have done others before. Returns the number of
 /// passes, of the island that took most.
-inline int solveDashpots(DashpotSolver& solver, Islands& islands, std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveDashpots(ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	using Place = std::vector<HeapPoint>::iterator;
 	std::vector<std::pair<Place, Place>> pairs; // points of each
@@ -70,9 +70,9 @@ inline int solveDashpots(DashpotSolver& solver, Islands& islands, std::vector<Da
 	}
 	return most;
 }
-inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveDashpots(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
-	DashpotSolver solver;
+	ContactSolver solver;
 	Islands islands;
 	return solveDashpots(solver, islands, bodies, points, h, sweeps, tolerance);
 }
@@ -80,13 +80,13 @@ inline int solveDashpots(std::vector<DashpotBody>& bodies, std::vector<HeapPoint
 /// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.
 inline double after(double massA, double massB, double speed, double damping, double h, int sweeps)
 {
-	std::vector<DashpotBody> bodies { body(massA, Vec3::Zero()), body(massB, { 0, 0, -speed }) };
+	std::vector<SolverBody> bodies { body(massA, Vec3::Zero()), body(massB, { 0, 0, -speed }) };
 	std::vector<HeapPoint> points { central(damping) };
 	solveDashpots(bodies, points, h, sweeps);
 	return (bodies[1].newVelocity - bodies[0].newVelocity).z();
 }
 
-inline double kineticEnergy(const std::vector<DashpotBody>& bodies)
+inline double kineticEnergy(const std::vector<SolverBody>& bodies)
 {
 	double energy = 0;
 	for (const auto& b : bodies)
@@ -96,7 +96,7 @@ inline double kineticEnergy(const std::vector<DashpotBody>& bodies)
 
 /// Some bodies (the first one fixed) and many points between random pairs of them.
 struct Heap {
-	std::vector<DashpotBody> bodies;
+	std::vector<SolverBody> bodies;
 	std::vector<HeapPoint> points;
 
 	Heap(unsigned seed, int bodyCount, int pointCount, double damping, double friction, double elastic = 0)
@@ -117,7 +117,7 @@ private:
 		const double mass = std::pow(10, uniform(random, -1, 2));
 		const Mat3 axes = randomRotation(random).toRotationMatrix();
 		const Vec3 moments = mass * Vec3(uniform(random, 0.01, 0.1), uniform(random, 0.1, 0.2), uniform(random, 0.1, 0.2));
-		DashpotBody b = body(fixed ? 0 : mass, fixed ? Vec3(Vec3::Zero()) : randomVector(random, 1));
+		SolverBody b = body(fixed ? 0 : mass, fixed ? Vec3(Vec3::Zero()) : randomVector(random, 1));
 		b.spin = b.newSpin = fixed ? Vec3(Vec3::Zero()) : randomVector(random, 3);
 		if (!fixed) b.inverseInertia = axes * moments.cwiseInverse().asDiagonal() * axes.transpose();
 		bodies.push_back(b);

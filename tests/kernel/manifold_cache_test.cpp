@@ -147,7 +147,7 @@ TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
 	const Vec3 above(0.499 + 0.049 + flushTolerance / 2, 0, 0.499 + 0.049 + 0.0015);
-	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() }, { above, Quat::Identity() }), Meeting::FaceVertex), 2);
+	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() }, { above, Quat::Identity() }), FeatureKind::FaceVertex), 2);
 }
 
 /// A corner that comes towards an edge's end from beyond it: the edge still answers there (flushTolerance) when its end is a little farther than both
@@ -159,7 +159,7 @@ TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
 	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), -outward);
 	const Vec3 centre = Vec3::Constant(0.499) + beyond + 0.049 * std::sqrt(3.) * outward;
 	const auto points = afterMove(large, small, { centre + move * beyond.normalized(), onCorner }, { centre, onCorner }, { true, true });
-	EXPECT_EQ(count(points, Meeting::EdgeVertex), 1);
+	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
 }
 
 /// Edges that are parallel have no crossing until the upper box turns.
@@ -167,7 +167,7 @@ TEST(CandidateCache, ParallelEdgesThatTurn)
 {
 	const auto cube = roundedBox({ 0.3, 0.3, 0.3 }, 0.01);
 	const Vec3 above(0, 1e-3, 0.299);
-	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() }, { above, about(Vec3::UnitZ(), 2 * parallelSine) }), Meeting::EdgeEdge), 8);
+	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() }, { above, about(Vec3::UnitZ(), 2 * parallelSine) }), FeatureKind::EdgeEdge), 8);
 }
 
 /// Crossed laths go through each other within a move: those edges meet that were on the far sides, deeper than both radii together.
@@ -176,7 +176,7 @@ TEST(CandidateCache, LathsThatPassThroughEachOther)
 	const auto lath = roundedBox({ 0.1, 0.0032, 0.0032 }, 1e-4);
 	const Quat across = about(Vec3::UnitZ(), M_PI / 2);
 	const auto points = afterMove(lath, lath, { { 0, 0, move / 2 }, across }, { { 0, 0, -move / 2 }, across });
-	EXPECT_EQ(count(points, Meeting::EdgeEdge), 4);
+	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
 	for (const auto& p : points)
 		EXPECT_NEAR(p.overlap, 0.0032 - move / 2, 1e-13); // rounding of placements
 }

@@ -22,7 +22,7 @@ void expectBounded(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const
 	const double depth = -gapOf(a, b, poseB) + 1e-12; // the same support function, rounding only
 	for (const auto& p : points) {
 		EXPECT_GT(p.overlap, 0);
-		EXPECT_LE(p.overlap, touch + (p.id.meeting() == Meeting::CoreCore ? depth : half));
+		EXPECT_LE(p.overlap, touch + (p.id.kind() == FeatureKind::CoreCore ? depth : half));
 		EXPECT_NEAR(p.normal.norm(), 1, 1e-12); // products of unit vectors and rotations
 	}
 }
@@ -52,7 +52,7 @@ TEST(DeepOverlap, FaceOnFaceGrowsOn)
 	for (const double overlap : { 0.01, 0.1399, 0.14, 0.1401, 0.2, 0.27 }) {
 		const auto points = contacts(a, b, {}, { { 0.05, 0.1, 0.7 - overlap }, Quat::Identity() });
 		ASSERT_GE(points.size(), 4u) << overlap;
-		EXPECT_EQ(count(points, Meeting::FaceVertex), 4);
+		EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 		for (const auto& p : points) {
 			EXPECT_NEAR(p.overlap, overlap, 1e-13); // rounding of metre-sized placements
 			EXPECT_NEAR(p.normal.z(), 1, 1e-13);
@@ -104,7 +104,7 @@ TEST(DeepOverlap, CorePointPartsThePairInOneMove)
 	const Pose crossing { { 0.02, 0, 0.03 }, about({ 0.1, 1, 0.2 }, 1.4) };
 	const auto points = contacts(plate, plate, {}, crossing);
 	ASSERT_EQ(points.size(), 1u);
-	EXPECT_EQ(points[0].id.meeting(), Meeting::CoreCore);
+	EXPECT_EQ(points[0].id.kind(), FeatureKind::CoreCore);
 	const double depth = points[0].overlap - 2 * plate.radius;
 	EXPECT_NEAR(depth, -gapOf(plate, plate, crossing), 1e-13); // the same support function, rounding only
 	EXPECT_LT(gapOf(plate, plate, { crossing.position + 0.99 * depth * points[0].normal, crossing.orientation }), 0);
@@ -120,7 +120,7 @@ TEST(DeepOverlap, VertexUnderAFaceButOutsideASlopeDoesNotCount)
 	const auto block = roundedBox({ 0.2 + 2 * radius, 0.3, 0.3 }, radius);
 	for (const double out : { -0.02, 0.02 }) {
 		const auto points = contacts(ridge, block, {}, { { side + out - 0.1, 0.15 - 2 * radius - depth, 0 }, Quat::Identity() });
-		EXPECT_EQ(count(points, Meeting::FaceVertex), out > 0 ? 2 : 4);
+		EXPECT_EQ(count(points, FeatureKind::FaceVertex), out > 0 ? 2 : 4);
 		EXPECT_EQ(points.size(), out > 0 ? 2u : 4u);
 		for (const auto& p : points) {
 			EXPECT_NEAR(p.overlap, 2 * radius + depth, 1e-13); // rounding of metre-sized placements

@@ -42,9 +42,9 @@ TEST(FlushColumn, VertexEdgePatternHoldsIt)
 {
 	const FlushColumn pair;
 	const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, false });
-	EXPECT_EQ(count(points, Meeting::EdgeVertex), 4);
+	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 4);
 	EXPECT_EQ(points.size(), 4u);
-	EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }), Meeting::FaceVertex), 4);
+	EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }), FeatureKind::FaceVertex), 4);
 	EXPECT_EQ(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }).size(), 4u);
 }
 
@@ -69,14 +69,14 @@ TEST(FlushColumn, SlidAcrossTheBorder)
 {
 	const FlushColumn pair;
 	for (const double slide : { 2e-5, 9e-5 }) {
-		EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), supported), Meeting::FaceVertex), 4);
+		EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), supported), FeatureKind::FaceVertex), 4);
 		EXPECT_EQ(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), unsupported).size(), 0u);
 	}
 	for (const double slide : { 1.1e-4, 1e-3, 1e-2 })
 		for (const Patterns& patterns : { supported, unsupported }) {
 			const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(slide), patterns);
-			EXPECT_EQ(count(points, Meeting::FaceVertex), 2) << slide;
-			EXPECT_EQ(count(points, Meeting::EdgeEdge), 2) << slide;
+			EXPECT_EQ(count(points, FeatureKind::FaceVertex), 2) << slide;
+			EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 2) << slide;
 			EXPECT_EQ(points.size(), 4u);
 		}
 }
@@ -115,11 +115,11 @@ TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 	const auto box = roundedBox({ 1, 1, 1 }, 0.001), bar = roundedBox({ 0.1, 1, 0.1 }, 0.001);
 	const double inside = 1e-4, above = 5e-5, half = 0.049 * std::sqrt(2.); // of the bar's core edge, from the box's
 	const auto points = contacts(box, bar, {}, { { 0.499 - inside, 0, 0.499 + above + half }, about(Vec3::UnitY(), M_PI / 4) });
-	EXPECT_EQ(count(points, Meeting::VertexFace), 2);
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 2);
+	EXPECT_EQ(count(points, FeatureKind::VertexFace), 2);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 2);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
-		const bool side = p.id.meeting() == Meeting::VertexFace;
+		const bool side = p.id.kind() == FeatureKind::VertexFace;
 		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13); // rounding of metre-sized placements
 		EXPECT_NEAR(p.normal.z(), side ? std::sqrt(0.5) : 1, 1e-13);
 		EXPECT_LT((p.position - points[0].position).cwiseProduct(Vec3(1, 0, 1)).norm(), 2e-4);

@@ -41,7 +41,7 @@ std::vector<ContactPoint> stacked(const RoundedPolyhedron& a, const RoundedPolyh
 TEST(FaceOnFace, SmallBoxOnLarge)
 {
 	const auto points = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), 1, 0.5);
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 4);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	expectPlaces(points, rectangle(0.2, 0.2, 0.5 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -50,7 +50,7 @@ TEST(FaceOnFace, SmallBoxOnLarge)
 TEST(FaceOnFace, LargeBoxOnSmall)
 {
 	const auto points = stacked(roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 1, 1 }), 0.5, 1);
-	EXPECT_EQ(count(points, Meeting::VertexFace), 4);
+	EXPECT_EQ(count(points, FeatureKind::VertexFace), 4);
 	expectPlaces(points, rectangle(0.2, 0.2, 0.25 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -72,7 +72,7 @@ TEST(FaceOnFace, TurnedByFortyFiveDegrees)
 	auto places = rectangle(0.4, s, z);
 	for (const Vec3& p : rectangle(s, 0.4, z))
 		places.push_back(p);
-	EXPECT_EQ(count(points, Meeting::EdgeEdge), 8);
+	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 8);
 	expectPlaces(points, places);
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -82,7 +82,7 @@ TEST(FaceOnFace, CrossedBeams)
 {
 	const auto a = roundedBox({ 3, 0.105, 0.12 }), b = roundedBox({ 0.12, 3, 0.18 });
 	const auto points = stacked(a, b, 0.12, 0.18);
-	EXPECT_EQ(count(points, Meeting::EdgeEdge), 4);
+	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
 	expectPlaces(points, rectangle(0.06 - b.radius, 0.0525 - a.radius, 0.06 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -100,7 +100,7 @@ TEST(FaceOnFace, TiltedByTenMicroradians)
 {
 	const double tilt = 1e-5, z = 0.75 - press;
 	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {}, { { 0, 0, z }, about({ 0, 1, 0 }, tilt) });
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 4);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	for (const auto& p : points) {
 		const double x = p.position.x() > 0 ? 0.2 : -0.2;
 		const double bottom = z - x * std::sin(tilt) - 0.2 * std::cos(tilt) - 0.05;
@@ -127,7 +127,7 @@ TEST(EdgeOnEdge, CrossedAtNinetyAndThirtyDegrees)
 	for (const double angle : { M_PI / 2, M_PI / 6 }) {
 		const double height = 2 * core + 2 * bar.radius - press;
 		const auto points = contacts(bar, bar, { { 0, 0, 0 }, onEdge }, { { 0, 0, height }, about({ 0, 0, 1 }, angle) * onEdge });
-		EXPECT_EQ(count(points, Meeting::EdgeEdge), 1);
+		EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 1);
 		expectPlaces(points, { { 0, 0, height / 2 } });
 		for (const auto& p : points)
 			expectPoint(p, Vec3::UnitZ(), press);
@@ -144,7 +144,7 @@ TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 	EXPECT_TRUE(contacts(lower, upper, below, above).empty());
 	const Patterns all { true, true };
 	auto points = contacts(lower, upper, below, above, all);
-	EXPECT_EQ(count(points, Meeting::EdgeVertex), 2);
+	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 2);
 	expectPlaces(points, { { 0.48, 0, height / 2 }, { -0.48, 0, height / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -159,7 +159,7 @@ TEST(CornerOnFace, OnePoint)
 	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ());
 	const Vec3 centre(0.1, -0.05, 0.5 + core + cube.radius - press);
 	const auto points = contacts(roundedBox({ 1, 1, 1 }), cube, {}, { centre, onCorner });
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 1);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 1);
 	expectPlaces(points, { { 0.1, -0.05, 0.5 - press / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
@@ -174,7 +174,7 @@ TEST(CornerOnCorner, NeedsTheVertexVertexPattern)
 	const Pose above { { 0, 0, 2 * core + 2 * cube.radius - press }, onCorner };
 	EXPECT_TRUE(contacts(cube, cube, { { 0, 0, 0 }, onCorner }, above).empty());
 	const auto points = contacts(cube, cube, { { 0, 0, 0 }, onCorner }, above, { true, true });
-	EXPECT_EQ(count(points, Meeting::VertexVertex), 1);
+	EXPECT_EQ(count(points, FeatureKind::VertexVertex), 1);
 	ASSERT_EQ(points.size(), 1u);
 	expectPoint(points[0], Vec3::UnitZ(), press, 1e-12); // the turn onto the corner is itself rounded
 }
@@ -190,7 +190,7 @@ TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 	const Pose poseB { edge + towards * (touch - press + core), onCorner };
 	EXPECT_TRUE(contacts(a, b, {}, poseB).empty());
 	const auto points = contacts(a, b, {}, poseB, { true, true });
-	EXPECT_EQ(count(points, Meeting::EdgeVertex), 1);
+	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
 	expectPlaces(points, { edge + towards * (a.radius - press / 2) }, 1e-12); // the turn onto the corner is itself rounded
 	for (const auto& p : points)
 		expectPoint(p, towards, press, 1e-12);
@@ -211,7 +211,7 @@ TEST(CornerOnEdge, AnEdgeDoesNotAnswerBehindIt)
 	const Pose poseB { corner + (0.1 - radius) * std::sqrt(3.) * slope, Quat::FromTwoVectors(Vec3(1, 1, 1), -slope) };
 	for (const bool swapped : { false, true }) {
 		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true }) : contacts(ridge, cube, {}, poseB, { true, true });
-		EXPECT_EQ(count(points, swapped ? Meeting::VertexFace : Meeting::FaceVertex), 1);
+		EXPECT_EQ(count(points, swapped ? FeatureKind::VertexFace : FeatureKind::FaceVertex), 1);
 		expectPlaces(points, { foot + radius / 2 * slope }, 1e-12); // the turn onto the corner is itself rounded
 		for (const auto& p : points)
 			expectPoint(p, swapped ? Vec3(-slope) : slope, radius, 1e-12);
@@ -231,7 +231,7 @@ protected:
 TEST_F(BraceInCorner, OnTheBeam)
 {
 	const auto points = contacts(beam, brace, beamPose, bracePose);
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 4);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
 		expectPoint(p, Vec3::UnitZ(), press, 1e-12); // core vertices from three-plane solves
@@ -245,13 +245,13 @@ TEST_F(BraceInCorner, OnTheBeam)
 TEST_F(BraceInCorner, OnTheColumn)
 {
 	const auto points = contacts(column, brace, columnPose, bracePose);
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 2);
-	EXPECT_EQ(count(points, Meeting::EdgeEdge), 2);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 2);
+	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 2);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
 		expectPoint(p, Vec3::UnitX(), press, 1e-12); // core vertices from three-plane solves
 		EXPECT_NEAR(p.position.x(), -press / 2, 1e-12);
-		if (p.id.meeting() == Meeting::EdgeEdge) {
+		if (p.id.kind() == FeatureKind::EdgeEdge) {
 			EXPECT_NEAR(p.position.z(), column.radius, 1e-12);
 		}
 	}
@@ -288,12 +288,12 @@ TEST(SizeRatio, OneToThousand)
 	const double shallow = 1e-5;
 	const Pose onTop { { 1, 2, 5.005 - shallow }, Quat::Identity() };
 	const auto points = contacts(large, small, {}, onTop);
-	EXPECT_EQ(count(points, Meeting::FaceVertex), 4);
+	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), shallow);
 	const auto onLarge = contacts(small, large, onTop, {});
-	EXPECT_EQ(count(onLarge, Meeting::VertexFace), 4);
+	EXPECT_EQ(count(onLarge, FeatureKind::VertexFace), 4);
 	EXPECT_EQ(onLarge.size(), 4u);
 }
 
@@ -357,8 +357,8 @@ TEST(Continuity, OverlapFollowsThePose)
 
 TEST(Order, SortedByUniqueIds)
 {
-	const FeatureId id(Meeting::EdgeVertex, 5000, 16383);
-	EXPECT_EQ(id.meeting(), Meeting::EdgeVertex);
+	const FeatureId id(FeatureKind::EdgeVertex, 5000, 16383);
+	EXPECT_EQ(id.kind(), FeatureKind::EdgeVertex);
 	EXPECT_EQ(id.a(), 5000);
 	EXPECT_EQ(id.b(), 16383);
 	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), {}, { { 0.2, 0.1, 0.999 }, Quat::Identity() });

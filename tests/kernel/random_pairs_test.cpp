@@ -99,12 +99,12 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 		++deep;
 		const auto points = contacts(a, b, {}, poseB);
 		EXPECT_FALSE(points.empty()) << trial;
-		std::set<std::pair<Meeting, int>> vertices; // each of them answers to one face
+		std::set<std::pair<FeatureKind, int>> vertices; // each of them answers to one face
 		for (const auto& p : points) {
 			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // outwardCosine, rounded
-			const Meeting meeting = p.id.meeting();
-			if (meeting == Meeting::VertexFace || meeting == Meeting::FaceVertex) {
-				EXPECT_TRUE(vertices.insert({ meeting, meeting == Meeting::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
+			const FeatureKind meeting = p.id.kind();
+			if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::FaceVertex) {
+				EXPECT_TRUE(vertices.insert({ meeting, meeting == FeatureKind::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
 			}
 		}
 	}

@@ -146,11 +146,11 @@ inline std::vector<ContactPoint> contacts(const RoundedPolyhedron& a, const Roun
 	return points;
 }
 
-inline int count(const std::vector<ContactPoint>& points, Meeting meeting)
+inline int count(const std::vector<ContactPoint>& points, FeatureKind meeting)
 {
 	int n = 0;
 	for (const ContactPoint& p : points)
-		n += p.id.meeting() == meeting;
+		n += p.id.kind() == meeting;
 	return n;
 }
 

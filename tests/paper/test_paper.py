@@ -11,7 +11,8 @@ import os
 from pathlib import Path
 
 import pytest
-from yade_timber import campaign, claims
+from yade_timber.study import campaign
+from yade_timber.study import claims
 
 TESTS = Path(__file__).resolve().parents[1]
 GOLDEN, SCRIPTS = TESTS / "golden" / "paper_runs.json", TESTS.parent / "scripts"

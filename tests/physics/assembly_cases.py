@@ -13,7 +13,8 @@ from rows import Registry, Row
 from scipy.optimize import brentq
 from undamped import undamp
 from yade.minieigenHP import Vector3
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 
 case = Registry()
 O = yw.Omega()

@@ -8,7 +8,9 @@ import yade_timber as yt
 from planar_scene import build_frame, recorded
 from rows import Registry, Row, observed_order
 from yade.minieigenHP import Vector3
-from yade_timber import motion, scenario, scene
+from yade_timber import motion
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 
 case = Registry()
 O = yw.Omega()

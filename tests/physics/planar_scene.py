@@ -3,7 +3,8 @@
 import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
-from yade_timber import elements, scene
+from yade_timber.scene import bodies as elements
+from yade_timber.scene import engines as scene
 
 O = yw.Omega()
 UNBREAKABLE = 1e12

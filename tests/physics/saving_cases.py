@@ -9,7 +9,7 @@ import yade_timber as yt
 from planar_scene import advance
 from rows import Registry, Row
 from yade.minieigenHP import Vector3
-from yade_timber.scene import find_engine
+from yade_timber.scene.engines import find_engine
 
 case = Registry()
 O = yw.Omega()

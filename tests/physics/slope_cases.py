@@ -5,7 +5,7 @@ import yade.wrapper as yw
 import yade_timber as yt
 from rows import Registry, Row
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene import find_engine
+from yade_timber.scene.engines import find_engine
 
 case = Registry()
 O = yw.Omega()

@@ -8,8 +8,9 @@ import math
 import pytest
 import yade.wrapper as yw
 from yade import O
-from yade_timber import scenario, scene
-from yade_timber.claims import STILL
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
+from yade_timber.study.claims import STILL
 from yade_timber.motion import default_motion, trim
 
 START, END = 16.6, 26.0  # [s] of the default motion: strong shaking

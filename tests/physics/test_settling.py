@@ -4,7 +4,8 @@ import pytest
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 
 SETTLING = 1.0  # [s]
 

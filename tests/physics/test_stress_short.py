@@ -11,7 +11,7 @@ import pytest  # noqa: E402
 from hardships import single_precision  # noqa: E402
 from random_pairs import expect_sound, impacts  # noqa: E402
 from yade import O  # noqa: E402
-from yade_timber.scenario import MAX_DT  # noqa: E402
+from yade_timber.scene.scenario import MAX_DT  # noqa: E402
 
 
 def test_random_impacts():

@@ -3,7 +3,8 @@
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, default_motion
 

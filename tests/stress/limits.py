@@ -4,7 +4,8 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from undamped import undamp
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 
 O = yw.Omega()
 

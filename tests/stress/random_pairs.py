@@ -6,7 +6,7 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Matrix3, Quaternion, Vector3
-from yade_timber import scene
+from yade_timber.scene import engines as scene
 
 O = yw.Omega()
 

@@ -8,8 +8,8 @@ import yade_timber as yt
 from compare import assert_close
 from hardships import expect_sound, float32_house, rough_record, shaken, single_precision, strong_part
 from yade import O
-from yade_timber import scene
-from yade_timber.scenario import MAX_DT
+from yade_timber.scene import engines as scene
+from yade_timber.scene.scenario import MAX_DT
 
 
 @pytest.mark.parametrize("build", [limits.hung_block, limits.stack, limits.house, limits.stiff_house])

@@ -9,7 +9,7 @@ import yade_timber as yt  # noqa: E402
 from assembly_cases import DT, load_on_fixed, stack_at_rest, weight  # noqa: E402
 from planar_scene import advance, places  # noqa: E402
 from rows import Row, check  # noqa: E402
-from yade_timber import scenario  # noqa: E402
+from yade_timber.scene import scenario  # noqa: E402
 
 
 def test_stack():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
 import numpy as np
-from yade_timber import frames
+from yade_timber.recording import frames
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 FALL = 2.0

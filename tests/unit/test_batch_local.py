@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""scripts/batch.py with the real yade-batch: a table of short runs, stopped and killed in the middle, resumed; then nothing is left to do."""
+"""scripts/study/batch.py with the real yade-batch: a table of short runs, stopped and killed in the middle, resumed; then nothing is left to do."""
 
 import csv
 import os
@@ -15,7 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.lock import held  # noqa: E402
+from yade_timber.base.lock import held  # noqa: E402
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  dt    duration
@@ -35,7 +35,7 @@ def folder(tmp_path):
 
 
 def start(folder):
-    """scripts/batch.py, two runs at a time."""
+    """scripts/study/batch.py, two runs at a time."""
     command = [sys.executable, str(SCRIPTS / "batch.py"), "runs.txt", "-j", "2"]
     return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 

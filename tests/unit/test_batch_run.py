@@ -4,9 +4,9 @@ import json
 
 import pytest
 from yade.utils import TableParamReader
-from yade_timber import lock
-from yade_timber.batch import BatchError, read_table
-from yade_timber.batch import run as batch_run
+from yade_timber.base import lock
+from yade_timber.study.batch import BatchError, read_table
+from yade_timber.study.batch import run as batch_run
 from yade_timber.house import HouseError, load_house
 from yade_timber.motion import RecordError, pga
 

@@ -11,9 +11,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.batch import BatchError, read_table, write_runs  # noqa: E402
-from yade_timber.batch.collect import RESULTS  # noqa: E402
-from yade_timber.batch.table import check_shell_safe  # noqa: E402
+from yade_timber.study.batch import BatchError, read_table, write_runs  # noqa: E402
+from yade_timber.study.batch.collect import RESULTS  # noqa: E402
+from yade_timber.study.batch.table import check_shell_safe  # noqa: E402
 
 TABLE = """# comment
 house  description!  scale  !THREADS  snow   # of the roof

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from yade_timber import checkpoint
+from yade_timber.run import checkpoint
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion
-from yade_timber.scenario import Scenario
+from yade_timber.scene.scenario import Scenario
 
 SCENARIO = Scenario("run", "A", GroundMotion(0.01, np.ones((9, 3)), "shove"), 0.5, scale=0.8, duration=3.0)
 

@@ -8,10 +8,14 @@ import sys
 from pathlib import Path
 
 import pytest
-from yade_timber import campaign, claims, claims_table, provenance, readings
+from yade_timber.study import campaign
+from yade_timber.study import claims
+from yade_timber.study import claims_table
+from yade_timber.run import identity as provenance
+from yade_timber.study import variants as readings
 from yade_timber.house import build_house, load_house
-from yade_timber.provenance import made_from
-from yade_timber.readings import READINGS, Reading, merged, write_house
+from yade_timber.run.identity import made_from
+from yade_timber.study.variants import READINGS, Reading, merged, write_house
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
@@ -198,7 +202,7 @@ def fake_script(folder, body):
 
 
 WRITES = """import sys, json, pathlib
-from yade_timber.provenance import made_from
+from yade_timber.run.identity import made_from
 folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
 words = sys.argv[1:]
 (folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[words.index('--or-anew') + 1:])}))
@@ -261,7 +265,7 @@ def test_middle_of_summaries():
 
 
 def test_houses_that_a_reading_leaves_alone_are_not_run_again(tmp_path):
-    tasks_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "sensitivity_study.py"))["tasks_of"]
+    tasks_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "sensitivity_study.py"))["tasks_of"]
     tasks = {task.folder.name: task for task in tasks_of("braces-inwards", tmp_path, claims.RUNS, argparse.Namespace())}
     assert {name for name, task in tasks.items() if task.folder.parent.name == "braces-inwards"} == {name for name in tasks if name.startswith("modelB")}
     assert tasks["modelA_quake"].folder == tmp_path / "shipped" / "modelA_quake"

@@ -4,11 +4,11 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from yade_timber import cli
-from yade_timber.errors import RunError
+from yade_timber.run import cli
+from yade_timber.base.errors import RunError
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
-from yade_timber.runner import main
-from yade_timber.scenario import MAX_DT, MIN_DT
+from yade_timber.run.runner import main
+from yade_timber.scene.scenario import MAX_DT, MIN_DT
 
 
 @pytest.fixture

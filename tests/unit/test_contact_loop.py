@@ -7,7 +7,8 @@ import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.motion import default_motion
 
 

@@ -8,7 +8,10 @@ import pytest
 import yade.wrapper as yw
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber import recorder, results, scenario, scene
+from yade_timber.run import recorder
+from yade_timber.run import summary as results
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.motion import GroundMotion, default_motion, onset
 
 

@@ -7,9 +7,9 @@ import h5py
 import numpy as np
 import pytest
 from small_frames import CUBE, frames
-from yade_timber import moments
-from yade_timber import frames as files
-from yade_timber.errors import RunError
+from yade_timber.pictures import key_times as moments
+from yade_timber.recording import frames as files
+from yade_timber.base.errors import RunError
 
 
 def same(one, other):

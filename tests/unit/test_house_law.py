@@ -2,7 +2,9 @@
 """What a house file says about the laws arrives in the engines."""
 import pytest
 from yade import O
-from yade_timber import checkpoint, scenario, scene
+from yade_timber.run import checkpoint
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 
 
 def built(tmp_path, law):

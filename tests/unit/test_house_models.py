@@ -181,9 +181,9 @@ def test_leaning_house_stays_flush_and_keeps_its_joints(tmp_path):
 
 def test_picture_script(tmp_path):
     out = tmp_path / "a.png"
-    run = subprocess.run([sys.executable, ROOT / "scripts/show_house.py", "A", "--out", out], capture_output=True, text=True)
+    run = subprocess.run([sys.executable, ROOT / "scripts/show/show_house.py", "A", "--out", out], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     assert json.loads(run.stdout[: run.stdout.rindex("}") + 1])["joints_by_kind"]["column_beam"] == 180
     assert out.stat().st_size > 50_000
-    bad = subprocess.run([sys.executable, ROOT / "scripts/show_house.py", "D"], capture_output=True, text=True)
+    bad = subprocess.run([sys.executable, ROOT / "scripts/show/show_house.py", "D"], capture_output=True, text=True)
     assert bad.returncode == 1 and bad.stderr.startswith("unknown house 'D'") and bad.stderr.count("\n") == 1

@@ -6,7 +6,9 @@ import pytest
 import yaml
 import yade_timber as yt
 from yade import O
-from yade_timber import results, scenario, scene
+from yade_timber.run import summary as results
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.house import HouseError
 from yade_timber.house.reading import SHIPPED
 

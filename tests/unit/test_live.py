@@ -6,8 +6,11 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from yade import O
-from yade_timber import frames, lock, runner, scenario
-from yade_timber.cli import Output
+from yade_timber.recording import frames
+from yade_timber.base import lock
+from yade_timber.run import runner
+from yade_timber.scene import scenario
+from yade_timber.run.cli import Output
 
 
 def begin(folder, steps=4000):

@@ -95,14 +95,14 @@ def test_shipped_file_is_the_generator_s_output():
 
 def test_script_makes_the_shipped_file_again(tmp_path):
     out = tmp_path / "again.csv"
-    script = ROOT / "scripts" / "make_ground_motion.py"
+    script = ROOT / "scripts" / "paper" / "make_ground_motion.py"
     done = subprocess.run([sys.executable, script, "--out", out], capture_output=True, text=True, check=True)
     assert "JMA intensity" in done.stdout
     assert out.read_text(encoding="utf-8") == gm.DEFAULT_RECORD.read_text(encoding="utf-8")
 
 
 def test_show_record_prints_and_plots(tmp_path):
-    script = ROOT / "scripts" / "show_record.py"
+    script = ROOT / "scripts" / "show" / "show_record.py"
     done = subprocess.run([sys.executable, script, "--out", tmp_path / "a.png"], capture_output=True, text=True, check=True)
     for word in ("PGA", "PGV", "PGD", "Arias", "JMA intensity         6.7", "D5-95"):
         assert word in done.stdout
@@ -111,6 +111,6 @@ def test_show_record_prints_and_plots(tmp_path):
 
 @pytest.mark.parametrize("arguments", [["nothing"], ["--out", "/nowhere/a.png"], ["--scale", "nan"]])
 def test_show_record_fails_in_one_line(tmp_path, arguments):
-    script = ROOT / "scripts" / "show_record.py"
+    script = ROOT / "scripts" / "show" / "show_record.py"
     done = subprocess.run([sys.executable, script, *arguments], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 1 and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1

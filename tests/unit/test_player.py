@@ -12,11 +12,12 @@ from pathlib import Path
 import frames_sample
 import numpy as np
 import pytest
-from yade_timber import frames, player
-from yade_timber.errors import RunError
-from yade_timber.packing import pack
+from yade_timber.recording import frames
+from yade_timber.pictures import player
+from yade_timber.base.errors import RunError
+from yade_timber.pictures.packing import pack
 
-SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "make_player.py"
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "make_player.py"
 
 
 def unpack(text):

@@ -6,7 +6,8 @@ import frames_sample
 import numpy as np
 import pytest
 from browser import errors, picture, resize, wait
-from yade_timber import frames, player
+from yade_timber.recording import frames
+from yade_timber.pictures import player
 
 WIDE, PHONE = (920, 600), (360, 740)
 MIDDLE, HEAD, FOOT = [0, 0, 0], [0, 0, 1.1], [0, 0, -1.1]  # of an element; of a column, near its ends [m]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import yade_timber as yt
 from yade import O
-from yade_timber import scenario, scene
+from yade_timber.scene import scenario
+from yade_timber.scene import engines as scene
 from yade_timber.motion import GroundMotion
 
 GRAIN = 250

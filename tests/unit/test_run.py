@@ -17,7 +17,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from yade_timber import frames, lock
+from yade_timber.recording import frames
+from yade_timber.base import lock
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
 

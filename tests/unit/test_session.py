@@ -7,7 +7,7 @@ import yade.wrapper as yw
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber import scene
+from yade_timber.scene import engines as scene
 
 
 def column_on_plate(dt=1e-4, joined=True):

@@ -11,10 +11,10 @@ import pytest
 from scipy import stats
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "py"), str(ROOT / "scripts")]
+sys.path[:0] = [str(ROOT / "py"), str(ROOT / "scripts" / "study")]
 
-import study_brace  # noqa: E402
-import study_fragility  # noqa: E402
+import brace  # noqa: E402
+import fragility  # noqa: E402
 
 
 def runs(house, scale, collapses, failed=0):
@@ -26,10 +26,10 @@ def runs(house, scale, collapses, failed=0):
 
 def test_point_counts_and_interval():
     """3 of 10: Clopper and Pearson 1934 give 0.0667 to 0.6525 at 95 %. Failed runs are no evidence."""
-    (point,) = study_fragility.points(runs("B", 0.8, [True] * 3 + [False] * 7, failed=2))
+    (point,) = fragility.points(runs("B", 0.8, [True] * 3 + [False] * 7, failed=2))
     assert (point["runs"], point["collapsed"], point["failed"], point["median_collapse_time_s"]) == (10, 3, 2, 9.0)
     assert (point["low"], point["high"]) == pytest.approx((0.0667, 0.6525), abs=1e-4)
-    (none,) = study_fragility.points(runs("B", 0.8, [], failed=1))
+    (none,) = fragility.points(runs("B", 0.8, [], failed=1))
     assert np.isnan(none["part"]) and (none["low"], none["high"]) == (0.0, 1.0)
 
 
@@ -37,7 +37,7 @@ def test_fit_finds_the_curve_it_was_made_from():
     """Parts of a lognormal curve with median 0.9 and spread 0.3, of 10 000 runs a point: the rounding of counts moves them by 0.1 %."""
     scales = [0.4, 0.6, 0.8, 1.0, 1.3, 1.6]
     curve = [{"scale": s, "runs": 10000, "collapsed": round(10000 * stats.norm.cdf(np.log(s / 0.9) / 0.3))} for s in scales]
-    assert study_fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
+    assert fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -45,19 +45,19 @@ def test_fit_finds_the_curve_it_was_made_from():
     [((0, 0, 0), "none collapses"), ((5, 5, 5), "all collapse"), ((0, 0, 1), "fewer than half collapse up to 2"), ((4, 5, 5), "more than half collapse from 0.5 on"), ((0, 2, 5), "half collapse at 1.0")],
 )
 def test_words_keep_to_what_was_tried(collapsed, words):
-    assert study_fragility.half([{"scale": s, "runs": 5, "collapsed": c} for s, c in zip((0.5, 1.0, 2.0), collapsed)]).startswith(words)
+    assert fragility.half([{"scale": s, "runs": 5, "collapsed": c} for s, c in zip((0.5, 1.0, 2.0), collapsed)]).startswith(words)
 
 
 def test_fit_says_nothing_where_there_is_nothing():
-    assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 0} for s in (0.5, 1.0)]) is None
-    assert study_fragility.fit([{"scale": s, "runs": 5, "collapsed": 5} for s in (0.5, 1.0)]) is None
+    assert fragility.fit([{"scale": s, "runs": 5, "collapsed": 0} for s in (0.5, 1.0)]) is None
+    assert fragility.fit([{"scale": s, "runs": 5, "collapsed": 5} for s in (0.5, 1.0)]) is None
     step = [{"scale": s, "runs": 5, "collapsed": 5 * (s > 0.7)} for s in (0.5, 1.0)]
-    assert 0.5 < study_fragility.fit(step)[0] < 1.0 and study_fragility.fit(step)[1] == pytest.approx(study_fragility.SPREAD[0], rel=0.2)
+    assert 0.5 < fragility.fit(step)[0] < 1.0 and fragility.fit(step)[1] == pytest.approx(fragility.SPREAD[0], rel=0.2)
 
 
 def test_fragility_picture(tmp_path):
     found = [run for house in "AB" for scale, fell in ((0.5, 1), (1.0, 4)) for run in runs(house, scale, [True] * fell + [False] * (5 - fell))]
-    study_fragility.plot(study_fragility.points(found), [0.0], tmp_path / "fragility.png")
+    fragility.plot(fragility.points(found), [0.0], tmp_path / "fragility.png")
     assert (tmp_path / "fragility.png").stat().st_size > 10000
 
 
@@ -75,7 +75,7 @@ def test_ranking():
     times = {("c", 1): 9.0, ("d", 1): 8.0, ("f", 0): 9.5, ("f", 1): 9.5}
     found = [braced(name, pair[k], times.get((name, k)), "failed" if pair[k] is None else "done") for k in (0, 1) for name, pair in drifts.items()]
     found.insert(1, braced(None, 0.2, changes="plumb.drift=1e-4"))
-    table, without = study_brace.ranking(found)
+    table, without = brace.ranking(found)
     assert [row["brace"] for row in table] == ["a", "b", "c", "d", "f"] and without == pytest.approx([0.12, 0.2])
     assert [row["change"] for row in table[:2]] == pytest.approx([-0.5, 0.25])
     assert [row["collapses"] for row in table] == [0, 0, 1, 1, 2]
@@ -83,13 +83,13 @@ def test_ranking():
 
 def test_brace_picture(tmp_path):
     found = [braced(None, 0.10), *(braced(name, 0.08 + 0.02 * k) for k, name in enumerate(BRACES))]
-    table, without = study_brace.ranking(found)
+    table, without = brace.ranking(found)
     options = SimpleNamespace(house="B", scale=0.6, snow=1.0, seeds="1")
-    study_brace.plot(table, without, options, tmp_path / "brace.png")
+    brace.plot(table, without, options, tmp_path / "brace.png")
     assert (tmp_path / "brace.png").stat().st_size > 10000
 
 
 def test_bays_in_words():
-    model = study_brace.build_house(study_brace.load_house("B"), check=False)
-    assert [study_brace.words(model, name) for name in BRACES] == [
+    model = brace.build_house(brace.load_house("B"), check=False)
+    assert [brace.words(model, name) for name in BRACES] == [
         "storey 1, south wall, 3.2 m east", "storey 1, east wall, 4.1 m north", "storey 2, inner N-S wall, 1.8 m north"]  # fmt: skip

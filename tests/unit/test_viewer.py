@@ -9,13 +9,15 @@ import textwrap
 import numpy as np
 import pytest
 from PIL import Image
-from yade_timber import palette
+from yade_timber.base import colors as palette
 
 SESSION = textwrap.dedent(
     """
     import os, time
     from yade import O
-    from yade_timber import cli, scenario, viewer
+    from yade_timber.run import cli
+    from yade_timber.scene import scenario
+    from yade_timber.scene import viewer
     from PyQt5 import QtWidgets
 
     def draw(times):

@@ -6,9 +6,13 @@ import dataclasses
 import numpy as np
 import pytest
 from small_frames import frames
-from yade_timber import pictures, raster, sheets, snapshot, views
-from yade_timber import frames as recorded
-from yade_timber.views import FRONT, SIDE, Solid
+from yade_timber.pictures import all_pictures as pictures
+from yade_timber.pictures import raster
+from yade_timber.pictures import sheets
+from yade_timber.pictures import snapshot
+from yade_timber.pictures import views
+from yade_timber.recording import frames as recorded
+from yade_timber.pictures.views import FRONT, SIDE, Solid
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 BOX = (-2.0, 2.0, -1.0, 3.0)

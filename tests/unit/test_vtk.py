@@ -11,10 +11,10 @@ import pytest
 from small_frames import FACES, frames
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-from yade_timber import frames as recorded
+from yade_timber.recording import frames as recorded
 
 
-SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "export_vtk.py"
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "export_vtk.py"
 
 
 def export(folder, *options):

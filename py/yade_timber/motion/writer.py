@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..files import write_text
+from ..base.atomic_write import write_text
 from .record import GAL, RecordError
 
 DECIMALS = 2

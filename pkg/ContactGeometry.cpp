@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <ContactGeometry.hpp>
+#include <bodies.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((ManifoldGeom)(Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom));
+
+boost::python::list ManifoldGeom::pyPoints() const
+{
+	boost::python::list all;
+	for (const timber::ContactPoint& p : contactPoints)
+		all.append(boost::python::make_tuple(Vector3r(p.position), Vector3r(p.normal), Real(p.overlap), p.id.bits));
+	return all;
+}
+
+bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(
+        const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2, const Vector3r& shift2, const bool&, const shared_ptr<Interaction>& I)
+{
+	if (!isFree(state1) && !isFree(state2) && !I->geom) return false;
+	if (!I->geom) I->geom = shared_ptr<IGeom>(new ManifoldGeom);
+	ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
+	const timber::Pose pose1 { state1.pos, state1.ori }, pose2 { state2.pos + shift2, state2.ori };
+	geom.gap = timber::updateManifold(*static_cast<RoundedPolyhedron*>(shape1.get())->geometry, *static_cast<RoundedPolyhedron*>(shape2.get())->geometry, pose1, pose2,
+	        { vertexEdge, flushSupports }, geom.cache, geom.contactPoints);
+	return true;
+}
+
+} // namespace yade

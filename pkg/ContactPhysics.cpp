@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <ContactPhysics.hpp>
+#include <bodies.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_ElementMat_ElementMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(
+        Law2_ManifoldGeom_SnowPhys_Linear));
+
+namespace {
+
+	const RoundedPolyhedron& shapeOf(const Body& body) { return *static_cast<RoundedPolyhedron*>(body.shape.get()); }
+
+	/// A fixed body counts as infinitely heavy.
+	Real massOf(const Body& body) { return isFree(*body.state) ? body.state->mass : std::numeric_limits<Real>::infinity(); }
+
+	void setPair(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
+	{
+		phys.mass         = timber::reduced(massOf(b1), massOf(b2));
+		phys.friction     = std::min(friction1, friction2);
+		phys.shearRatio   = shearRatio;
+		phys.dampingRatio = dampingRatio;
+		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
+	}
+
+	/// Contact stiffness that an element brings along, if it is of snow. [N/m]
+	Real snowStiffness(const Material& material, const Body& body)
+	{
+		const auto snow = dynamic_cast<const SnowMat*>(&material);
+		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
+	}
+
+	bool boundsOverlap(const Body& b1, const Body& b2)
+	{
+		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
+	}
+
+	timber::BodyMotion motionOf(const State& s) { return { s.pos, s.vel, s.angVel }; }
+
+	/// Returns false when the pair is out of reach for good: no points, nothing lost, bounding boxes apart.
+	template <class Phys> bool lawStep(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
+	{
+		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
+		Phys&               phys = *static_cast<Phys*>(p);
+		const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+		if (geom.contactPoints.empty() && phys.states.empty()) {
+			phys.lostEnergy = 0;
+			return boundsOverlap(b1, b2);
+		}
+		const auto law  = phys.law();
+		phys.lostEnergy = timber::elasticPair(law, phys.properties(), motionOf(*b1.state), motionOf(*b2.state), scene->dt, form, I->isFresh(scene), geom.contactPoints, phys.states);
+		return true;
+	}
+
+} // namespace
+
+boost::python::list ManifoldPhys::pyStates() const
+{
+	boost::python::list all;
+	for (const timber::PointState& s : states)
+		all.append(boost::python::make_tuple(s.id.bits, Real(s.normal), Vector3r(s.shear), Vector3r(s.dashpot)));
+	return all;
+}
+
+void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+{
+	if (I->phys) return;
+	const TimberMat &     t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
+	const Body &          b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	shared_ptr<TimberPhys> phys(new TimberPhys);
+	const Real            poisson = (t1.poisson + t2.poisson) / 2;
+	setPair(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
+	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
+	phys->radius  = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
+	I->phys       = phys;
+}
+
+void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
+{
+	if (I->phys) return;
+	const Body &         b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	shared_ptr<SnowPhys> phys(new SnowPhys);
+	setPair(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
+	phys->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
+	I->phys         = phys;
+}
+
+bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
+{
+	return lawStep<TimberPhys>(g.get(), p.get(), I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
+}
+
+bool Law2_ManifoldGeom_SnowPhys_Linear::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
+{
+	return lawStep<SnowPhys>(g.get(), p.get(), I, scene, timber::NormalForm::Closed);
+}
+
+} // namespace yade

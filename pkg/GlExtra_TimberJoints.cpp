@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <GlExtra_TimberJoints.hpp>
+#ifdef YADE_OPENGL
+#include <GL/gl.h>
+#include <Joints.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((GlExtra_TimberJoints));
+
+namespace {
+	const Vector3r blue(0, 0.45, 0.70), yellow(0.94, 0.89, 0.26), red(0.84, 0.37, 0), amber(0.90, 0.62, 0); // Okabe and Ito 2008
+
+	Vector3r loadColor(Real load) { return load < 0.5 ? Vector3r(blue + 2 * load * (yellow - blue)) : Vector3r(yellow + (2 * load - 1) * (red - yellow)); }
+
+	/// Mean of the spring points on the first body, world frame. [m]
+	Vector3r place(const TimberJoint& joint, const State& state)
+	{
+		Vector3r sum = Vector3r::Zero();
+		for (const Vector3r& a : joint.anchors1)
+			sum += a;
+		return state.pos + state.ori * (sum / Real(joint.anchors1.size()));
+	}
+
+	void drawDot(const Vector3r& x, const Vector3r& color, Real size)
+	{
+		glPointSize(float(size));
+		glColor3d(color.x(), color.y(), color.z());
+		glBegin(GL_POINTS);
+		glVertex3d(x.x(), x.y(), x.z());
+		glEnd();
+	}
+
+	void drawCross(const Vector3r& x, Real arm)
+	{
+		glLineWidth(2);
+		glColor3d(red.x(), red.y(), red.z());
+		glBegin(GL_LINES);
+		for (const Vector3r& d : { Vector3r(1, 1, 1), Vector3r(-1, 1, 1), Vector3r(1, -1, 1), Vector3r(1, 1, -1) })
+			for (const Vector3r& end : { Vector3r(x - arm * d), Vector3r(x + arm * d) })
+				glVertex3d(end.x(), end.y(), end.z());
+		glEnd();
+		glLineWidth(1);
+	}
+}
+
+void GlExtra_TimberJoints::render()
+{
+	const auto scenePtr = Omega::instance().getScene();
+	glPushAttrib(GL_ENABLE_BIT | GL_POINT_BIT);
+	glDisable(GL_LIGHTING);
+	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_POINT_SMOOTH);
+	if (const auto* engine = findEngine<JointEngine>(*scenePtr)) {
+		for (const shared_ptr<TimberJoint>& j : engine->joints) {
+			const Body* b = bodyAt(*scenePtr, j->id1);
+			if (!b || j->anchors1.empty()) continue;
+			const Vector3r x = place(*j, *b->state);
+			if (j->isFinished()) drawCross(x, cross);
+			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size())) drawDot(x, amber, 1.5 * size);
+			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
+		}
+	}
+	glPopAttrib();
+}
+
+} // namespace yade
+#endif

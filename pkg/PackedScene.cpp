@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <ContactPhysics.hpp>
+#include <PackedScene.hpp>
+
+namespace yade {
+
+namespace {
+	template <class T> boost::python::object bytes(const std::vector<T>& values)
+	{
+		return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
+	}
+
+	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
+
+	/// Interactions of bodies that are near each other, in the order of their body ids: the container's own order is no property of the scene.
+	std::vector<Interaction*> inOrder(const Scene& scene)
+	{
+		std::vector<Interaction*> found;
+		for (const shared_ptr<Interaction>& i : *scene.interactions)
+			if (i->isReal()) found.push_back(i.get());
+		std::sort(found.begin(), found.end(), [](const Interaction* a, const Interaction* b) { return std::make_pair(a->getId1(), a->getId2()) < std::make_pair(b->getId1(), b->getId2()); });
+		return found;
+	}
+}
+
+boost::python::tuple packedPlacements()
+{
+	const BodyContainer& bodies = *Omega::instance().getScene()->bodies;
+	const Real           nan    = std::numeric_limits<Real>::quiet_NaN();
+	std::vector<float>   positions, orientations;
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const shared_ptr<Body>& b = bodies[Body::id_t(id)];
+		const Quaternionr       q = b ? b->state->ori : Quaternionr(nan, nan, nan, nan);
+		append(positions, b ? b->state->pos : Vector3r(nan, nan, nan));
+		orientations.insert(orientations.end(), { float(q.w()), float(q.x()), float(q.y()), float(q.z()) });
+	}
+	return boost::python::make_tuple(bytes(positions), bytes(orientations));
+}
+
+boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
+{
+	std::vector<float>        loads;
+	std::vector<std::uint8_t> broken;
+	for (const shared_ptr<TimberJoint>& j : engine->joints) {
+		loads.push_back(float(j->load()));
+		broken.push_back(std::uint8_t(j->broken.size() - std::count(j->broken.begin(), j->broken.end(), 0)));
+	}
+	return boost::python::make_tuple(bytes(loads), bytes(broken));
+}
+
+boost::python::tuple packedContacts()
+{
+	std::vector<std::int32_t> pairs;
+	std::vector<float>        positions, forces;
+	for (const Interaction* i : inOrder(*Omega::instance().getScene())) {
+		const auto geom = dynamic_cast<const ManifoldGeom*>(i->geom.get());
+		const auto phys = dynamic_cast<const ManifoldPhys*>(i->phys.get());
+		if (!geom || !phys) continue;
+		for (const timber::ContactPoint& point : geom->contactPoints) {
+			const auto state = std::find_if(phys->states.begin(), phys->states.end(), [&](const timber::PointState& s) { return s.id == point.id; });
+			if (state == phys->states.end()) continue;
+			pairs.insert(pairs.end(), { i->getId1(), i->getId2() });
+			append(positions, point.position);
+			append(forces, state->normal * point.normal + state->shear + state->dashpot);
+		}
+	}
+	return boost::python::make_tuple(bytes(pairs), bytes(positions), bytes(forces));
+}
+
+} // namespace yade

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The scene as packed numbers, one call for all bodies: attribute by attribute a frame of a house costs Python milliseconds.
+#pragma once
+#include <Joints.hpp>
+
+namespace yade {
+
+/// (positions, orientations) of all bodies: bytes of float32 (n, 3) [m] and (n, 4) w, x, y, z [-]; NaN where a body was erased.
+boost::python::tuple packedPlacements();
+
+/// (load, broken) of all joints: bytes of float32, the largest spring force (of a joint as a whole: their sum) over the strength,
+/// and of uint8, the number of broken springs. [-]
+boost::python::tuple packedJoints(const shared_ptr<JointEngine>&);
+
+/// (pairs, positions, forces) of all points that touch, by body ids: bytes of int32 (n, 2) [-], float32 (n, 3) [m] and float32 (n, 3),
+/// force of the last step on the second body [N]; world frame.
+boost::python::tuple packedContacts();
+
+} // namespace yade

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures, drawings and the player, made from a run's recording. Needs no YADE."""

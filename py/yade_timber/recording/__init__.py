@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files that a run leaves: frames, history, events, and sentences about them. Needs no YADE."""

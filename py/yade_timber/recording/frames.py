@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The recorded frames of a run, frames.h5: all that pictures, player and exports are made from. Needs no YADE.
+
+Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
+
+attributes   format, title (what was done to which house), scenario, model, version (of the package), ended (bool); of an ended
+             run also summary: the text of summary.json
+/elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the first; fixed (N,) bool;
+             position (N, 3) [m], orientation (N, 4) w, x, y, z: where each stands before the first step;
+             vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] : vertex_start[k + 1];
+             faces (C,): vertex numbers within the element, counter-clockwise from outside, those of face m in face_start[m] : face_start[m + 1];
+             the faces of element k are element_start[k] : element_start[k + 1]
+/joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,) strings;
+             a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a; springs (J,): their number;
+             damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
+/frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32: largest spring
+             force by strength (of a joint that acts as a whole: the sum); broken (F, J) uint8: number of broken springs
+/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are start[k] : start[k + 1];
+             pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second element, float32
+/motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement (M, 3) [m] of the ground
+/history     of an ended run: columns (names with units), rows; the table of history.csv
+/breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
+
+Frames come FRAMES_PER_SECOND times in a simulated second from t = 0 on, and at the last step. A run that is not over (or was killed)
+has those up to its last checkpoint.
+"""
+import json
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import h5py
+import numpy as np
+
+from ..base.errors import RunError
+from ..base.atomic_write import written_whole
+
+NAME = "frames.h5"
+FORMAT = "yade-timber frames 1"
+FRAMES_PER_SECOND = 20
+CONTACT_EVERY = 10
+
+
+def steps_between(dt):
+    """Number of steps of dt [s] between two frames."""
+    return max(1, round(1 / (FRAMES_PER_SECOND * dt)))
+
+
+@dataclass
+class Elements:
+    """Names and shapes, as in /elements; vertices and faces: a list per element."""
+
+    name: list
+    kind: list
+    group: list
+    material: list
+    storey: np.ndarray
+    fixed: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+    vertices: list
+    faces: list
+
+
+@dataclass
+class Joints:
+    """As in /joints."""
+
+    name: list
+    kind: list
+    storey: list
+    side: list
+    a: np.ndarray
+    b: np.ndarray
+    anchor: np.ndarray
+    springs: np.ndarray
+    damaged: np.ndarray
+    strength: np.ndarray
+
+
+@dataclass
+class Contacts:
+    """As in /contacts; pair, position, force: a list with an array per time."""
+
+    time: list = field(default_factory=list)
+    pair: list = field(default_factory=list)
+    position: list = field(default_factory=list)
+    force: list = field(default_factory=list)
+
+
+@dataclass
+class Motion:
+    """As in /motion."""
+
+    dt: float
+    start: float
+    acceleration: np.ndarray
+    displacement: np.ndarray
+
+    @property
+    def time(self):
+        return self.start + self.dt * np.arange(len(self.acceleration))
+
+
+@dataclass
+class Frames:
+    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame while a run goes on.
+
+    history: (columns, rows) and breaks: dictionary of lists; None before the run's end, as is summary (a dictionary).
+    """
+
+    title: str
+    scenario: str
+    model: str
+    version: str
+    elements: Elements
+    joints: Joints
+    time: list = field(default_factory=list)
+    position: list = field(default_factory=list)
+    orientation: list = field(default_factory=list)
+    load: list = field(default_factory=list)
+    broken: list = field(default_factory=list)
+    contacts: Contacts = field(default_factory=Contacts)
+    motion: Motion = None
+    summary: dict = None
+    history: tuple = None
+    breaks: dict = None
+
+    def corners(self, frame, element):
+        """(n, 3) corners of an element in a frame, world frame [m]."""
+        return placed(self.elements.vertices[element], self.position[frame][element], self.orientation[frame][element])
+
+    def corners_at_start(self, element):
+        """(n, 3) corners of an element before the first step, world frame [m]."""
+        e = self.elements
+        return placed(e.vertices[element], e.position[element], e.orientation[element])
+
+    def joint_places(self, frame):
+        """(J, 3) where the joints sit on their first elements, world frame [m]."""
+        a = self.joints.a
+        return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
+
+    def joint_states(self, frame):
+        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint."""
+        j = self.joints
+        state = np.where(np.asarray(self.broken[frame]) == 0, "whole", np.where(self.broken[frame] >= j.springs, "broken", "partly"))
+        return np.where(j.damaged, "before", state)
+
+    def at(self, time):
+        """Number of the frame nearest to a time [s]."""
+        return int(np.argmin(np.abs(np.asarray(self.time) - time)))
+
+    @cached_property
+    def shown(self):
+        """Numbers of the elements that pictures show: all but the ground."""
+        return [k for k, kind in enumerate(self.elements.kind) if kind != "ground"]
+
+
+def rotated(q, v):
+    """Vectors (..., 3) turned by unit quaternions (..., 4) w, x, y, z."""
+    q, v = np.asarray(q, float), np.asarray(v, float)
+    u = q[..., 1:]
+    t = 2 * np.cross(u, v)
+    return v + q[..., :1] * t + np.cross(u, t)
+
+
+def placed(vertices, position, orientation):
+    """(n, 3) vertices of a body frame in the world frame."""
+    return np.asarray(position, float) + rotated(np.asarray(orientation)[None], vertices)
+
+
+# --- writing ----------------------------------------------------------------------------------------------------------
+
+
+def save(path, frames):
+    """Write the file beside its place, then rename: a kill at any moment leaves the file of before or the new one. Raises OSError."""
+    with written_whole(path) as part, h5py.File(part, "w") as file:
+        _save_attributes(file, frames)
+        _save_elements(file.create_group("elements"), frames.elements)
+        _save_group(file.create_group("joints"), vars(frames.joints))
+        _save_group(file.create_group("frames"), _series(frames))
+        _save_contacts(file.create_group("contacts"), frames.contacts)
+        if frames.motion:
+            group = file.create_group("motion")
+            group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
+            _save_group(group, {"acceleration": frames.motion.acceleration, "displacement": frames.motion.displacement})
+        if frames.history:
+            _save_group(file.create_group("history"), dict(zip(("columns", "rows"), frames.history)))
+        if frames.breaks is not None:
+            _save_group(file.create_group("breaks"), frames.breaks)
+
+
+def _save_attributes(file, frames):
+    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ("title", "scenario", "model", "version")}, "ended": frames.summary is not None}
+    if frames.summary is not None:
+        known["summary"] = json.dumps(frames.summary)
+    file.attrs.update(known)
+
+
+def _save_group(group, values):
+    for name, value in values.items():
+        text = len(value) and isinstance(value[0], str)
+        group.create_dataset(name, data=value, dtype=h5py.string_dtype() if text else None)
+
+
+def _series(frames):
+    """The frames as arrays of the file's types; frameless files keep the numbers of elements and joints."""
+    count, n, j = len(frames.time), len(frames.elements.name), len(frames.joints.name)
+    shapes = {"time": ("f8", ()), "position": ("f4", (n, 3)), "orientation": ("f4", (n, 4)), "load": ("f4", (j,)), "broken": ("u1", (j,))}
+    return {name: np.asarray(getattr(frames, name), kind).reshape(count, *shape) for name, (kind, shape) in shapes.items()}
+
+
+def starts(lists):
+    """[0, len of the first, len of the first two, ...]."""
+    return np.cumsum([0, *map(len, lists)])
+
+
+def _save_elements(group, elements):
+    values = dict(vars(elements))
+    faces = [face for body in values.pop("faces") for face in body]
+    vertices = values.pop("vertices")
+    _save_group(group, values)
+    _save_group(group, {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
+                        "face_start": starts(faces), "element_start": starts(elements.faces)})
+
+
+def _save_contacts(group, contacts):
+    shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
+    flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)]) for name, (kind, width) in shapes.items()}
+    _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
+
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def load(path):
+    """Frames of a file. Raises RunError when it cannot be read or is no such file."""
+    try:
+        with h5py.File(path, "r") as file:
+            if file.attrs.get("format") != FORMAT:
+                raise RunError(f"{path}: these are no recorded frames ({FORMAT})")
+            return _load(file)
+    except FileNotFoundError:
+        raise RunError(f"{path}: no such file; frames are recorded unless a run has --no-frames, and not in batches") from None
+    except (OSError, KeyError) as problem:
+        raise RunError(f"{path}: cannot read the frames: {problem}") from None
+
+
+def _load(file):
+    attributes = {name: file.attrs[name] for name in ("title", "scenario", "model", "version")}
+    series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
+    loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])), **series)
+    loaded.contacts = _load_contacts(file["contacts"])
+    if "motion" in file:
+        loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"]))
+    if file.attrs["ended"]:
+        loaded.summary = json.loads(file.attrs["summary"])
+        loaded.history = tuple(_values(file["history"])[name] for name in ("columns", "rows"))
+        loaded.breaks = _values(file["breaks"])
+    return loaded
+
+
+def _values(group):
+    """{name: array, or list of strings}."""
+    return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()] for name, data in group.items()}
+
+
+def _split(flat, start):
+    return [flat[a:b] for a, b in zip(start[:-1], start[1:])]
+
+
+def _load_elements(group):
+    values = _values(group)
+    begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
+    faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
+    values |= {"vertices": _split(values["vertices"], begins["vertex_start"]), "faces": _split(faces, begins["element_start"])}
+    return Elements(**values)
+
+
+def _load_contacts(group):
+    values = _values(group)
+    return Contacts(list(values["time"]), *(_split(values[name], values["start"]) for name in ("pair", "position", "force")))

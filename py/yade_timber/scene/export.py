@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The scene as JSON, for other solvers."""
+import json
+import math
+
+import yade.wrapper as yw
+
+from . import engines as scene
+from ..base.atomic_write import write_text
+
+O = yw.Omega()
+
+
+def export_scene(path):
+    """Write the loaded scene to a JSON file: elements, materials with friction per pair, joints, gravity.
+
+    elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
+    materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
+    joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
+               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name; none of a body that was taken out
+    Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
+    """
+    for body in O.bodies:
+        if not isinstance(body.shape, yw.RoundedPolyhedron):
+            raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
+    engine = scene.find_engine(yw.JointEngine)
+    known = {}
+    elements = [describe_element(body, known) for body in O.bodies]
+    content = {
+        "format": "yade-timber scene 1",
+        "units": "SI; world frame x east, y north, z up",
+        "gravity": list(scene.gravity_now()),
+        "materials": known,
+        "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
+        "elements": elements,
+        "joints": [describe_joint(joint) for joint in engine.joints if scene.joins_bodies(joint)] if engine else [],
+    }
+    write_text(path, json.dumps(content, indent=1, allow_nan=False))
+
+
+def describe_material(material):
+    """Dictionary of a TimberMat or SnowMat."""
+    common = {"density": material.density, "friction": material.friction}
+    if isinstance(material, yw.SnowMat):
+        return {"law": "snow", "stiffness_per_kg": material.stiffnessPerMass, **common}
+    return {"law": "timber", "young": material.young, "poisson": material.poisson, **common}
+
+
+def material_name(material, known):
+    """Name of a material; a new one is added to `known`. Bodies share a name when all values are equal."""
+    described = describe_material(material)
+    same = next((name for name, other in known.items() if other == described), None)
+    if same is not None:
+        return same
+    name = material.label or described["law"]
+    while name in known:
+        name += "'"
+    known[name] = described
+    return name
+
+
+def world_vertices(body):
+    """(n, 3) sharp corners of a body in its present placement [m]."""
+    return [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
+
+
+def describe_element(body, known):
+    """Dictionary of a body."""
+    return {
+        "id": body.id,
+        "name": body.shape.name,
+        "kind": body.shape.kind,
+        "vertices": world_vertices(body),
+        "faces": body.shape.faces(),
+        "density": body.material.density,
+        "radius": body.shape.radius,
+        "fixed": not body.dynamic,
+        "material": material_name(body.material, known),
+    }
+
+
+def describe_joint(joint):
+    """Dictionary of a TimberJoint; its points are the springs' ends on the first element."""
+    state = O.bodies[joint.id1].state
+    return {
+        "elements": [joint.id1, joint.id2],
+        "points": [list(state.pos + state.ori * a) for a in joint.anchors1],
+        "normal": list(state.ori * joint.normal),
+        "stiffness": [joint.kn, joint.ks],
+        "strength": joint.strength if math.isfinite(joint.strength) else None,
+        "reading": "joint" if joint.perJoint else "spring",
+        "broken": [bool(b) for b in joint.broken],
+        "kind": joint.kind,
+        "name": joint.name,
+    }

@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Fragility of houses: which part of them collapses under motions of rising strength, without and with snow.
+
+    scripts/study/fragility.py [-j 2] [--seeds 5] [--houses A,B,C] [--snow 0,1] [--scales 0.4,0.8,1.2] [--start 14 --end 34]
+
+Every run has another of the generator's motions (its seed), all with the published values of the Ojiya record, times the scale.
+Writes fragility.csv (a row a point, with its binomial interval) and fragility.png.
+"""
+
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy import optimize, stats
+from study_common import BLUE, GREEN, ORANGE, house_name, numbers, parser, run_all, save, write_table
+
+SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
+"""Factors on the motion that show each house's curve; others by --scales."""
+CONFIDENCE = 0.95
+SPREAD = (0.05, 1.0)
+"""Admissible logarithmic standard deviation of a fitted curve: few runs cannot tell a steep curve from a step."""
+LOOKS = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
+
+
+def arguments():
+    made = parser(__doc__, "study_fragility")
+    made.add_argument("--seeds", type=int, default=5, metavar="N", help="motions a point (default %(default)s)")
+    made.add_argument("--houses", default="A,B,C", help="shipped houses or house files (default %(default)s)")
+    made.add_argument("--snow", type=numbers, default=[0.0, 1.0], metavar="M,M", help="depths of snow [m] (default 0,1)")
+    made.add_argument("--scales", type=numbers, metavar="X,X", help="factors on the motion (default: each house's own)")
+    return made.parse_args()
+
+
+def rows(options):
+    """Rows of the batch: house x snow x scale x seed."""
+    return [
+        {"house": house_name(house), "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
+        for house in options.houses.split(",")
+        for snow in options.snow
+        for scale in options.scales or SCALES.get(house, SCALES["B"])
+        for seed in range(1, options.seeds + 1)
+    ]
+
+
+def points(found):
+    """A row for each house, snow and scale: runs, collapses, their part and its Clopper-Pearson interval. Failed runs count nowhere but in `failed`."""
+    groups = {}
+    for entry in found:
+        groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
+    return [_point(label(house), snow, scale, entries) for (house, snow, scale), entries in groups.items()]
+
+
+def label(house):
+    """Name of a house in tables and pictures."""
+    return Path(house).stem
+
+
+def _point(house, snow, scale, entries):
+    done = [entry for entry in entries if entry["status"] == "done"]
+    collapsed = sum(entry["collapsed"] for entry in done)
+    low, high = stats.binomtest(collapsed, len(done)).proportion_ci(CONFIDENCE, "exact") if done else (0.0, 1.0)
+    times = [entry["collapse_time_s"] for entry in done if entry["collapsed"]]
+    return {
+        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed, "part": collapsed / len(done) if done else float("nan"),
+        "low": float(low), "high": float(high), "failed": len(entries) - len(done), "median_collapse_time_s": float(np.median(times)) if times else "",
+    }  # fmt: skip
+
+
+def fit(curve):
+    """(median, logarithmic standard deviation) of the lognormal curve of largest likelihood, or None where no point or every point is a collapse."""
+    scale, runs, collapsed = (np.array([point[key] for point in curve], float) for key in ("scale", "runs", "collapsed"))
+    if collapsed.sum() in (0, runs.sum()):
+        return None
+
+    def cost(logs):
+        part = np.clip(stats.norm.cdf((np.log(scale) - logs[0]) / np.exp(logs[1])), 1e-9, 1 - 1e-9)
+        return -(collapsed * np.log(part) + (runs - collapsed) * np.log(1 - part)).sum()
+
+    bounds = [tuple(np.log([scale.min() / 2, scale.max() * 2])), tuple(np.log(SPREAD))]
+    grid = [np.linspace(*bound, 60) for bound in bounds]
+    start = min(((a, b) for a in grid[0] for b in grid[1]), key=cost)
+    return tuple(np.exp(optimize.minimize(cost, start, bounds=bounds, method="L-BFGS-B").x))
+
+
+def half(curve):
+    """Words: at which strength half of the runs collapse. Nothing is said of strengths that were not tried."""
+    fitted, scales = fit(curve), [point["scale"] for point in curve]
+    if fitted is None:
+        collapsed, runs = (sum(point[key] for point in curve) for key in ("collapsed", "runs"))
+        return "no run was done" if not runs else "all collapse" if collapsed else "none collapses"
+    if fitted[0] > max(scales):
+        return f"fewer than half collapse up to {max(scales):g}"
+    return f"more than half collapse from {min(scales):g} on" if fitted[0] < min(scales) else f"half collapse at {fitted[0]:.2f}"
+
+
+def plot(table, snows, path):
+    figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True)
+    for axis, snow in zip(axes[0], snows):
+        for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
+            curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
+            draw(axis, house, curve, 1 + 0.025 * (number - 1))
+        axis.set(title=f"{snow:g} m of snow" if snow else "no snow", xscale="log", ylim=(-0.04, 1.04))
+        axis.set_xlabel("factor on the Ojiya-like motion (PGA 1501 gal, JMA intensity 6.7 at 1)")
+        ticks = sorted({point["scale"] for point in table})
+        axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks], rotation=60, fontsize=8)
+        axis.set_xticks([], minor=True)
+        axis.grid(alpha=0.3)
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8, frameon=False)
+    axes[0, 0].set_ylabel("part of the runs in which the house collapses")
+    runs = max(point["runs"] for point in table)
+    words = f"Points: {runs} motions each, bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, largest likelihood"
+    figure.suptitle(words, fontsize=9)
+    save(figure, path)
+    plt.close(figure)
+
+
+def draw(axis, house, curve, shift):
+    """Points with their intervals, a little beside each other, and the fitted curve."""
+    colour, marker = LOOKS.get(house, ("#555555", "D"))
+    x, part, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "part", "low", "high"))
+    fitted = fit(curve)
+    axis.errorbar(x * shift, part, [part - low, high - part], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=f"house {house}: {half(curve)}")
+    if fitted:
+        line = np.geomspace(x.min(), x.max(), 200)
+        axis.plot(line, stats.norm.cdf(np.log(line / fitted[0]) / fitted[1]), color=colour, lw=1.5)
+
+
+def main():
+    options = arguments()
+    table = points(run_all(rows(options), options))
+    write_table((options.to or options.out) / "fragility.csv", table)
+    plot(table, options.snow, (options.to or options.out) / "fragility.png")
+    for house in map(label, options.houses.split(",")):
+        for snow in options.snow:
+            curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
+            print(f"house {house}, {snow:g} m of snow: {half(curve)}")
+    sys.exit(any(point["failed"] for point in table))
+
+
+if __name__ == "__main__":
+    main()
