@@ -36,7 +36,7 @@ def folder(tmp_path):
 
 def start(folder):
     """scripts/study/batch.py, two runs at a time."""
-    command = [sys.executable, str(SCRIPTS / "batch.py"), "runs.txt", "-j", "2"]
+    command = [sys.executable, str(SCRIPTS / "study" / "batch.py"), "runs.txt", "-j", "2"]
     return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -76,7 +76,7 @@ def test_stopped_killed_resumed(folder):
     assert "failed: wrong-" in said and "runs.txt:3, column dt: 1: must be between" in said
     assert states(folder) == {"quick": "done", "wrong": "failed", "long": "done", "last": "done"}
     assert {path: path.stat().st_mtime_ns for path in finished} == finished
-    assert not list(SCRIPTS.glob("*.log")) and list((folder / "results" / "runs" / "logs").glob("*.log"))
+    assert not list(SCRIPTS.rglob("*.log")) and list((folder / "results" / "runs" / "logs").glob("*.log"))
 
     log = folder / "results" / "runs" / "logs" / "yade-batch.log"
     assert "All jobs finished" in log.read_text()

@@ -22,7 +22,7 @@ def show():
 
     renderer = qt.Renderer()
     renderer.bgColor = Vector3(*BACKGROUND)
-    renderer.extraDrawers = [yw.GlTimberJoints(cross=0.1)]
+    renderer.extraDrawers = [yw.GlExtra_TimberJoints(cross=0.1)]
     view = qt.View()
     places = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
     low, high = places.min(0), places.max(0)
