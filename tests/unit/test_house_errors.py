@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.house import HouseError, build_house, load_house  # noqa: E402
-from yade_timber.house.reading import SHIPPED  # noqa: E402
+from yade_timber.house.loader import SHIPPED  # noqa: E402
 
 STOREHOUSE = """\
 name: storehouse

@@ -4,7 +4,6 @@
 import numpy as np
 
 from .errors import HouseError
-from .geometry import halfspace_vertices
 from .members import DIRECTION, column_plan
 from .structure import ACROSS
 
@@ -34,7 +33,7 @@ def _brace(structure, layer, line, at, foot, head, where, plan):
     name = f"brace{layer.storey}.{DIRECTION[along]}.{across}{at:g}.{foot:g}-{head:g}"
     ends = _bay(structure, layer.storey, along, at, foot, head, plan, where)
     planes = brace_planes(ends, (layer.z0, layer.z1), table["width"])
-    vertices = _extrude(planes, along, structure.axes[across](at), table["thickness"])
+    vertices = structure.cut(name, _extruded(planes, along, structure.axes[across](at), table["thickness"]), where)
     return structure.element("brace", name, vertices, table, where, storey=layer.storey,
                              side=structure.sides(**{across: at}), section=(table["width"], table["thickness"]))
 
@@ -66,9 +65,9 @@ def brace_planes(ends, levels, width):
     return band + bay
 
 
-def _extrude(planes, along, centre, thickness):
-    """Vertices (n, 3): the section given by `planes` made `thickness` wide about `centre` [m] across the wall."""
+def _extruded(planes, along, centre, thickness):
+    """Planes of the section given by `planes`, `thickness` [m] wide about `centre` [m] across the wall."""
     lift = (lambda n: (n[0], 0, n[1])) if along == "x" else (lambda n: (0, n[0], n[1]))
     across = (0, 1, 0) if along == "x" else (1, 0, 0)
     sides = [(across, centre + thickness / 2), (tuple(-v for v in across), -centre + thickness / 2)]
-    return halfspace_vertices([(lift(normal), offset) for normal, offset in planes] + sides)
+    return [(lift(normal), offset) for normal, offset in planes] + sides

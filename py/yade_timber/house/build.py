@@ -11,11 +11,11 @@ from .damage import apply_damage
 from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
-from .layout import MAX_SNOW
+from .layout import MAX_SNOW, MIN_SNOW
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
-from .structure import Structure
+from .structure import Structure, require_few
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
@@ -31,6 +31,7 @@ def build_house(description, snow_depth=None, check=True):
     elements = [_ground(data, structures)]
     for structure in structures.values():
         elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
+        require_few(len(elements), structure.table.where, f"structures.{structure.name}")
     _number_repeats(elements)
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
@@ -53,8 +54,9 @@ def _require_storeys(structures):
 
 def _snow_depth(data, snow_depth):
     depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
-    if not 0 <= depth <= MAX_SNOW:
-        raise HouseError(f"snow depth: must be in [0, {MAX_SNOW:g}] m, got {depth:g}")
+    if not 0 <= depth <= MAX_SNOW or 0 < depth < MIN_SNOW:
+        where = f"{data['snow'].at('depth')}: snow.depth" if snow_depth is None else "snow depth"
+        raise HouseError(f"{where}: must be in [0, {MAX_SNOW:g}] m and not between 0 and {MIN_SNOW:g} m, got {depth:g}")
     return depth
 
 

@@ -4,11 +4,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..base.input_file import is_file, shown
 from .errors import HouseError
 from .friction import check_friction
 from .layout import HOUSE
-from .reading import Table, read_table, shipped_houses, shipped_paths
+from .loader import load_table, shipped_houses, shipped_paths
+from .parser import Table
 from .schema import fail, nearest
+
 
 @dataclass(frozen=True)
 class Description:
@@ -22,7 +25,7 @@ class Description:
 def load_house(name_or_path):
     """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
     path = house_path(name_or_path)
-    data = checked(read_table(path), path)
+    data = checked(load_table(path), path)
     return Description(data["name"], path, data)
 
 
@@ -38,9 +41,9 @@ def house_path(name):
     """File of a shipped house or of that path; raises HouseError."""
     own, shipped = [Path(name)], shipped_paths(str(name))
     for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
-        if path.is_file():
+        if is_file(path):
             return path
-    raise HouseError(f"unknown house '{name}': no such file, and the shipped houses are {', '.join(shipped_houses())}")
+    raise HouseError(f"unknown house {shown(str(name))}: no such file, and the shipped houses are {', '.join(shipped_houses())}")
 
 
 def _check_references(data):

@@ -5,7 +5,9 @@ from itertools import combinations
 
 import numpy as np
 
+from .errors import HouseError
 from .geometry import contact_polygon, plane_axes, polygon_area
+from .limits import MAX_PAIRS
 from .model import JointSpec
 
 UPRIGHT = ("column", "brace")  # kinds that have a joint at their top and one at their bottom
@@ -41,6 +43,8 @@ def near_pairs(elements, margin):
     for i, element in enumerate(elements):
         near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
         pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+        if len(pairs) > MAX_PAIRS:
+            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or overlap by their bounding boxes; move members apart")
     return pairs
 
 

@@ -4,7 +4,8 @@
 import numpy as np
 
 from .errors import HouseError
-from .structure import ACROSS
+from .limits import MAX_LINES
+from .structure import ACROSS, require_few
 
 DIRECTION = {"x": "EW", "y": "NS"}
 
@@ -31,6 +32,8 @@ def _single_lines(structure, lines):
         if line["from"] >= line["to"]:
             raise HouseError(f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
         single += [{**line, "at": at, "where": line.where} for at in line["at"]]
+        if len(single) > MAX_LINES:
+            raise HouseError(f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list; remove some")
     return single
 
 
@@ -99,6 +102,7 @@ def column_plan(structure, storey):
         for x, y in _group_nodes(structure, group):
             if (x, y) not in plan:
                 plan[x, y] = (group["section"], group.where)
+                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
             elif group["lines"] is None:
                 raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
                                  f"(first in {plan[x, y][1]}); remove one of them")

@@ -6,7 +6,8 @@ import re
 
 from .description import checked, house_path
 from .errors import HouseError
-from .reading import Items, Table, parse_value, read_table
+from .loader import load_table
+from .parser import Items, Table, parse_value
 from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d+\])*)")
@@ -23,8 +24,8 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     Raises HouseError.
     """
     path = house_path(name_or_path)
-    checked(read_table(path), path)
-    data = read_table(path)
+    checked(load_table(path), path)
+    data = load_table(path)
     for text in settings:
         _set(data, text, where("set"))
     for name in braces:

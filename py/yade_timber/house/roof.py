@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box, halfspace_vertices
+from .geometry import box
 
 OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
@@ -141,18 +141,19 @@ def pitched_roof(structure, layer):
     for side in plan.sides:
         normal, offset = plan.top(side)
         bottom = (tuple(-v for v in normal), -(offset - drop))
-        slabs[side] = halfspace_vertices([(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)])
+        slabs[side] = structure.cut(f"roof.{side}", [(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)], layer.table.where)
     return slabs
 
 
 def pitched_snow(structure, layer, depth):
     """{side: vertices} of snow of vertical depth [m]: the slab's outline, extruded upwards from its upper face."""
     plan = PLANS[layer.table["type"]](structure, layer)
-    clods = {}
+    bodies = {}
     for side in plan.sides:
         normal, offset = plan.top(side)
-        clods[side] = halfspace_vertices([(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)])
-    return clods
+        planes = [(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)]
+        bodies[side] = structure.cut(f"snow.{side}", planes, layer.table.where)
+    return bodies
 
 
 def flat_roof(structure, layer):
@@ -178,8 +179,8 @@ def lay_snow(structure, layer, depth, material):
     """Snow elements on this roof; none where the roof says `snow: false` or the depth [m] is zero."""
     if depth == 0 or not layer.table["snow"]:
         return []
-    clods = ROOFS[layer.table["type"]][1](structure, layer, depth)
-    return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in clods.items()]
+    bodies = ROOFS[layer.table["type"]][1](structure, layer, depth)
+    return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()]
 
 
 def _element(structure, layer, kind, side, vertices, table):

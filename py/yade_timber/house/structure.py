@@ -6,7 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box
+from .geometry import box, halfspace_vertices
+from .layout import MAX_STOREYS, MIN_SPACING
+from .limits import MAX_ELEMENTS
 from .model import Element
 
 ACROSS = {"x": "y", "y": "x"}
@@ -48,6 +50,7 @@ class Structure:
         origin = _origin(table, local, others, name)
         self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
         self.layers = _layers(table["stack"], name)
+        self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
         """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), reaching the margin and `beyond` [m] further.
@@ -98,6 +101,8 @@ class Structure:
 
     def element(self, kind, name, vertices, table, where, **more):
         """Element named '<structure>.<name>' of the material that `table` names."""
+        self.element_count += 1
+        require_few(self.element_count, where, f"structures.{self.name}")
         material = table["material"]
         return Element(f"{self.name}.{name}", kind, vertices, material, self.materials[material]["density"],
                        group=self.name, source=where, **more)
@@ -105,6 +110,19 @@ class Structure:
     def block(self, kind, name, low, high, table, where, **more):
         """Element that is a box from `low` to `high` (3,) [m]."""
         return self.element(kind, name, box(low, high), table, where, **more)
+
+    def cut(self, name, planes, where):
+        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of the member `name`; HouseError where nothing is left."""
+        try:
+            return halfspace_vertices(planes)
+        except ValueError as problem:
+            raise HouseError(f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its dimensions") from None
+
+
+def require_few(count, where, name):
+    """HouseError for more than MAX_ELEMENTS elements."""
+    if count > MAX_ELEMENTS:
+        raise HouseError(f"{where}: {name}: more than {MAX_ELEMENTS} elements; make the house smaller")
 
 
 def _abut(nodes, other, axis, edge):
@@ -119,8 +137,8 @@ def _positions(axis, path):
     if axis["positions"] is None:
         return axis["module"] * np.arange(axis["count"] + 1)
     positions = np.array(axis["positions"])
-    if len(positions) < 2 or (np.diff(positions) <= 0).any():
-        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order [m]")
+    if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
+        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order, {MIN_SPACING:g} m or more apart")
     return positions
 
 
@@ -158,6 +176,8 @@ def _layers(stack, name):
         if layers and layers[-1].kind == "roof" and kind != "roof":
             raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
+        if storey > MAX_STOREYS:
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: more than {MAX_STOREYS} layers of columns; remove some")
         layers.append(Layer(table, kind, storey, z, top))
         z = z if kind == "roof" else top
     return layers
