@@ -37,8 +37,17 @@ def shown(value):
 
 def is_file(path):
     """True for a regular file; False for anything else, paths that the system refuses included."""
+    return _is(Path.is_file, path)
+
+
+def is_folder(path):
+    """True for a folder; False for anything else, paths that the system refuses included."""
+    return _is(Path.is_dir, path)
+
+
+def _is(kind, path):
     try:
-        return Path(path).is_file()
+        return kind(Path(path))
     except (OSError, ValueError):
         return False
 
@@ -53,6 +62,8 @@ def read_bytes(path, limit):
         if not stat.S_ISREG(os.fstat(descriptor).st_mode):
             raise OSError(errno.EINVAL, "not a regular file")
         content = file.read(limit + 1)
+    if content is None:
+        raise OSError(errno.EAGAIN, "nothing to read")
     if len(content) > limit:
         raise OSError(errno.EFBIG, f"larger than {limit / 1e6:g} MB; give a smaller file")
     return content

@@ -56,7 +56,7 @@ def _snow_depth(data, snow_depth):
     depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
     if not 0 <= depth <= MAX_SNOW or 0 < depth < MIN_SNOW:
         where = f"{data['snow'].at('depth')}: snow.depth" if snow_depth is None else "snow depth"
-        raise HouseError(f"{where}: must be in [0, {MAX_SNOW:g}] m and not between 0 and {MIN_SNOW:g} m, got {depth:g}")
+        raise HouseError(f"{where}: must be 0 or in [{MIN_SNOW:g}, {MAX_SNOW:g}] m, got {depth:g}")
     return depth
 
 

@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..base.input_file import is_file, shown
+from ..base.input_file import is_file, is_folder, shown
 from .errors import HouseError
 from .friction import check_friction
 from .layout import HOUSE
@@ -43,7 +43,9 @@ def house_path(name):
     for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
         if is_file(path):
             return path
-    raise HouseError(f"unknown house {shown(str(name))}: no such file, and the shipped houses are {', '.join(shipped_houses())}")
+    if is_folder(own[0]):
+        raise HouseError(f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house ({', '.join(shipped_houses())})")
+    raise HouseError(f"unknown house {shown(str(name))}: no such regular file, and the shipped houses are {', '.join(shipped_houses())}")
 
 
 def _check_references(data):

@@ -41,8 +41,8 @@ class Items(list):
 
 def parse_table(text, file, max_nodes=MAX_NODES):
     """(Table, number of YAML values) of a file's text; raises HouseError with file and line."""
-    parser = _Parser(text, file, None, max_nodes)
     try:
+        parser = _Parser(text, file, None, max_nodes)
         value = parser.value()
     except yaml.YAMLError as problem:
         raise HouseError(_syntax_message(problem, text, file)) from None

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
 
-from .filters import zero_phase_highpass
+from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
 from .record import GAL, RecordError
 
@@ -121,6 +121,7 @@ def _fourier(motion, dt):
         raise RecordError(f"{motion.name}: {dt:g} s is no whole-number ratio of {motion.dt:g} s; choose another step")
     periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
     total = periods * ratio.numerator
+    require_size(max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator, f"{motion.name}: resampling to {dt:g} s")
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
     kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.input_file import is_file, is_folder, shown
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
@@ -31,8 +32,9 @@ _SUFFIXES = (
 sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
 
 
+MAX_COMPONENTS = 3
 SURPRISING = 5 * STANDARD_GRAVITY
-"""[m/s2]"""
+"""Acceleration above which a warning is given. [m/s2]"""
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
 """The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 
@@ -68,23 +70,35 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
 
 def find_files(record):
     """Files of a record: one file, a comma-separated list, or three files with a common prefix. Raises RecordError."""
-    path = Path(str(record)).expanduser()
-    if path.is_file():
+    path = _path(str(record))
+    if is_file(path):
         return [path]
-    if path.is_dir():
+    if is_folder(path):
         raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
-    parts = [Path(part.strip()).expanduser() for part in str(record).split(",")]
-    if len(parts) == 1 or path.parent.is_dir() and "," not in path.name:
+    parts = [_path(part.strip()) for part in str(record).split(",")]
+    if len(parts) == 1 or is_folder(path.parent) and "," not in path.name:
         return _find_by_prefix(path)
+    if len(parts) > MAX_COMPONENTS:
+        raise RecordError(f"{record}: {len(parts)} files; at most {MAX_COMPONENTS}, one for each component")
     for part in parts:
-        if not part.is_file():
-            raise RecordError(f"{part}: no such file")
+        if not is_file(part):
+            raise RecordError(f"{part}: no such file, or not a regular one")
     return parts
+
+
+def _path(text):
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:  # '~name' of an unknown user
+        return Path(text)
 
 
 def _find_by_prefix(prefix):
     folder = prefix.parent
-    names = sorted(p.name for p in folder.iterdir()) if folder.is_dir() else []
+    try:
+        names = sorted(p.name for p in folder.iterdir()) if is_folder(folder) else []
+    except OSError as error:
+        raise RecordError(f"{folder}: cannot be read ({error.strerror})") from None
     rests = {name[len(prefix.name) :]: folder / name for name in names if name.startswith(prefix.name)}
     partial = []
     for _, pattern, _ in _SUFFIXES:
@@ -102,20 +116,20 @@ def _directions(channels, component):
     if component is None:
         directions = [channel.direction for channel in channels]
     else:
-        words = str(component).split(",")
-        if len(words) != len(channels):
-            raise RecordError(f"component={component}: {len(words)} directions for {len(channels)} components")
-        directions = [_stated_direction(word) for word in words]
+        names = str(component).split(",")
+        if len(names) != len(channels):
+            raise RecordError(f"component={component}: {len(names)} directions for {len(channels)} components")
+        directions = [_stated_direction(name) for name in names]
     for channel, direction in zip(channels, directions):
         if direction is None:
             raise RecordError(f"{channel.path}: direction not stated; give it: --component ns, ew, ud or an azimuth")
     return directions
 
 
-def _stated_direction(word):
-    direction = direction_of(word)
+def _stated_direction(name):
+    direction = direction_of(name)
     if direction is None:
-        raise RecordError(f"component={word}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
+        raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
     return direction
 
 

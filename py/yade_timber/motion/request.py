@@ -4,9 +4,12 @@
 import math
 from dataclasses import dataclass, field, fields
 
+import numpy as np
+
+from ..base.input_file import shown
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_motion
-from .record import RecordError
+from .record import RecordError, require_possible
 from .synthetic import DEFAULT_SEED, synthetic_motion
 
 
@@ -48,7 +51,7 @@ class MotionRequest:
         for f in fields(self):
             value, low, high = getattr(self, f.name), f.metadata["low"], f.metadata["high"]
             if value is not None and low is not None and not low <= value <= high:
-                raise RecordError(f"{name.format(f.name)} {value:g}: must be {_range(value, low, high)}; {f.metadata['help']}")
+                raise RecordError(f"{name.format(f.name)} {_shown(value)}: must be {_range(value, low, high)}; {f.metadata['help']}")
         for one, other in (("record", "seed"), ("pga", "intensity"), ("pga", "scale"), ("intensity", "scale")):
             if getattr(self, one) is not None and getattr(self, other) is not None:
                 raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
@@ -71,12 +74,17 @@ class MotionRequest:
             motion = scaled_to_pga(motion, self.pga, "level")
         if self.intensity is not None:
             motion = scaled_to_intensity(motion, self.intensity)
+        require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)
         return resample(motion, dt)[0] if self.resample else motion
 
     def _source(self):
         if self.seed is not None:
             return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
         return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+
+
+def _shown(value):
+    return shown(value) if isinstance(value, int) else f"{value:g}"
 
 
 def _range(value, low, high):
