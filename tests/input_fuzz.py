@@ -161,7 +161,7 @@ def use_record(folder, content, name="record.txt"):
 
 
 def use_options(folder, words):
-    """Make the motion of a command line; None or the message of refusal. Seeds other than 0 are only checked: each takes a second."""
+    """Make the motion of a command line; None or the message of refusal. Seeds are only checked: a synthetic motion takes a second."""
     parser = _Parser(add_help=False)
     add_motion_options(parser)
     record = folder / "small.csv"
@@ -170,7 +170,7 @@ def use_options(folder, words):
     def use():
         given = parser.parse_args([f"--record={record}"] * (not any(word.startswith(("--record", "--seed")) for word in words)) + words)
         request = motion_request(given)
-        if not request.seed:
+        if request.seed is None:
             request.motion(2.5e-4)
 
     return _refusal(use)

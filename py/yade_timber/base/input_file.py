@@ -45,6 +45,11 @@ def is_folder(path):
     return _is(Path.is_dir, path)
 
 
+def exists(path):
+    """True for anything at that path; False for paths that the system refuses."""
+    return _is(Path.exists, path)
+
+
 def _is(kind, path):
     try:
         return kind(Path(path))

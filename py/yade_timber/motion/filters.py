@@ -11,8 +11,8 @@ import scipy  # its parts load when first used: a run needs none of them, and th
 from .record import RecordError
 
 
-MAX_RESULT = 10_000_000
-"""Samples of one component, transients included, in a processed motion: 240 MB."""
+MAX_RESULT = 5_000_000
+"""Samples of one component, transients included, in a processed motion: 45 s at 1e-5 s."""
 
 
 def zero_phase_highpass(acceleration, dt, corner, order):

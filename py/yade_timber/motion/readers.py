@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.input_file import is_file, is_folder, shown
+from ..base.input_file import exists, is_file, is_folder, shown
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
@@ -75,6 +75,8 @@ def find_files(record):
         return [path]
     if is_folder(path):
         raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
+    if exists(path):
+        raise RecordError(f"{record}: not a regular file; copy its content to a file")
     parts = [_path(part.strip()) for part in str(record).split(",")]
     if len(parts) == 1 or is_folder(path.parent) and "," not in path.name:
         return _find_by_prefix(path)

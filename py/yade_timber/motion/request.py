@@ -80,7 +80,7 @@ class MotionRequest:
     def _source(self):
         if self.seed is not None:
             return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
-        return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+        return read_motion(DEFAULT_RECORD if self.record is None else self.record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
 
 
 def _shown(value):
