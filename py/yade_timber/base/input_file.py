@@ -32,6 +32,8 @@ def shown(value):
         text = repr(value)
     except ValueError:  # Python converts no whole number of more than 4300 digits
         return "a whole number of more than 4300 digits"
+    except RecursionError:
+        return "a deeply nested value"
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 20]}... ({len(text)} characters)"
 
 

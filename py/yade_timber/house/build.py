@@ -43,13 +43,13 @@ def build_house(description, snow_depth=None, check=True):
 
 
 def _require_storeys(structures):
-    """Storey drifts are those of the first structure; columns stand in layers."""
+    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a storey."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
-            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns that they could stand in")
+            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; add one or remove the columns")
     name, main = next(iter(structures.items()))
     if not main.storeys:
-        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as storey drifts are taken from it; put it behind one that has")
+        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts are reported; put a structure with columns first")
 
 
 def _snow_depth(data, snow_depth):
@@ -62,11 +62,11 @@ def _snow_depth(data, snow_depth):
 
 def _check_snow(data, elements, depth):
     if depth > 0 and not any(element.kind == "snow" for element in elements):
-        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow have no roof to lie on; give a structure a roof layer without 'snow: false'")
+        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof that carries snow; add a roof layer without 'snow: false' or set the depth to 0")
 
 
 def _number_repeats(elements):
-    """A name that comes again (two beams on one line) gets '.2', '.3', ...: joints and pictures go by names."""
+    """Repeated names (two beams on one line) get the suffix '.2', '.3', ...: joints refer to elements by name."""
     seen = Counter()
     for element in elements:
         seen[element.name] += 1
@@ -112,7 +112,7 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m do not reach below the whole house; give at least {2 * reach:.3g} m")
+        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at least {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A house file, read, merged with what it extends, checked against the schema and for names that refer to nothing."""
+"""House files as checked descriptions: merged with the files they extend, in accordance with the schema, without unknown names."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from .schema import fail, nearest
 
 @dataclass(frozen=True)
 class Description:
-    """A checked house description. `data`: tables and lists that know their file and line; lengths in m."""
+    """A checked house description. `data`: tables and lists with file and line; lengths in m."""
 
     name: str
     path: Path
@@ -49,16 +49,16 @@ def house_path(name):
 
 
 def _check_references(data):
-    """Every material, joint type and structure that is named must exist."""
+    """Every referenced material, joint type and structure must exist."""
     if not data["structures"]:
         fail(data.at("structures"), "structures", "a house needs at least one structure")
     for table, name in _material_users(data):
-        _known(table, "material", data["materials"], name, "material")
+        _require_known(table, "material", data["materials"], name, "material")
     for i, rule in enumerate(data["joints"]):
-        _known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
+        _require_known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
-            _known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
+            _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
     for i, pair in enumerate(data["friction"]):
         for key in pair["between"]:
             if key not in data["materials"]:
@@ -74,6 +74,6 @@ def _material_users(data):
             yield layer, f"structures.{name}.stack[{i + 1}]"
 
 
-def _known(table, key, names, path, noun):
+def _require_known(table, key, names, path, noun):
     if table[key] not in names:
         fail(table.at(key), f"{path}.{key}", f"unknown {noun} '{table[key]}', {nearest(table[key], names)}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The schema of a house file: every key, its unit and its admissible range. Lengths in m, SI units throughout."""
+"""Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
 
 from .limits import MAX_LINES, MAX_NAME
 from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text, Variants
@@ -7,11 +7,11 @@ from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text,
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
 MIN_SNOW, MAX_SNOW = 1e-3, 20.0
-"""Depths of snow other than none. [m]"""
+"""Range of the depth of snow, which may also be 0. [m]"""
 MIN_SPACING = 0.01
 """Smallest distance of two grid positions. [m]"""
 MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50
-"""Of one structure; regions of damage: of the house."""
+"""Of one structure; MAX_REGIONS of the house's damage."""
 
 
 def length(low=0.0, high=100.0, default=REQUIRED, open_low=True):

@@ -11,7 +11,7 @@ DIRECTION = {"x": "EW", "y": "NS"}
 
 
 def lay_strips(structure, layer, kind):
-    """Members along the layer's lines (or the structure's): one piece per line, cut lines butting against those they meet."""
+    """Members along the lines of the layer or of the structure: one piece per line; `cut` lines end at the lines they cross."""
     table, elements = layer.table, []
     lines = _single_lines(structure, table["lines"] if table["lines"] is not None else structure.table["lines"])
     for line in lines:
@@ -38,7 +38,7 @@ def _single_lines(structure, lines):
 
 
 def _pieces(structure, line, lines, width):
-    """Ends [m] of the pieces of a line. A free end reaches half a width beyond its node; at a crossed line it stops half a width before."""
+    """Ends [m] of the pieces of a line: half a width beyond a free end's node, half a width before a crossed line."""
     axis = structure.axes[line["along"]]
     crossings = sorted(other["at"] for other in lines if line["cut"] and _crosses(line, other))
     marks = sorted({line["from"], line["to"], *crossings})
@@ -68,7 +68,7 @@ def _strip(structure, layer, kind, name, line, start, end):
 
 
 def lay_floors(structure, layer):
-    """Floor slabs: one per area (default: the whole grid), reaching the margin beyond the grid; areas meet on the grid line."""
+    """Floor slabs: one per area (default: the whole grid), extended by the margin beyond the grid; neighbouring areas share a grid line."""
     areas = layer.table["areas"] or [None]
     elements = []
     for number, area in enumerate(areas, 1):

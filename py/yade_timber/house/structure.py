@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One structure of a house (main house, entrance): its grid, its place, and the heights of the layers of its stack."""
+"""One structure of a house (main house, entrance): its grid, its position, and the levels of the layers of its stack."""
 
 from dataclasses import dataclass
 
@@ -32,7 +32,7 @@ class Axis:
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """One layer of the stack between z0 and z1 [m]; `storey`: storey whose columns carry it (columns: their own)."""
+    """One layer of the stack between z0 and z1 [m]; `storey`: number of column layers up to this one."""
 
     table: dict
     kind: str
@@ -42,7 +42,7 @@ class Layer:
 
 
 class Structure:
-    """Grid, place and layers of one structure; makes elements that carry its name, material and source line."""
+    """Grid, position and layers of one structure; makes elements with its name, material and source line."""
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
@@ -53,9 +53,9 @@ class Structure:
         self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
-        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), reaching the margin and `beyond` [m] further.
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), extended by the margin and `beyond` [m].
 
-        An edge that lies on an edge of one of the `others` (areas of the same layer) reaches no further: they meet on the grid line.
+        An edge shared with one of the `others` (areas of the same layer) is not extended.
         """
         nodes = self._span(area)
         others = [self._span(other) for other in others]
@@ -73,11 +73,11 @@ class Structure:
         for axis in "xy":
             self.check_nodes(axis, area[axis], area.at(axis))
             if min(area[axis]) == max(area[axis]):
-                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty")
+                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty; give two different nodes")
         return {axis: (min(area[axis]), max(area[axis])) for axis in "xy"}
 
     def sides(self, **nodes):
-        """Walls that a node (x=, y=) or a line (only one of them) lies on."""
+        """Walls on which a node (x=, y=) or a line (only one of them) lies."""
         found = set()
         for axis, node in nodes.items():
             if node == 0:
@@ -100,7 +100,7 @@ class Structure:
         return [layer.storey for layer in self.layers if layer.kind == "columns"]
 
     def element(self, kind, name, vertices, table, where, **more):
-        """Element named '<structure>.<name>' of the material that `table` names."""
+        """Element '<structure>.<name>' of the material of `table`."""
         self.element_count += 1
         require_few(self.element_count, where, f"structures.{self.name}")
         material = table["material"]
@@ -168,7 +168,7 @@ def _origin(table, local, others, name):
 
 
 def _layers(stack, name):
-    """Layers from the ground (z = 0) up; a roof takes no height of its own because nothing stands on it."""
+    """Layers from the ground (z = 0) up; a roof adds no height because no layer lies on it."""
     layers, z, storey = [], 0.0, 0
     for i, table in enumerate(stack):
         kind = table["layer"]
