@@ -30,8 +30,8 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     Raises HouseError.
     """
     path = house_path(name_or_path)
-    checked(load_table(path), path)
     data = load_table(path)
+    checked(data, path)
     for text in settings:
         _set(data, text, where("set"))
     checked(data, path)

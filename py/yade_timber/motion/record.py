@@ -41,7 +41,7 @@ class RecordError(InputError):
 
 
 class RecordWarning(UserWarning):
-    """A record can be used, but something in it does not fit its own header."""
+    """A usable record that contradicts its own header or exceeds recorded motions."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class GroundMotion:
     dt            time step [s]
     acceleration  (n, 3) [m/s2], columns ew, ns, ud: positive towards east, north and up
     name          short name
-    source        where it comes from and how its components were mapped
-    begins        date and time of the first sample, where the record says it (K-NET, JMA: Japan's time)
+    source        files or generator, mapping of the components, processing
+    begins        date and time of the first sample, where the record states it (K-NET, JMA: Japan Standard Time)
     Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
     """
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Text of record files: lines, numbers, tables of numbers, dates; and one channel of a record.
 
-Patterns are matched by string methods, so that no line takes longer than in proportion to its length.
+String methods instead of regular expressions keep the time of a line proportional to its length.
 `where` opens the message of an error: file, line, member.
 """
 
