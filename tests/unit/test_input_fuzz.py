@@ -1,6 +1,9 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damaged house files, records and motion options: each is used or refused in one line, within time and memory. Few examples; tests/stress has the long run."""
+"""Damaged house files, records and motion options: each is used or refused in one line, within limits of time and memory.
+
+Few examples; the long run is in tests/stress.
+"""
 
 import pytest
 from hypothesis import HealthCheck, given, settings

@@ -282,7 +282,7 @@ REFUSALS = {  # name of the file, its text, place and members in the message
     "time in minutes": ("a.csv", lambda: csv_text("time [min],ns [gal],ew [gal],ud [gal]", dt=0.02), "a.csv: .*'min'"),
     "dt of zero": ("a.csv", lambda: csv_text("# units: gal\n# dt: 0\nns,ew,ud"), "a.csv:2: dt: .*0.0001 and 1 s"),
     "dt of a nanosecond": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1e-9\nns,ew,ud"), "a.csv:2: dt: .*0.0001 and 1 s"),
-    "gap in time": ("a.csv", lambda: "# units: gal\ntime,ns\n0,1\n0.01,1\n0.02,1\n0.04,1\n", "a.csv, sample"),
+    "gap in time": ("a.csv", lambda: "# units: gal\ntime,ns\n0,1\n0.01,1\n0.02,1\n0.04,1\n", "a.csv: sample"),
     "short row": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns,ew\n1,2\n3\n", "a.csv:5: 1 values.* 2 "),
     "fewer rows than stated": ("a.csv", lambda: "# units: gal\n# dt: 1\n# samples: 3\nns\n1\n2\n", "a.csv: .*2 samples.*# samples.* 3"),
     "samples of 1e300": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1\n# samples: 1e300\nns,ew,ud"), "a.csv:3: samples: '1e300'"),
@@ -345,6 +345,12 @@ def test_options_out_of_range(name, value):
         request.motion(0.01)
     assert str(caught.value).startswith(f"--{name} ") or value == ""
     assert str(caught.value).isprintable()
+
+
+def test_control_characters_in_file_names_stay_out_of_the_source(tmp_path):
+    path = write(tmp_path, "a\nb\x1b.csv", csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"))
+    motion = read_motion(path)
+    assert motion.name.isprintable() and motion.source.isprintable()
 
 
 def test_scale_beyond_any_ground_motion(tmp_path):

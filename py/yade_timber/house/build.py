@@ -8,10 +8,10 @@ import numpy as np
 from .braces import lay_braces
 from .check import check_house
 from .damage import apply_damage
+from .description import require_snow_depth
 from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
-from .layout import MAX_SNOW, MIN_SNOW
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
@@ -46,23 +46,25 @@ def _require_storeys(structures):
     """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a storey."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
-            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; add one or remove the columns")
+            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; "
+                             "add one or remove the columns")
     name, main = next(iter(structures.items()))
     if not main.storeys:
-        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts are reported; put a structure with columns first")
+        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts are reported; "
+                         "put a structure with columns first")
 
 
 def _snow_depth(data, snow_depth):
-    depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
-    if not 0 <= depth <= MAX_SNOW or 0 < depth < MIN_SNOW:
-        where = f"{data['snow'].at('depth')}: snow.depth" if snow_depth is None else "snow depth"
-        raise HouseError(f"{where}: must be 0 or in [{MIN_SNOW:g}, {MAX_SNOW:g}] m, got {depth:g}")
-    return depth
+    if snow_depth is None:
+        return data["snow"]["depth"]
+    require_snow_depth(float(snow_depth), "snow depth")
+    return float(snow_depth)
 
 
 def _check_snow(data, elements, depth):
     if depth > 0 and not any(element.kind == "snow" for element in elements):
-        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof that carries snow; add a roof layer without 'snow: false' or set the depth to 0")
+        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof for it; "
+                         f"add a roof layer without 'snow: false' or set the depth to 0")
 
 
 def _number_repeats(elements):

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..base.input_file import is_file, is_folder, shown
 from .errors import HouseError
 from .friction import check_friction
-from .layout import HOUSE
+from .layout import HOUSE, MAX_SNOW, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail, nearest
@@ -34,7 +34,14 @@ def checked(table, path):
     data = HOUSE.check(table, f"{path.name}:1", "")
     _check_references(data)
     check_friction(data)
+    require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data
+
+
+def require_snow_depth(depth, where):
+    """HouseError for a depth [m] that is neither 0 nor in [MIN_SNOW, MAX_SNOW]."""
+    if not (depth == 0 or MIN_SNOW <= depth <= MAX_SNOW):
+        raise HouseError(f"{where}: must be 0 or in [{MIN_SNOW:g}, {MAX_SNOW:g}] m, got {depth:g}")
 
 
 def house_path(name):

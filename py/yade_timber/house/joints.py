@@ -36,7 +36,7 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order. Raises HouseError for more than MAX_PAIRS."""
+    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order; HouseError for more than MAX_PAIRS."""
     bounds = np.array([e.solid.bounds for e in elements])
     low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []
@@ -44,7 +44,8 @@ def near_pairs(elements, margin):
         near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
         pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
         if len(pairs) > MAX_PAIRS:
-            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or overlap by their bounding boxes; move members apart")
+            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or overlap "
+                             "by their bounding boxes; move members apart")
     return pairs
 
 

@@ -95,7 +95,7 @@ class _Parser(yaml.SafeLoader):
 
     def _check_size(self, count, depth, mark):
         if count > self.max_nodes:
-            raise HouseError(f"{self._where(mark)}: more than {MAX_NODES} values in all (aliases and extended files included); make the house smaller")
+            raise HouseError(f"{self._where(mark)}: more than {MAX_NODES} values, aliases and extended files included; make the house smaller")
         if depth > MAX_DEPTH:
             raise HouseError(f"{self._where(mark)}: nested more than {MAX_DEPTH} levels deep, or an entry contains itself; remove levels")
 
@@ -111,7 +111,8 @@ class _Parser(yaml.SafeLoader):
             return Items([self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark), sources)
         if isinstance(node, yaml.ScalarNode) and node.tag in _PLAIN_TYPES:
             return self._scalar(node)
-        raise HouseError(f"{self._where(node.start_mark)}: unsupported type {shown(node.tag.replace(TAG, '!!'))}; write a number, a text, true or false without a tag")
+        raise HouseError(f"{self._where(node.start_mark)}: unsupported type {shown(node.tag.replace(TAG, '!!'))}; "
+                         "write a number, a text, true or false without a tag")
 
     def _table(self, node, depth):
         table = Table(where=self._where(node.start_mark))

@@ -367,7 +367,7 @@ def _csv_step(path, comments, times):
     if times is not None:
         late = np.abs(times - times[0] - step * np.arange(len(times))) / step
         if late.max() > SPACING_TOLERANCE:
-            raise RecordError(f"{path}, sample {late.argmax()}: times are not {step:g} s apart; equal steps needed")
+            raise RecordError(f"{path}: sample {late.argmax()}: times are not {step:g} s apart; equal steps needed")
     return step
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.input_file import exists, is_file, is_folder, shown
+from ..base.input_file import exists, is_file, is_folder, one_line, shown
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
@@ -64,7 +64,7 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     acceleration = _to_house_axes(str(record), values, directions)
     if np.abs(acceleration).max() > SURPRISING:
         warnings.warn(f"{record}: {np.abs(acceleration).max() / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning, stacklevel=2)
-    motion = GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions), _beginning(channels))
+    motion = GroundMotion(dt, acceleration, one_line(_common_name(paths)), one_line(_provenance(channels, directions)), _beginning(channels))
     return turned(motion, angle)
 
 

@@ -25,9 +25,14 @@ class MotionRequest:
     `scale` is applied by the run, which records it beside the motion.
     """
 
-    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; a file, a prefix, or files separated by commas (default: synthetic, like Ojiya 2004)")
+    record: str = _option(
+        str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; "
+        "a file, a prefix, or files separated by commas (default: synthetic, like Ojiya 2004)"
+    )
     seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
-    component: str = _option(str, "DIRECTIONS", "direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by commas")
+    component: str = _option(
+        str, "DIRECTIONS", "direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by commas"
+    )
     units: str = _option(str, "UNIT", "unit of the record where it states none: gal, m/s2 or g")
     shortest: bool = _option(bool, None, "cut components of different length at the shortest one instead of refusing them")
     azimuth: float = _option(

@@ -178,7 +178,8 @@ def clock(text, where):
             return datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
     except (ValueError, OverflowError, IndexError):
         pass
-    raise RecordError(f"{where}: {shown(text.strip())} is not a date and time of the years {YEARS[0]} to {YEARS[-1]}; it must be like 2004/10/23 17:56:00")
+    raise RecordError(f"{where}: {shown(text.strip())} is not a date and time of the years {YEARS[0]} to {YEARS[-1]}; "
+                      "it must be like 2004/10/23 17:56:00")
 
 
 def direction_of(name):
