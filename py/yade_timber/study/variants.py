@@ -8,7 +8,7 @@ import yaml
 
 from .claims import loads
 from ..base.atomic_write import write_text
-from ..house.reading import SHIPPED, read_table
+from ..house.loader import SHIPPED, load_table
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def write_house(reading, run, folder):
 
 def shipped(name="base"):
     """A shipped house file, with what it extends, as plain tables."""
-    return json.loads(json.dumps(read_table(SHIPPED / f"{name}.yaml")))
+    return json.loads(json.dumps(load_table(SHIPPED / f"{name}.yaml")))
 
 
 def changes(reading, house):
