@@ -263,7 +263,7 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
     except RunError:
         raise
     except (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as problem:  # of h5py, numpy or json
-        raise RunError(f"{path}: damaged, or not made by this package: {' '.join(str(problem).split())}") from None
+        raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}") from None
     return loaded
 
 
