@@ -4,13 +4,18 @@ import fcntl
 import os
 from contextlib import contextmanager
 
+from .errors import RunError
+
 LOCK = ".lock"
 
 
 @contextmanager
 def locked(folder):
-    """True while this process alone has the folder, False when another process has it. Raises OSError."""
-    descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    """True while this process alone has the folder, False when another process has it. Raises RunError."""
+    try:
+        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    except OSError as problem:
+        raise RunError(f"{folder / LOCK}: cannot be opened: {problem.strerror}") from None
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

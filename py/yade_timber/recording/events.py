@@ -54,4 +54,4 @@ class EventLog:
         lost = counts["fallen"] + counts["loose"] - self.survey.loose_at_start
         known = max((event.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * known):
-            self.add(time, "columns_lost", f"{lost} of {counts['total']} columns lost (fallen, or without a joint)", lost)
+            self.add(time, "columns_lost", f"{lost} of {counts['total']} columns inclined by more than 45 degrees or without a joint", lost)

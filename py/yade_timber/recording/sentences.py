@@ -3,6 +3,8 @@
 
 DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 leaning"))
 """Storey drifts of engineering practice and their meaning. [-]"""
+SMALL = 1e-3
+"""Drifts below this are not distinguished. [-]"""
 
 
 def largest_drift(found, key="peak_drift"):
@@ -25,13 +27,13 @@ def outcome(found):
     if found["collapsed"]:
         tilt = found["tilt_time_s"]
         return f"collapses at {found['collapse_time_s']:.1f} s" + ("" if tilt is None else f", after a storey drift of 1/10 {direction_name(found['tilt_direction'])} at {tilt:.1f} s")
-    peak = f"{ratio(drift)} {direction_name(direction)} in storey {storey[len('storey'):]}"
+    peak = f"{directed(drift, direction)} in storey {storey[len('storey'):]}" if drift >= SMALL else ratio(drift)
     if largest_drift(found, "residual_drift")[0] >= DRIFT_LINES[-1][0]:
         return f"leans at the end: peak storey drift {peak}"
     passed = [line for line, _ in DRIFT_LINES if drift >= line]
     if not passed:
         return f"stands: peak storey drift {peak}"
-    level = "damage begins at 1/120" if len(passed) == 1 else "heavy damage begins at 1/30"
+    level = "1/120: damage begins" if len(passed) == 1 else "1/30: heavy damage"
     return f"stands after a peak storey drift of {peak} ({level})"
 
 
@@ -40,10 +42,10 @@ def residual(found):
     parts = []
     drift, _, direction = largest_drift(found, "residual_drift")
     if not found["collapsed"] and largest_drift(found)[0] >= DRIFT_LINES[0][0]:
-        parts.append(f"residual drift {ratio(drift)} {direction_name(direction)}")
+        parts.append(f"residual drift {directed(drift, direction)}")
     if found.get("still_moving"):
         amplitude, _, direction = largest_drift(found, "final_amplitude")
-        parts.append(f"still moving at the end, by {ratio(amplitude)} {direction_name(direction)} to either side")
+        parts.append(f"still moving by ±{directed(amplitude, direction)}")
     return ", ".join(parts)
 
 
@@ -85,9 +87,14 @@ def direction_name(key):
     return {"ns": "N-S", "ew": "E-W"}.get(key, key)
 
 
+def directed(drift, direction):
+    """'1/85 N-S', without a direction below SMALL."""
+    return f"{ratio(drift)} {direction_name(direction)}" if drift >= SMALL else ratio(drift)
+
+
 def ratio(drift, below="below "):
     """A drift in the notation of engineers: 1/85."""
-    if drift < 1e-3:
+    if drift < SMALL:
         return f"{below}1/1000"
     return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"
 

@@ -205,16 +205,22 @@ class Run:
             return
         self.take(O.time, last=True)
         found = {**summary_files.summary(self.scenario, self.observer, self.wall_s), "made_from": made_from(self.output.options)}
-        written = []
-        if self.recorder:
-            self.recorder.finish(self.frames_path, found)
-            written.append(self.frames_path)
-        written += summary_files.write(self.output.folder, found, self.model)
+        written = self._results(found)
         if self.output.views:
             written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.say(sentence(found))
         self.say("written: " + ", ".join(str(path) for path in written))
+
+    def _results(self, found):
+        written = []
+        try:
+            if self.recorder:
+                self.recorder.finish(self.frames_path, found)
+                written.append(self.frames_path)
+            return written + summary_files.write(self.output.folder, found, self.model)
+        except OSError as problem:
+            raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); the same command with --resume makes them") from None
 
     def _pictures(self):
         try:
