@@ -42,6 +42,7 @@ NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
+STRINGS = {*(f"elements/{name}" for name in ("name", "kind", "group", "material")), *(f"joints/{name}" for name in ("name", "kind", "storey", "side"))}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
@@ -282,6 +283,8 @@ def _check_shapes(frames):
     for name, values, length in lengths:
         if len(values) != length:
             raise ValueError(f"{name}: {len(values)} entries instead of {length}")
+        if name in STRINGS and not isinstance(values, list):
+            raise ValueError(f"{name}: no strings")
     shapes = {"position": (n, 3), "orientation": (n, 4), "load": (count,), "broken": (count,)}
     for name, shape in shapes.items():
         if getattr(frames, name).shape != (len(frames.time), *shape):

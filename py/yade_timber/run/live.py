@@ -7,6 +7,7 @@ import uuid
 
 import yade.wrapper as yw
 
+from ..base.errors import RunError
 from ..scene import viewer
 from .runner import Run
 
@@ -59,10 +60,12 @@ class LiveRun(Run):
 
     def _end(self):
         with self._folder_lock:
-            if self.steps == 0 or self.is_loaded():
+            try:
+                if self.steps > 0 and not self.is_loaded():
+                    raise RunError(f"{self.output.folder}: another scene was loaded before the end of the run; it has no results")
                 self.write()
-            else:
-                print(f"{self.output.folder}: another scene was loaded before the end of the run; it has no results", file=sys.stderr)
+            except RunError as problem:
+                print(f"error: {problem}", file=sys.stderr)
 
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
