@@ -33,7 +33,7 @@ class Level:
 
 @dataclass(frozen=True)
 class State:
-    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for an element that was removed; broken (J,): broken springs of each joint."""
+    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for a removed one; broken (J,): broken springs of each joint."""
 
     position: np.ndarray
     orientation: np.ndarray
@@ -42,7 +42,7 @@ class State:
 
 @dataclass
 class DamageSurvey:
-    """What is damaged in any state of a house. levels: of each structure from below, the main structure first."""
+    """Damage of a house in any state. levels: of each structure from below, the main structure first."""
 
     elements: Elements
     joints: Joints
@@ -58,15 +58,17 @@ class DamageSurvey:
     def count_broken(self, state, springs):
         """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
-        whole = ~damaged & (state.broken >= self.joints.springs)
-        partly = ~damaged & ~whole & (state.broken > 0)
+        broken = ~damaged & (state.broken >= self.joints.springs)
+        partly = ~damaged & ~broken & (state.broken > 0)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         return {
-            **self.count_joints(whole),
-            "by_side": {side: int((whole & there).sum()) for side, there in on_side.items()},
-            "by_storey": {name: int((whole & there).sum()) for name, there in in_storey.items()},
-            "by_place": {name: {side: self.count_joints(whole & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()},
+            **self.count_joints(broken),
+            "by_side": {side: int((broken & there).sum()) for side, there in on_side.items()},
+            "by_storey": {name: int((broken & there).sum()) for name, there in in_storey.items()},
+            "by_place": {
+                name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()
+            },
             "partly_broken": int(partly.sum()),
             "springs": springs,
             "damaged_at_start": self.count_joints(damaged),
@@ -111,7 +113,7 @@ class DamageSurvey:
         return list(dict.fromkeys(level.structure for level in self.levels))
 
     def _moves(self, state, structure):
-        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements left are skipped."""
+        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements are skipped."""
         moves = []
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
