@@ -20,6 +20,7 @@ from ..base.lock import held
 from ..run.identity import made_from
 
 END, LOG, SUMMARY = "run.json", "run.log", "summary.json"
+STATES = ("done", "failed", "unfinished")
 POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
 SAVE_TIME = 60.0
@@ -44,13 +45,18 @@ class Task:
 
     @property
     def error(self):
-        """Error message of the last attempt, or None if it did not fail."""
-        return (_read(self.folder / END) or {}).get("error")
+        """Error message of a failed run, None for others."""
+        recorded = (_read(self.folder / END) or {}).get("error")
+        return recorded if recorded and self.summary is None else None
 
     @property
     def status(self):
-        """'done', 'failed' or 'unfinished'."""
+        """One of STATES."""
         return "failed" if self.error else "done" if self.summary is not None else "unfinished"
+
+    def is_missing(self, retry):
+        """Whether the run is to be started; retry: failed runs, too."""
+        return self.summary is None and (retry or not self.error)
 
 
 def _read(path):
@@ -68,7 +74,7 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     started runs have saved their checkpoints.
     """
     tasks = list(dict.fromkeys(tasks))
-    missing = [task for task in tasks if task.status == "unfinished" or (retry and task.error)]
+    missing = [task for task in tasks if task.is_missing(retry)]
     if missing:
         report(f"{len(missing)} of {len(tasks)} runs to do")
         _run_all(missing, scripts, jobs or os.cpu_count(), report)

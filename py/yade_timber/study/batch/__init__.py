@@ -8,6 +8,6 @@
 
 from .collect import RUNS, write_runs
 from .table import BatchError, Row, read_table
-from .tasks import run_rows, run_table
+from .tasks import check_rows, run_rows
 
-__all__ = ["RUNS", "BatchError", "Row", "read_table", "run_rows", "run_table", "write_runs"]
+__all__ = ["RUNS", "BatchError", "Row", "check_rows", "read_table", "run_rows", "write_runs"]

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of a batch in one CSV file, one row per run."""
 
-import csv
-import io
-
 from ...base.atomic_write import write_text
+from ...base.table import csv_text
 from .tasks import task_of
 
 RUNS = "runs.csv"
@@ -35,11 +33,7 @@ def write_runs(rows, folder):
     """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for empty cells."""
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
     found = [_result(row, task_of(row, folder), columns) for row in rows]
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(found[0]) if found else ["run"], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(found)
-    write_text(folder / RUNS, text.getvalue())
+    write_text(folder / RUNS, csv_text(list(found[0]) if found else ["run"], [result.values() for result in found]))
     return found
 
 

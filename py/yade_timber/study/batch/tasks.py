@@ -11,36 +11,30 @@ import yaml
 from ...base.atomic_write import write_text
 from ...house import HouseError, build_house, changed_house, load_house
 from ...motion import MotionRequest, RecordError
-from ...base.time_step import DEFAULT_DT, MAX_DT, MIN_DT
+from ...base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..driver import Task, run_missing
-from .table import MOTION, NO_EARTHQUAKE, BatchError, read_table
+from .table import MOTION, NO_EARTHQUAKE, BatchError
 
 HOUSE = "house.yaml"
 """House file of a row that changes its house, in the run's folder."""
-LIMITS = {"dt": (MIN_DT, MAX_DT), "duration": (0, 1e5), "snow": (0, 20)}
+LIMITS = {"dt": (MIN_DT, MAX_DT), "duration": (0, MAX_DURATION), "snow": (0, 20)}
 """{column: admissible range}, units as in the table."""
 
 
-def run_table(path, folder, scripts, jobs=None, retry=False):
-    """Run the rows of a table that are not done; returns all rows. Raises BatchError, RunError, KeyboardInterrupt."""
-    rows = read_table(path)
-    run_rows(rows, folder, scripts, jobs, retry)
-    return rows
-
-
 def run_rows(rows, folder, scripts, jobs=None, retry=False):
-    """Run the rows that are not done, after checking each of them. retry: failed rows run again. Raises as `run_table` does."""
+    """Run the rows that are not done, after checking each of them; returns {task: summary or None}.
+
+    retry: failed rows run again. Raises BatchError, RunError, KeyboardInterrupt, OSError.
+    """
     tasks = [task_of(row, folder) for row in rows]
-    missing = [row for row, task in zip(rows, tasks) if task.status == "unfinished" or (retry and task.error)]
-    for row in missing:
-        check(row)
-    check_houses(missing, folder)
-    run_missing(tasks, scripts, jobs, retry=retry)
+    missing = [row for row, task in zip(rows, tasks) if task.is_missing(retry)]
+    check_rows(missing, folder)
+    return run_missing(tasks, scripts, jobs, retry=retry)
 
 
 def task_of(row, folder):
-    """Task of a row, in the folder of that name."""
-    folder = Path(folder) / row.name
+    """Task of a row, in the folder of that name. Paths are absolute: they are part of a run's identity."""
+    folder = Path(folder).absolute() / row.name
     return Task("house", folder, options(row, folder), frames=False)
 
 
@@ -78,7 +72,14 @@ def write_house(row, folder):
 # --- checks -----------------------------------------------------------------------------------------------------------
 
 
-def check(row):
+def check_rows(rows, folder):
+    """Refuse rows that cannot be run; house files of changed houses are written to their folders. Raises BatchError, OSError."""
+    for row in rows:
+        _check_numbers_and_motion(row)
+    _check_houses(rows, folder)
+
+
+def _check_numbers_and_motion(row):
     """Refuse numbers and ground motions that cannot be run. Raises BatchError."""
     for column, (low, high) in LIMITS.items():
         value = row.value(column, low)
@@ -94,15 +95,15 @@ def check(row):
             _read_record(request, row.value("dt", DEFAULT_DT))
 
 
-def check_houses(rows, folder):
-    """Build each different house once; the house files of changed houses are written. Raises BatchError, OSError."""
+def _check_houses(rows, folder):
+    """Build each different house once, in memory. Raises BatchError, OSError."""
     built = set()
     for row in rows:
         with _located(row):
             if any(changes(row)):
                 write_house(row, folder)
             if (row.house, changes(row)) not in built:
-                build_house(load_house(options(row, Path(folder) / row.name)[0]))
+                build_house(load_house(task_of(row, folder).options[0]))
         built.add((row.house, changes(row)))
 
 
