@@ -160,9 +160,9 @@ class _Process:
         return None
 
 
-def command(script):
-    """Command line that runs a script in YADE on one thread. Raises RunError."""
+def command(script, threads=1):
+    """Command line that runs a script in YADE. Raises RunError."""
     yade = shutil.which("yade")
     if yade is None:
         raise RunError("no yade on the PATH: install it (scripts/setup)")
-    return [yade, "-n", "-x", "-j1", str(script)]
+    return [yade, "-n", "-x", f"-j{threads}", str(script)]

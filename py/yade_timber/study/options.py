@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from ..base.errors import RunError
-from ..house import HouseError
+from ..house import HouseError, load_house
 from ..motion import RecordError
 
 MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
@@ -62,6 +62,15 @@ def _number(text, admissible, limits):
     if not admissible(value):
         raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a finite number {limits}")
     return value
+
+
+def house(text):
+    """A shipped house, or a house file without errors."""
+    try:
+        load_house(text)
+    except HouseError as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from None
+    return text
 
 
 def list_of(kind):
