@@ -7,7 +7,7 @@ O = yw.Omega()
 
 
 def undamp():
-    """Switch the dashpots of all contacts off, present and future."""
+    """Set the damping ratio of all present and future contacts to zero."""
     for functor in scene.interaction_loop().physDispatcher.functors:
         functor.dampingRatio = 0
     for interaction in O.interactions:

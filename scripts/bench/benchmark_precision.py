@@ -21,8 +21,8 @@ import yade.wrapper as yw  # noqa: E402
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / folder) for folder in ("scripts/bench", "tests", "tests/stress")]
 
-import hardships  # noqa: E402
-import limits  # noqa: E402
+import extreme_runs  # noqa: E402
+import stable_steps  # noqa: E402
 import yade_timber as yt  # noqa: E402
 from bench_tools import machine, markdown_table, write_csv, write_section  # noqa: E402
 from yade.minieigenHP import Quaternion, Vector3  # noqa: E402
@@ -206,10 +206,10 @@ def study(case, options):
 def limit_rows():
     """Predicted and measured stable time steps, by bisection."""
     rows = []
-    for build in (limits.hung_block, limits.stack, limits.house, limits.stiff_house):
-        predicted = limits.settled(build)
+    for build in (stable_steps.suspended_block, stable_steps.stack, stable_steps.house, stable_steps.stiff_house):
+        predicted = stable_steps.settled(build)
         for contacts, damped in (("explicit springs, no dashpots", False), ("default", True)):
-            rows.append((build.__name__.replace("_", " "), contacts, predicted, limits.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped)))
+            rows.append((build.__name__.replace("_", " "), contacts, predicted, stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped)))
     return rows
 
 
@@ -219,7 +219,7 @@ def energy_rows():
     for house in ("B2", "C1", "C2"):
         for dt in (1e-4, DEFAULT_DT, 4e-4, MAX_DT):
             try:
-                share = hardships.shaken(house, hardships.strong_part(SHAKEN), SHAKEN, snow_depth=1.0, dt=dt)[1]
+                share = extreme_runs.shaken(house, extreme_runs.strong_part(SHAKEN), SHAKEN, snow_depth=1.0, dt=dt)[1]
             except RuntimeError:
                 share = math.nan
             rows.append((house, dt, share))

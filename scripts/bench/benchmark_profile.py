@@ -36,7 +36,7 @@ PARTS = {  # part -> its functions, and functions called by them that are parts 
     "contact solver: forces and energies": (("timber::storeForces(",), ()),
     "joints": (("JointEngine::action()",), ()),
     "integrator": (("SymplecticIntegrator::action()",), ()),
-    "collider": (("CollisionTrigger::action()", "InsertionSortCollider::action()"), ()),
+    "collider": (("CollisionTrigger::action()",), ()),
 }
 OTHERS = "contact loop, gravity, ground motion, monitor"
 HEADS = ("part", *(f"{state} [1000 instructions a step]" for state in STATES), *(f"{state}, share" for state in STATES))
