@@ -16,7 +16,7 @@ from study_common import house_name, parser, run_all, save, write_table
 from yade_timber.base.colors import BLUE, GREY, ORANGE
 from yade_timber.base.errors import RunError
 from yade_timber.house import brace_parts, build_house, free_bays, load_house
-from yade_timber.study.options import list_of, non_negative, positive, run_script
+from yade_timber.study.options import list_of, non_negative, positive, run_script, seed
 
 UNCHANGED = "unchanged"
 SIDES = ("north", "south", "east", "west")
@@ -29,7 +29,7 @@ def arguments():
     made.add_argument("--house", default="B", type=house_name, help="shipped house or house file (default %(default)s)")
     made.add_argument("--scale", type=positive, default=1.0, help="factor on the motion (default %(default)g)")
     made.add_argument("--snow", type=non_negative, default=0.0, help="snow depth [m] (default %(default)g)")
-    made.add_argument("--seeds", type=list_of(int), default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
+    made.add_argument("--seeds", type=list_of(seed), default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
     made.add_argument("--only", default="", metavar="TEXT,TEXT", help="only bays whose names contain one of these texts, comma-separated")
     return made.parse_args()
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..base.errors import RunError
 from ..house import HouseError, load_house
-from ..motion import RecordError
+from ..motion import MotionRequest, RecordError
 
 MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
 """Options of the run scripts that runs without an earthquake refuse."""
@@ -39,8 +39,17 @@ def run_script(main):
 
 def count(text):
     """A whole number >= 1."""
-    if not text.isascii() or not text.isdigit() or len(text) > 9 or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a whole number >= 1")
+    return _whole(text, 1)
+
+
+def seed(text):
+    """A whole number >= 0."""
+    return _whole(text, 0)
+
+
+def _whole(text, low):
+    if not text.isascii() or not text.isdigit() or len(text) > 9 or int(text) < low:
+        raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a whole number from {low} to 999999999")
     return int(text)
 
 
@@ -102,16 +111,17 @@ def add_driver_options(parser, folder):
 def add_run_options(parser):
     """Options that are passed to every run."""
     parser.add_argument("--record", metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
-    parser.add_argument("--seed", type=int, metavar="N", help="synthetic ground motion of another seed")
+    parser.add_argument("--seed", type=seed, metavar="N", help="synthetic ground motion of another seed")
     parser.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion")
     parser.add_argument("--start", type=float, metavar="S", help="start of the ground motion, in the record's time [s]")
     parser.add_argument("--end", type=float, metavar="S", help="end of the ground motion, in the record's time [s]")
-    parser.add_argument("--dt", type=float, metavar="S", help="time step of all runs [s]")
-    parser.add_argument("--duration", type=float, metavar="S", help="simulated time of all runs [s]")
+    parser.add_argument("--dt", type=positive, metavar="S", help="time step of all runs [s]")
+    parser.add_argument("--duration", type=non_negative, metavar="S", help="simulated time of all runs [s]")
 
 
 def run_options(given, earthquake):
-    """Options of a run's command line from parsed ones; runs without an earthquake get none of MOTION_OPTIONS."""
+    """Options of a run's command line from parsed ones; runs without an earthquake get none of MOTION_OPTIONS. Raises RecordError."""
+    MotionRequest(**{name: getattr(given, name, None) for name in MOTION_OPTIONS}).check()
     names = ("dt", "duration", *(MOTION_OPTIONS if earthquake else ()))
     values = [(name, getattr(given, name, None)) for name in names]
     return tuple(word for name, value in values if value is not None for word in (f"--{name}", value))
