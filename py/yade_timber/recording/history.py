@@ -11,7 +11,8 @@
     history.broken_joints                 # (F,) [-]
     history.column("drop1")               # any column, with or without its unit
 
-Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-]; one column [J] for each term of `yade_timber.energy()`.
+Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-]; one column [J] for each term
+of `yade_timber.energy()`.
 """
 import csv
 from collections import namedtuple
@@ -35,6 +36,9 @@ class History(namedtuple("Table", "columns rows")):
     def __new__(cls, columns, rows):
         columns = tuple(columns)
         return super().__new__(cls, columns, np.asarray(rows, float).reshape(-1, len(columns)))
+
+    def __repr__(self):
+        return f"<History: {self.samples} samples{f', up to {self.time[-1]:g} s' if self.samples else ''}, {len(self.columns)} columns>"
 
     @classmethod
     def read(cls, path):
