@@ -10,7 +10,7 @@ from yade_timber.base.time_step import MAX_DT
 from yade_timber.run.observer import Observer
 from yade_timber.scene import engines, scenario
 from yade_timber.house import HouseError
-from yade_timber.house.reading import SHIPPED
+from yade_timber.house.loader import SHIPPED
 
 STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
 ROOF = "type: gable, ridge: y, pitch: 0.45, eaves: 0.30, thickness: 0.20, material: tiles"

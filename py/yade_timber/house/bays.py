@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bays of a house that have room for one more brace: between neighbouring columns, on a line of beams, without a brace yet."""
+"""Bays without a brace: between neighbouring columns on a line of beams."""
 
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
 
 
 def free_bays(description):
-    """Names of the braces that could be added, as `overlay` takes them: 'main.brace1.EW.y0.3-4'; one a bay.
+    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each free bay.
 
-    Its foot is at the column that is nearer to an end of the line (the lower node in the middle), as at the corners of houses B and C.
+    The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of houses B and C.
     """
     names = []
     structures = {}
     for name, table in description.data["structures"].items():
         structures[name] = Structure(name, table, description.data["materials"], structures)
         for storey in structures[name].storeys:
-            names += _of_storey(structures[name], storey)
+            names += _free_in_storey(structures[name], storey)
     return names
 
 
-def _of_storey(structure, storey):
+def _free_in_storey(structure, storey):
     braced = _braced(structure, storey)
     plan = column_plan(structure, storey)
     names = []

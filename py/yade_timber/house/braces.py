@@ -1,24 +1,42 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagonal braces: hexagonal prisms (8 faces) in the bay between two neighbouring columns. Lengths in m."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from .errors import HouseError
-from .geometry import halfspace_vertices
 from .members import DIRECTION, column_plan
 from .structure import ACROSS
 
 
+@dataclass(frozen=True)
+class Diagonal:
+    """One brace on the grid: on the line `along` x or y at node `at`, from the foot of the column at node `foot` to the head of that at `head`."""
+
+    along: str
+    at: float
+    foot: float
+    head: float
+    storey: int
+    where: str
+
+    @property
+    def name(self):
+        return f"brace{self.storey}.{DIRECTION[self.along]}.{ACROSS[self.along]}{self.at:g}.{self.foot:g}-{self.head:g}"
+
+
 def lay_braces(structure, layer):
     """Braces of one storey. A run [foot, head] leans from the foot of the column at node `foot` to the head of the one at `head`."""
-    braces, plan, elements = structure.table["braces"], column_plan(structure, layer.storey), []
-    for line in braces["lines"]:
+    plan, elements = column_plan(structure, layer.storey), []
+    for line in structure.table["braces"]["lines"]:
         _check_storeys(structure, line)
         if line["storeys"] and layer.storey not in line["storeys"]:
             continue
         for at in line["at"]:
             for i, (foot, head) in enumerate(line["runs"]):
-                elements.append(_brace(structure, layer, line, at, foot, head, line["runs"].at(i), plan))
+                diagonal = Diagonal(line["along"], at, foot, head, layer.storey, line["runs"].at(i))
+                elements.append(_brace(structure, layer, diagonal, plan))
     return elements
 
 
@@ -28,29 +46,28 @@ def _check_storeys(structure, line):
             raise HouseError(f"{line.at('storeys')}: {structure.name}: braces: no storey {number}; the stack has {structure.storeys}")
 
 
-def _brace(structure, layer, line, at, foot, head, where, plan):
-    along, table = line["along"], structure.table["braces"]
-    across = ACROSS[along]
-    name = f"brace{layer.storey}.{DIRECTION[along]}.{across}{at:g}.{foot:g}-{head:g}"
-    ends = _bay(structure, layer.storey, along, at, foot, head, plan, where)
-    planes = brace_planes(ends, (layer.z0, layer.z1), table["width"])
-    vertices = _extrude(planes, along, structure.axes[across](at), table["thickness"])
-    return structure.element("brace", name, vertices, table, where, storey=layer.storey,
-                             side=structure.sides(**{across: at}), section=(table["width"], table["thickness"]))
+def _brace(structure, layer, diagonal, plan):
+    table, across = structure.table["braces"], ACROSS[diagonal.along]
+    planes = brace_planes(_clear_bay(structure, diagonal, plan), (layer.z0, layer.z1), table["width"])
+    planes = _extruded(planes, diagonal.along, structure.axes[across](diagonal.at), table["thickness"])
+    vertices = structure.cut(diagonal.name, planes, diagonal.where)
+    return structure.element("brace", diagonal.name, vertices, table, diagonal.where, storey=layer.storey,
+                             side=structure.sides(**{across: diagonal.at}), section=(table["width"], table["thickness"]))
 
 
-def _bay(structure, storey, along, at, foot, head, plan, where):
-    """Positions [m] along the wall of the column faces that foot and head of the brace bear on."""
-    on_line = {(x if along == "x" else y): section for (x, y), (section, _) in plan.items() if (y if along == "x" else x) == at}
-    wall = f"{structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
+def _clear_bay(structure, diagonal, plan):
+    """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
+    along, foot, head = diagonal.along, diagonal.foot, diagonal.head
+    on_line = {(x if along == "x" else y): section for (x, y), (section, _) in plan.items() if (y if along == "x" else x) == diagonal.at}
+    place = f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node {diagonal.at:g}, storey {diagonal.storey}"
     for node in (foot, head):
         if node not in on_line:
             known = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
-            raise HouseError(f"{where}: {wall} has no bay: no column at node {node:g}; columns of this line stand at {known}")
+            raise HouseError(f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {known}")
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:
         reason = f"a column stands between, at node {between[0]:g}" if between else "foot and head are the same column"
-        raise HouseError(f"{where}: {wall} has no bay: {reason}; a brace runs between neighbouring columns")
+        raise HouseError(f"{place} has no bay: {reason}; a brace runs between neighbouring columns")
     axis, lean = structure.axes[along], np.sign(head - foot)
     return axis(foot) + lean * on_line[foot] / 2, axis(head) - lean * on_line[head] / 2
 
@@ -66,9 +83,9 @@ def brace_planes(ends, levels, width):
     return band + bay
 
 
-def _extrude(planes, along, centre, thickness):
-    """Vertices (n, 3): the section given by `planes` made `thickness` wide about `centre` [m] across the wall."""
+def _extruded(planes, along, centre, thickness):
+    """Planes of the section given by `planes`, `thickness` [m] wide about `centre` [m] across the wall."""
     lift = (lambda n: (n[0], 0, n[1])) if along == "x" else (lambda n: (0, n[0], n[1]))
     across = (0, 1, 0) if along == "x" else (1, 0, 0)
     sides = [(across, centre + thickness / 2), (tuple(-v for v in across), -centre + thickness / 2)]
-    return halfspace_vertices([(lift(normal), offset) for normal, offset in planes] + sides)
+    return [(lift(normal), offset) for normal, offset in planes] + sides

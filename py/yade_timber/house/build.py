@@ -11,11 +11,11 @@ from .damage import apply_damage
 from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
-from .layout import MAX_SNOW
+from .layout import MAX_SNOW, MIN_SNOW
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
-from .structure import Structure
+from .structure import Structure, require_few
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
@@ -31,6 +31,7 @@ def build_house(description, snow_depth=None, check=True):
     elements = [_ground(data, structures)]
     for structure in structures.values():
         elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
+        require_few(len(elements), structure.table.where, f"structures.{structure.name}")
     _number_repeats(elements)
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
@@ -42,29 +43,30 @@ def build_house(description, snow_depth=None, check=True):
 
 
 def _require_storeys(structures):
-    """Storey drifts are those of the first structure; columns stand in layers."""
+    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a storey."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
-            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns that they could stand in")
+            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; add one or remove the columns")
     name, main = next(iter(structures.items()))
     if not main.storeys:
-        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as storey drifts are taken from it; put it behind one that has")
+        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts are reported; put a structure with columns first")
 
 
 def _snow_depth(data, snow_depth):
     depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
-    if not 0 <= depth <= MAX_SNOW:
-        raise HouseError(f"snow depth: must be in [0, {MAX_SNOW:g}] m, got {depth:g}")
+    if not 0 <= depth <= MAX_SNOW or 0 < depth < MIN_SNOW:
+        where = f"{data['snow'].at('depth')}: snow.depth" if snow_depth is None else "snow depth"
+        raise HouseError(f"{where}: must be 0 or in [{MIN_SNOW:g}, {MAX_SNOW:g}] m, got {depth:g}")
     return depth
 
 
 def _check_snow(data, elements, depth):
     if depth > 0 and not any(element.kind == "snow" for element in elements):
-        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow have no roof to lie on; give a structure a roof layer without 'snow: false'")
+        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof that carries snow; add a roof layer without 'snow: false' or set the depth to 0")
 
 
 def _number_repeats(elements):
-    """A name that comes again (two beams on one line) gets '.2', '.3', ...: joints and pictures go by names."""
+    """Repeated names (two beams on one line) get the suffix '.2', '.3', ...: joints refer to elements by name."""
     seen = Counter()
     for element in elements:
         seen[element.name] += 1
@@ -110,7 +112,7 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m do not reach below the whole house; give at least {2 * reach:.3g} m")
+        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at least {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where)

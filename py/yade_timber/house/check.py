@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Checks of a built house: no two elements overlap, columns and braces are joined at both ends, nothing floats."""
+"""Checks of a built house: no overlap, joints at both ends of columns and braces, every element supported."""
 
 import numpy as np
 
@@ -12,15 +12,17 @@ LYING = 0.1  # vertical part of a contact's unit normal from which on one elemen
 
 
 def check_house(model):
-    """Raises HouseError for the deepest overlap, a loose end of a column or brace, or a part that hangs in the air; returns what was checked:
-    {'pairs': near pairs tested exactly, 'touching': pairs in contact, 'deepest': largest overlap [m] (rounding)}."""
+    """Raises HouseError for the deepest overlap, an end of a column or brace without a joint, or an unsupported element.
+
+    Returns {'pairs': pairs of elements with touching bounding boxes, 'touching': pairs in contact, 'deepest': largest overlap [m], from rounding}.
+    """
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
     if deepest and deepest[2] < -TOUCH:
         _report_overlap(*deepest, count=sum(gap < -TOUCH for _, _, gap in gaps))
     touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
     _check_ends(model, touching)
-    _check_floating(model, touching)
+    _check_supports(model, touching)
     return {"pairs": len(gaps), "touching": len(touching), "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0))}
 
 
@@ -52,10 +54,9 @@ def _report_loose_end(member, end, touching):
     z = member.solid.bounds[0 if end == "bottom" else 1][2]
     place, where = f"{member.source}: {member.kind} {member.name}", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
     for mate, area in _lying_at(member, end, touching):
-        raise HouseError(f"{place} has no joint at its {end}, where {1e4 * area:.3g} cm2 of it touch {mate.kind} {mate.name} at {where}; give 'joints' "
-                         f"a rule between {member.kind} and {mate.kind}, or a larger common area (joint_search.min_area)")
-    verb = "stands on nothing" if end == "bottom" else "carries nothing" if member.kind == "column" else "leans against nothing at its head"
-    raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
+        raise HouseError(f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches {mate.kind} {mate.name} at {where}; add "
+                         f"a rule for {member.kind} and {mate.kind} to 'joints', or enlarge the contact area (joint_search.min_area)")
+    raise HouseError(f"{place} has no element at its {end} at {where}; put a beam, sill or floor there or remove the {member.kind}")
 
 
 def _lying_at(member, end, touching):
@@ -65,36 +66,36 @@ def _lying_at(member, end, touching):
     return [(mate, contact[2]) for mate, contact in contacts if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)]
 
 
-def _check_floating(model, touching):
-    """Each element must be held by the ground or the foundation: through joints, or lying on something that is."""
-    holds = {element.name: set() for element in model.elements}
+def _check_supports(model, touching):
+    """Each element must be connected to a fixed one by joints or by lying on supported elements."""
+    supports = {element.name: set() for element in model.elements}  # name -> names of the elements that it supports
     for joint in model.joints:
-        holds[joint.a].add(joint.b)
-        holds[joint.b].add(joint.a)
+        supports[joint.a].add(joint.b)
+        supports[joint.b].add(joint.a)
     for a, b in touching:
-        if b.name not in holds[a.name]:
-            _note_support(holds, a, b)
+        if b.name not in supports[a.name]:
+            _add_support(supports, a, b)
     todo = [element.name for element in model.elements if element.fixed]
-    held = set(todo)
+    supported = set(todo)
     while todo:
-        new = holds[todo.pop()] - held
-        held |= new
+        new = supports[todo.pop()] - supported
+        supported |= new
         todo += new
-    loose = [element for element in model.elements if element.name not in held]
+    loose = [element for element in model.elements if element.name not in supported]
     if loose:
-        _report_floating(min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
+        _report_unsupported(min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
 
 
-def _note_support(holds, a, b):
-    """Add to {name: names of what it holds} when one of two touching elements lies on the other with a face."""
+def _add_support(supports, a, b):
+    """Record which of two touching elements lies on the other with a face, if one does."""
     contact = None if a.fixed and b.fixed else contact_polygon(a.solid, b.solid, TOUCH)
     if contact and abs(contact[1][2]) > LYING:
         lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
-        holds[lower.name].add(upper.name)
+        supports[lower.name].add(upper.name)
 
 
-def _report_floating(element, others):
+def _report_unsupported(element, others):
     x, y, _ = element.solid.centroid
     more = f" (and {others} more elements)" if others else ""
-    raise HouseError(f"{element.source}: {element.kind} {element.name} hangs in the air near x {x:.3f}, y {y:.3f}, z {element.solid.bounds[0][2]:.3f} m: "
-                     f"it lies on nothing and no joint holds it; support it, join it (a rule in 'joints') or remove it{more}")
+    raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z {element.solid.bounds[0][2]:.3f} m: "
+                     f"it lies on no element and has no joint; support it, join it (a rule in 'joints') or remove it{more}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints that are broken from the start, chosen by rule (side, storey, kind, end), never listed one by one."""
+"""Joints broken from the start, selected by side, storey, kind and end."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ def apply_damage(joints, structures, damage):
     """Mark joints as broken, region by region.
 
     A region breaks `count` joints of one kind on one wall and storey: those at the given end (default: `damage.end`)
-    that are nearest to the middle of the wall; of two at the same distance, the southern or western one comes first.
+    that are nearest to the middle of the wall; of two at the same distance, the southern or western one is first.
     """
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]
@@ -26,7 +26,7 @@ def _break(joints, structure, region, kind, default_end, path):
     end = wanted["end"] or default_end
     found = [j for j in joints if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
     if wanted["count"] > len(found):
-        raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints asked for, but the {side} wall of {structure.name} "
+        raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall of {structure.name} "
                          f"has {len(found)} at the {end} of storey {storey}; lower the count")
     for joint in nearest_to_middle(found, structure, side)[:wanted["count"]]:
         joint.broken = True

@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A house file, read, merged with what it extends, checked against the schema and for names that refer to nothing."""
+"""House files as checked descriptions: merged with the files they extend, in accordance with the schema, without unknown names."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..base.input_file import is_file, is_folder, shown
 from .errors import HouseError
 from .friction import check_friction
 from .layout import HOUSE
-from .reading import Table, read_table, shipped_houses, shipped_paths
+from .loader import load_table, shipped_houses, shipped_paths
+from .parser import Table
 from .schema import fail, nearest
+
 
 @dataclass(frozen=True)
 class Description:
-    """A checked house description. `data`: tables and lists that know their file and line; lengths in m."""
+    """A checked house description. `data`: tables and lists with file and line; lengths in m."""
 
     name: str
     path: Path
@@ -22,7 +25,7 @@ class Description:
 def load_house(name_or_path):
     """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
     path = house_path(name_or_path)
-    data = checked(read_table(path), path)
+    data = checked(load_table(path), path)
     return Description(data["name"], path, data)
 
 
@@ -38,22 +41,24 @@ def house_path(name):
     """File of a shipped house or of that path; raises HouseError."""
     own, shipped = [Path(name)], shipped_paths(str(name))
     for path in own + shipped if own[0].suffix else shipped + own:  # a file called 'A' hides no shipped house
-        if path.is_file():
+        if is_file(path):
             return path
-    raise HouseError(f"unknown house '{name}': no such file, and the shipped houses are {', '.join(shipped_houses())}")
+    if is_folder(own[0]):
+        raise HouseError(f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house ({', '.join(shipped_houses())})")
+    raise HouseError(f"unknown house {shown(str(name))}: no such regular file, and the shipped houses are {', '.join(shipped_houses())}")
 
 
 def _check_references(data):
-    """Every material, joint type and structure that is named must exist."""
+    """Every referenced material, joint type and structure must exist."""
     if not data["structures"]:
         fail(data.at("structures"), "structures", "a house needs at least one structure")
     for table, name in _material_users(data):
-        _known(table, "material", data["materials"], name, "material")
+        _require_known(table, "material", data["materials"], name, "material")
     for i, rule in enumerate(data["joints"]):
-        _known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
+        _require_known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
-            _known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
+            _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
     for i, pair in enumerate(data["friction"]):
         for key in pair["between"]:
             if key not in data["materials"]:
@@ -69,6 +74,6 @@ def _material_users(data):
             yield layer, f"structures.{name}.stack[{i + 1}]"
 
 
-def _known(table, key, names, path, noun):
+def _require_known(table, key, names, path, noun):
     if table[key] not in names:
         fail(table.at(key), f"{path}.{key}", f"unknown {noun} '{table[key]}', {nearest(table[key], names)}")

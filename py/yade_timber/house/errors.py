@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The exceptions of the house description."""
 
+from ..base.input_file import InputError
 
-class HouseError(ValueError):
-    """A house that cannot be built; the message is one line: where (file:line), what, and what to do."""
+
+class HouseError(InputError):
+    """A house that cannot be built; the message is one line: file:line: member: problem; admissible range; remedy."""
 
 
 class StepError(HouseError):
-    """A sound house whose joints are too stiff for the time step."""
+    """A valid house whose joints are too stiff for the time step."""

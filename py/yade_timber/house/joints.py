@@ -5,17 +5,19 @@ from itertools import combinations
 
 import numpy as np
 
+from .errors import HouseError
 from .geometry import contact_polygon, plane_axes, polygon_area
+from .limits import MAX_PAIRS
 from .model import JointSpec
 
-UPRIGHT = ("column", "brace")  # kinds that have a joint at their top and one at their bottom
+UPRIGHT = ("column", "brace")  # kinds with a joint at the top and one at the bottom
 
 
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    A rule joins elements of one structure, or with `across` those of two structures. Contacts below `joint_search.min_area` carry no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and just
-    touches the next beam with that strip.
+    A rule joins elements of one structure, or with `across` those of two structures. Contacts below `joint_search.min_area`
+    get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam with that strip only.
     """
     data, rules = description.data, _rules(description.data["joints"])
     tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
@@ -34,18 +36,20 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes come within `margin` [m] of each other, in order. Memory grows with the number of elements only."""
+    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order. Raises HouseError for more than MAX_PAIRS."""
     bounds = np.array([e.solid.bounds for e in elements])
     low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []
     for i, element in enumerate(elements):
         near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
         pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+        if len(pairs) > MAX_PAIRS:
+            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or overlap by their bounding boxes; move members apart")
     return pairs
 
 
 def _rules(rules):
-    """{(kind a, kind b, across): rule}; a is the upright of the two, or else the first kind of the rule."""
+    """{(kind a, kind b, across): rule}; a is the column or brace of the two, or else the first kind of the rule."""
     return {(*sorted((a, b), key=lambda kind: kind not in UPRIGHT), rule["across"]): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
 
 
@@ -63,7 +67,7 @@ def _joint(a, b, rule, contact, data):
 def spring_points(polygon, normal):
     """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`.
 
-    Four corners: these. More: the four corners that span the largest area. Three: the corners and the middle of the longest side.
+    Of more than four corners, the four with the largest area; of three, these and the middle of the longest side.
     """
     if len(polygon) == 3:
         return _with_midpoint(polygon)

@@ -1,23 +1,35 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The schema of a house file: every key, its unit and its admissible range. Lengths in m, SI units throughout."""
+"""Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
 
+from .limits import MAX_LINES, MAX_NAME
 from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
-MAX_SNOW = 20.0  # [m]
+MIN_SNOW, MAX_SNOW = 1e-3, 20.0
+"""Range of the depth of snow, which may also be 0. [m]"""
+MIN_SPACING = 0.01
+"""Smallest distance of two grid positions. [m]"""
+MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50
+"""Of one structure; MAX_REGIONS of the house's damage."""
 
 
 def length(low=0.0, high=100.0, default=REQUIRED, open_low=True):
     return Number("m", low, high, open_low, default=default)
 
 
+def word(default=REQUIRED):
+    """Text that names something."""
+    return Text(default, MAX_NAME)
+
+
 node = Number("grid nodes", -1000, 1000)
-nodes = ListOf(node, scalar=True)
-storeys = ListOf(Number("", 1, 20, whole=True), scalar=True, default=())
+nodes = ListOf(node, scalar=True, most=MAX_LINES)
+storey = Number("", 1, MAX_STOREYS, whole=True)
+storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
 
 axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
-               "positions": ListOf(Number("m", -200, 200), default=None)}, one_of=("module", "positions"))
+               "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)}, one_of=("module", "positions"))
 
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
 
@@ -26,20 +38,20 @@ column_group = Record({
     "storeys": storeys,
     "at": ListOf(ListOf(node, 2), default=None),
     "grid": Record({"x": nodes, "y": nodes}, default=None),
-    "lines": ListOf(line, default=None),
+    "lines": ListOf(line, most=MAX_LINES, default=None),
 }, one_of=("at", "grid", "lines"))
 
 brace_line = Record({"along": Choice(("x", "y")), "at": nodes, "runs": ListOf(ListOf(node, 2)), "storeys": storeys})
 braces = Record({"width": length(0.005, 0.5, 0.09), "thickness": length(0.005, 0.5, 0.045),
-                 "material": Text("timber"), "lines": ListOf(brace_line, default=())}, default={})
+                 "material": word("timber"), "lines": ListOf(brace_line, default=())}, default={})
 
 
 def _layer(kind, one_of=(), **fields):
-    return Record({"layer": Choice((kind,)), "material": Text("timber"), **fields}, one_of=one_of)
+    return Record({"layer": Choice((kind,)), "material": word("timber"), **fields}, one_of=one_of)
 
 
 def _strip(kind, fixed):
-    return _layer(kind, height=length(0.01, 2.0), width=length(0.01, 2.0), fixed=Flag(fixed), lines=ListOf(line, default=None))
+    return _layer(kind, height=length(0.01, 2.0), width=length(0.01, 2.0), fixed=Flag(fixed), lines=ListOf(line, most=MAX_LINES, default=None))
 
 
 area = Record({"x": ListOf(node, 2), "y": ListOf(node, 2)}, default=None)
@@ -63,13 +75,13 @@ layer = Variants("layer", {
     "sill": _strip("sill", True),
     "columns": _layer("columns", height=length(0.1, 20.0)),
     "beams": _strip("beams", False),
-    "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, default=None)),
+    "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
     "roof": roof,
 })
 
 place = Record({
     "origin": ListOf(Number("m", -1000, 1000), 2, default=None),
-    "beside": Text(None),
+    "beside": word(None),
     "side": Choice(SIDES, "east"),
     "align": Choice(("middle", *SIDES), "middle"),
     "gap": length(high=100.0, default=0.0, open_low=False),
@@ -80,8 +92,8 @@ structure = Record({
     "place": place,
     "grid": Record({"x": axis, "y": axis}),
     "margin": length(high=2.0, open_low=False),
-    "lines": ListOf(line),
-    "stack": ListOf(layer),
+    "lines": ListOf(line, most=MAX_LINES),
+    "stack": ListOf(layer, most=MAX_LAYERS),
     "columns": ListOf(column_group),
     "braces": braces,
 })
@@ -98,30 +110,30 @@ joint_type = Record({
     "strength": Number("N", 10.0, infinite=True), "per": Choice(("spring", "joint"), None),
 })
 
-joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True), 2), "type": Text(), "kind": Text(), "across": Flag(False)})
+joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(), "across": Flag(False)})
 
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None)
-damage_region = Record({"structure": Text(None), "side": Choice(SIDES), "storey": Number("", 1, 20, whole=True),
+damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey,
                         "column_beam": _broken, "brace_beam": _broken})
 
 HOUSE = Record({
-    "name": Text(),
+    "name": word(),
     "description": Text(""),
     "materials": MapOf(material),
-    "friction": ListOf(Record({"between": ListOf(Text(), 2), "coefficient": Number("", 0.0, 2.0)})),
+    "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
     "law": Record({
         "joint_reading": Choice(("spring", "joint"), "spring"),
         "vertex_edge_contacts": Flag(False),
         "flush_supports": Flag(True),
         "hertz": Choice(("closed", "increment"), "closed"),
     }, default={}),
-    "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": Text("timber")}),
+    "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
     "structures": MapOf(structure),
     "joint_types": MapOf(joint_type),
     "joints": ListOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),
-    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "regions": ListOf(damage_region, default=())}, default={}),
-    "snow": Record({"material": Text("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),
+    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
+    "snow": Record({"material": word("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),
     "plumb": Record({"drift": Number("", 0.0, 0.05, default=0.0), "towards": Choice(SIDES, "north")}, default={}),
 })

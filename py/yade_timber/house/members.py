@@ -4,13 +4,14 @@
 import numpy as np
 
 from .errors import HouseError
-from .structure import ACROSS
+from .limits import MAX_LINES
+from .structure import ACROSS, require_few
 
 DIRECTION = {"x": "EW", "y": "NS"}
 
 
 def lay_strips(structure, layer, kind):
-    """Members along the layer's lines (or the structure's): one piece per line, cut lines butting against those they meet."""
+    """Members along the lines of the layer or of the structure: one piece per line; `cut` lines end at the lines they cross."""
     table, elements = layer.table, []
     lines = _single_lines(structure, table["lines"] if table["lines"] is not None else structure.table["lines"])
     for line in lines:
@@ -31,11 +32,13 @@ def _single_lines(structure, lines):
         if line["from"] >= line["to"]:
             raise HouseError(f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
         single += [{**line, "at": at, "where": line.where} for at in line["at"]]
+        if len(single) > MAX_LINES:
+            raise HouseError(f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list; remove some")
     return single
 
 
 def _pieces(structure, line, lines, width):
-    """Ends [m] of the pieces of a line. A free end reaches half a width beyond its node; at a crossed line it stops half a width before."""
+    """Ends [m] of the pieces of a line: half a width beyond a free end's node, half a width before a crossed line."""
     axis = structure.axes[line["along"]]
     crossings = sorted(other["at"] for other in lines if line["cut"] and _crosses(line, other))
     marks = sorted({line["from"], line["to"], *crossings})
@@ -65,7 +68,7 @@ def _strip(structure, layer, kind, name, line, start, end):
 
 
 def lay_floors(structure, layer):
-    """Floor slabs: one per area (default: the whole grid), reaching the margin beyond the grid; areas meet on the grid line."""
+    """Floor slabs: one per area (default: the whole grid), extended by the margin beyond the grid; neighbouring areas share a grid line."""
     areas = layer.table["areas"] or [None]
     elements = []
     for number, area in enumerate(areas, 1):
@@ -99,6 +102,7 @@ def column_plan(structure, storey):
         for x, y in _group_nodes(structure, group):
             if (x, y) not in plan:
                 plan[x, y] = (group["section"], group.where)
+                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
             elif group["lines"] is None:
                 raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
                                  f"(first in {plan[x, y][1]}); remove one of them")

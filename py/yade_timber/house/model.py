@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a house is once built: elements (convex polyhedra), joints (spring points), and counts of both."""
+"""A built house: elements (convex polyhedra), joints (spring points), and counts of both."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -21,11 +21,11 @@ class Element:
     material: str           # key of HouseModel.materials
     density: float          # [kg/m3]
     fixed: bool = False
-    storey: int = 0         # storey whose columns carry it (columns, braces: the one they stand in); 0 below the first
-    side: frozenset = frozenset()  # walls it belongs to: 'north', 'south', 'east', 'west'; empty inside the house
+    storey: int = 0         # storey of the columns below it (columns, braces: their own); 0 below the first
+    side: frozenset = frozenset()  # walls of which it is a part: 'north', 'south', 'east', 'west'; empty inside the house
     section: tuple = ()     # (width, depth) [m] where the member has a section
-    group: str = ""         # structure it belongs to, e.g. 'main', 'entrance'
-    source: str = ""        # file:line of the description that asked for it
+    group: str = ""         # structure, e.g. 'main', 'entrance'
+    source: str = ""        # file:line of its description
 
     @cached_property
     def solid(self):
@@ -33,7 +33,7 @@ class Element:
             polyhedron = Polyhedron(np.asarray(self.vertices, float))
             polyhedron.hull
         except ValueError as problem:
-            raise HouseError(f"{self.source}: {self.kind} {self.name} is no convex body: {problem}") from None
+            raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its dimensions") from None
         return polyhedron
 
     @property
@@ -60,8 +60,8 @@ class JointSpec:
     area: float          # contact area [m2]
     kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
     ks: float            # [N/m] tangential stiffness, likewise
-    strength: float      # [N] P_max, likewise; may be inf
-    per: str             # 'spring': values belong to each spring; 'joint': to the joint as a whole
+    strength: float      # [N] P_max, likewise; inf: unbreakable
+    per: str             # 'spring': values of each spring; 'joint': of the joint as a whole
     storey: int
     side: frozenset
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
@@ -80,7 +80,7 @@ class JointSpec:
 
 @dataclass(eq=False)
 class HouseModel:
-    """A built house: what bodies and joints are made from."""
+    """A built house, from which bodies and joints are made."""
 
     name: str
     description: str
@@ -105,7 +105,7 @@ class HouseModel:
         return [e for e in self.elements if e.kind in kinds and group in (None, e.group)]
 
     def counts(self):
-        """Numbers to check a house by: elements, columns by section, braces, joints, broken joints, masses [kg]."""
+        """Numbers to check a house: elements, columns by section, braces, joints, broken joints, masses [kg]."""
         columns, braces = self.of_kind("column"), self.of_kind("brace")
         return {
             "elements": len(self.elements),

@@ -1,32 +1,40 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A house with changes: single keys, added braces, a factor on the joints' strength. For studies that would need a file a variant."""
+"""Variants of a house for studies: changed keys, added braces, a factor on the strength of joints."""
 
-import math
 import re
 
+from ..base.input_file import shown
 from .description import checked, house_path
 from .errors import HouseError
-from .reading import Items, Table, parse_value, read_table
+from .limits import MAX_DEPTH
+from .loader import load_table
+from .parser import Items, Table, parse_value
 from .schema import NAME
 
-_STEP = re.compile(rf"({NAME})((?:\[\d+\])*)")
-_BRACE = re.compile(rf"({NAME})\.brace(\d+)\.(EW\.y|NS\.x)([\d.]+)\.([\d.]+)-([\d.]+)")
+_STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
+_NODE = r"(\d{1,4}(?:\.\d{1,6})?)"
+_BRACE = re.compile(rf"({NAME})\.brace(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}")
+
+
+MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
+"""Range of the factor on the joints' strength."""
 
 
 def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):
-    """The raw tables of a house file, with all it extends and the changes, checked against the schema.
+    """The merged and changed tables of a house file, checked against the schema, as dicts and lists.
 
     settings  'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3': keys of the house file, list items from 1
-    braces    names of the braces to add, as elements are called: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3)
+    braces    element names of the braces to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3)
     strength  factor on the strength of all joint types
-    where     makes the place that messages open with from 'set', 'braces', 'strength'
+    where     function of 'set', 'braces' or 'strength' that gives the source of this change for messages
     Raises HouseError.
     """
     path = house_path(name_or_path)
-    checked(read_table(path), path)
-    data = read_table(path)
+    data = load_table(path)
+    checked(data, path)
     for text in settings:
         _set(data, text, where("set"))
+    checked(data, path)
     for name in braces:
         _add_brace(data, name, where("braces"))
     checked(data, path)
@@ -46,10 +54,9 @@ def plain(value):
 
 def _set(data, text, where):
     key, sign, value = text.partition("=")
-    steps = _steps(key, where)
     if not sign:
-        raise HouseError(f"{where}: '{text}': write key=value")
-    node = data
+        raise HouseError(f"{where}: {shown(text)}: write key=value")
+    steps, node = _steps(key, where), data
     for step in steps[:-1]:
         node = _entered(node, step, key, where)
     _put(node, steps[-1], parse_value(value, where), key, where)
@@ -57,17 +64,19 @@ def _set(data, text, where):
 
 def _steps(key, where):
     """'a.b[2].c' -> ['a', 'b', 1, 'c']."""
-    steps = []
-    for part in key.split("."):
+    steps, parts = [], key.split(".")
+    if len(parts) > MAX_DEPTH:
+        raise HouseError(f"{where}: {shown(key)}: more than {MAX_DEPTH} levels")
+    for part in parts:
         match = _STEP.fullmatch(part)
         if match is None:
-            raise HouseError(f"{where}: '{key}' is no key; write it like materials.timber.density or friction[1].coefficient")
+            raise HouseError(f"{where}: {shown(key)} is not a key; write it like materials.timber.density or friction[1].coefficient")
         steps += [match.group(1), *(int(number) - 1 for number in re.findall(r"\d+", match.group(2)))]
     return steps
 
 
 def _entered(node, step, key, where):
-    """Entry `step` of a table or list; a table's missing entry becomes an empty table, which the schema then judges."""
+    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, which the schema checks later."""
     if isinstance(step, str) and isinstance(node, Table):
         return node.setdefault(step, Table(where=where))
     _require_item(node, step, key, where)
@@ -97,7 +106,7 @@ def brace_parts(name, where="brace"):
     """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises HouseError."""
     match = _BRACE.fullmatch(name)
     if match is None:
-        raise HouseError(f"{where}: '{name}': a brace is named like main.brace1.EW.y0.3-4 or main.brace2.NS.x8.6-7")
+        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or main.brace2.NS.x8.6-7")
     structure, storey, wall, *nodes = match.groups()
     return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes)
 
@@ -115,7 +124,7 @@ def _add_brace(data, name, where):
 
 
 def _strengthen(data, factor, where):
-    if not 0 < factor < math.inf:
-        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be > 0 and finite")
+    if not MIN_FACTOR <= factor <= MAX_FACTOR:
+        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g}, {MAX_FACTOR:g}]")
     for kind in data["joint_types"].values():
         kind["strength"] = kind["strength"] * factor

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Roof slabs and the snow on them. Lengths in m; outline = the roof's rectangle of the grid plus the structure's margin and the eaves.
+"""Roof slabs and the snow on them. Lengths in m. The outline is the roof's rectangle of the grid, extended by margin and eaves.
 
-All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, so that it
-rests on them with a level face; eaves are boxed, this face is their soffit. Gable: two slabs that meet in the ridge. Hip
-(paper, 3.4): hips run at 45 degrees in plan, each slab is the part of the outline that is nearest to its own eave; the long
-slopes come out as hexahedra, the hip ends, whose three corners are cut off, as octahedra. On a square plan: a pyramid.
+All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, on which it
+rests with a level face, the soffit of the eaves. Gable: two slabs that share the ridge. Hip (paper, 3.4): hips run at 45 degrees
+in plan; each slab is the part of the outline nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three
+corners are cut off, octahedra. A square plan gives a pyramid.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box, halfspace_vertices
+from .geometry import box
 
 OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
@@ -43,7 +43,7 @@ class Plan:
         return (*(self.slope * d), 1.0), self.eave + self.slope * e
 
     def nearer(self, side, other):
-        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: hip or ridge."""
+        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: a hip or the ridge."""
         (d, e), (d2, e2) = self.distance(side), self.distance(other)
         return (*(d2 - d), 0.0), e2 - e
 
@@ -59,27 +59,27 @@ class GablePlan(Plan):
         return ("west", "east") if self.ridge == "y" else ("south", "north")
 
     def outline(self, side):
-        """Vertical planes of a slab, its own eave not among them: the ridge and the two gables."""
+        """Vertical planes of a slab except its own eave: the ridge and the two gables."""
         gables = [self.edge(other) for other in OUTWARD if other not in self.sides]
         return [self.nearer(side, next(other for other in self.sides if other != side)), *gables]
 
 
 @dataclass(frozen=True, eq=False)
 class HipPlan(Plan):
-    """Four slopes. cut: how much of their corners the hip ends lose [m]."""
+    """Four slopes. cut: distance of the hip ends' cuts from their corners [m]."""
 
     cut: float
     sides = tuple(OUTWARD)
 
     def outline(self, side):
-        """Vertical planes of a slab, its own eave not among them: hips, ridge, and the three corner cuts of a hip end."""
+        """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
         opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
         hip_end = self._is_hip_end(side)
         planes = [self.nearer(side, other) for other in OUTWARD if other != side and not (hip_end and other == opposite)]
         return planes + (self._corner_cuts(side) if hip_end else [])
 
     def _is_hip_end(self, side):
-        """Hip ends are the sides that the ridge points at; on a square plan, all four."""
+        """Hip ends are the two sides across the ridge; on a square plan, all four."""
         length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
         return length >= (self.high - self.low).max() - 1e-9
 
@@ -91,7 +91,7 @@ class HipPlan(Plan):
 
 
 def outline(structure, layer):
-    """Corners (2,), (2,) [m] of a roof's outline; roofs of one stack meet on the grid line."""
+    """Low and high corner (2,) [m] of a roof's outline; neighbouring roofs of one stack share a grid line."""
     areas = [other.table["area"] for other in structure.layers if other.kind == "roof" and other is not layer]
     return structure.area(layer.table["area"], areas, layer.table["eaves"])
 
@@ -117,7 +117,7 @@ PLANS = {"hip": hip_plan, "gable": gable_plan}
 
 
 def slope(structure, layer, half):
-    """Rise over run, given as such or by the ridge's height. Raises HouseError for a ridge below the eaves and eaves too wide to rest on the plates."""
+    """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves and for eaves wider than the soffit."""
     table, found = layer.table, layer.table["pitch"]
     if found is None:
         rise = table["ridge_height"] - layer.z0
@@ -127,32 +127,33 @@ def slope(structure, layer, half):
         found = rise / half
     soffit, out = table["thickness"] * np.hypot(1.0, found) / found, table["eaves"] + structure.table["margin"]
     if soffit <= out:
-        raise HouseError(f"{table.at('eaves')}: {structure.name}: the roof would not reach its wall plates: it is {soffit:.3g} m wide at their level "
-                         f"(thickness and pitch) and reaches {out:.3g} m beyond them (eaves and margin); "
+        raise HouseError(f"{table.at('eaves')}: {structure.name}: the roof does not reach its wall plates: its soffit is {soffit:.3g} m wide "
+                         f"(thickness and pitch), eaves and margin are {out:.3g} m; "
                          f"give eaves below {soffit - structure.table['margin']:.3g} or a thickness above {out * found / np.hypot(1.0, found):.3g}")
     return found
 
 
 def pitched_roof(structure, layer):
-    """{side: vertices} of slabs of the thickness given (measured across the slope), level faces on the wall plates."""
+    """{side: vertices} of slabs with level faces on the wall plates; the thickness is measured across the slope."""
     plan = PLANS[layer.table["type"]](structure, layer)
     drop = layer.table["thickness"] * np.hypot(1.0, plan.slope)
     slabs = {}
     for side in plan.sides:
         normal, offset = plan.top(side)
         bottom = (tuple(-v for v in normal), -(offset - drop))
-        slabs[side] = halfspace_vertices([(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)])
+        slabs[side] = structure.cut(f"roof.{side}", [(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)], layer.table.where)
     return slabs
 
 
 def pitched_snow(structure, layer, depth):
     """{side: vertices} of snow of vertical depth [m]: the slab's outline, extruded upwards from its upper face."""
     plan = PLANS[layer.table["type"]](structure, layer)
-    clods = {}
+    bodies = {}
     for side in plan.sides:
         normal, offset = plan.top(side)
-        clods[side] = halfspace_vertices([(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)])
-    return clods
+        planes = [(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)]
+        bodies[side] = structure.cut(f"snow.{side}", planes, layer.table.where)
+    return bodies
 
 
 def flat_roof(structure, layer):
@@ -175,11 +176,11 @@ def lay_roof(structure, layer):
 
 
 def lay_snow(structure, layer, depth, material):
-    """Snow elements on this roof; none where the roof says `snow: false` or the depth [m] is zero."""
+    """Snow elements on this roof; none for `snow: false` or a depth [m] of zero."""
     if depth == 0 or not layer.table["snow"]:
         return []
-    clods = ROOFS[layer.table["type"]][1](structure, layer, depth)
-    return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in clods.items()]
+    bodies = ROOFS[layer.table["type"]][1](structure, layer, depth)
+    return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()]
 
 
 def _element(structure, layer, kind, side, vertices, table):

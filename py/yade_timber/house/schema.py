@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Small schema checker: one-line errors with file and line, admissible range, nearest known key.
+"""Schema checker with one-line errors: file and line, key, problem, admissible range, nearest known key.
 
 A schema is made of Number, Text, Flag, Choice, ListOf, MapOf, Record and Variants. Each has `default`
 (REQUIRED = must be given) and `check(value, where, name)`, which returns the value, checked and with
-defaults filled in, or raises HouseError.
+defaults filled in, or raises HouseError. `where` is the value's "file:line", `name` the path of its key.
 """
 
 import difflib
@@ -11,24 +11,28 @@ import math
 import re
 from dataclasses import dataclass
 
+from ..base.input_file import shown
 from .errors import HouseError
-from .reading import Items, Table
+from .limits import MAX_ITEMS, MAX_NAME, MAX_NAMES, MAX_TEXT
+from .parser import Items, Table
 
 REQUIRED = object()
 NAME = r"[\w-]+"
-"""Names that the user chooses: dots and brackets lead to what is inside (changes of single keys, names of braces)."""
+"""Names that the user chooses. Dots and brackets are reserved for paths to single keys and for names of braces."""
 OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "Pa": (("MPa", 1e6), ("GPa", 1e9)),
                "N/m": (("kN/m", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6)), "N": (("kN", 1e3),), "rise over run": (("sun (tenths)", 0.1),)}
-"""Units that people write by mistake: unit of the schema -> (unit, factor)."""
+"""Units often used by mistake: unit of the schema -> (unit, factor)."""
+_DECIMAL_COMMA = re.compile(r"[-+]?\d{1,20},\d{1,20}")
 
 
-def fail(where, name, text):
-    raise HouseError(f"{where}: {name}: {text}")
+def fail(where, name, problem):
+    raise HouseError(f"{where}: {name}: {problem}")
 
 
 def nearest(word, known):
-    """"did you mean 'x'?" for a misspelt word, else the list of what is known."""
-    close = difflib.get_close_matches(str(word), list(known), 1, 0.6)
+    """"did you mean 'x'?" for a misspelt word, else the list of known words."""
+    known = list(known)
+    close = difflib.get_close_matches(str(word), known, 1, 0.6) if len(str(word)) <= MAX_NAME else []
     return f"did you mean '{close[0]}'?" if close else f"known: {', '.join(known)}"
 
 
@@ -46,7 +50,7 @@ class Number:
 
     def check(self, value, where, name):
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            fail(where, name, f"expected a number{self._range()}, got {value!r}")
+            fail(where, name, f"expected a number{self._range()}, got {shown(value)}{_decimal_point(value)}")
         wrong_kind = math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
         if wrong_kind or not self._admits(value):
             fail(where, name, f"must be a{' whole' if self.whole else ''} number{self._range()}, got {value!r}{self._other_units(value)}")
@@ -56,7 +60,7 @@ class Number:
         return self.low <= value <= self.high and not (self.open_low and value == self.low)
 
     def _other_units(self, value):
-        """Words for a value that would be admissible in another unit of the trade, e.g. a section of 105."""
+        """Hint for a value that would be admissible in another usual unit, e.g. a section of 105."""
         meant = [f"{value!r} {unit} = {value * factor:g}" for unit, factor in OTHER_UNITS.get(self.unit, ()) if self._admits(value * factor)]
         return f"; in {self.unit}: {' or '.join(meant)}" if meant else ""
 
@@ -67,14 +71,28 @@ class Number:
         return f" in {'(' if self.open_low else '['}{self.low:g}, {self.high:g}]{unit}"
 
 
+def _decimal_point(value):
+    """Hint for a text like '2,73'."""
+    comma = isinstance(value, str) and _DECIMAL_COMMA.fullmatch(value)
+    return f"; write a decimal point: {value.replace(',', '.')}" if comma else ""
+
+
 @dataclass(frozen=True)
 class Text:
+    """A text of printable characters; runs of blanks and line breaks become one blank."""
+
     default: object = REQUIRED
+    most: int = MAX_TEXT
 
     def check(self, value, where, name):
         if not isinstance(value, str) or not value.strip():
-            fail(where, name, f"expected a text, got {value!r}")
-        return value
+            fail(where, name, f"expected a text, got {shown(value)}")
+        text = " ".join(value.split())
+        if len(text) > self.most:
+            fail(where, name, f"a text of {len(text)} characters; at most {self.most}")
+        if not text.isprintable():
+            fail(where, name, f"{shown(value)} has control characters or halves of character pairs; remove them")
+        return text
 
 
 @dataclass(frozen=True)
@@ -83,7 +101,7 @@ class Flag:
 
     def check(self, value, where, name):
         if not isinstance(value, bool):
-            fail(where, name, f"expected true or false, got {value!r}")
+            fail(where, name, f"expected true or false, got {shown(value)}")
         return value
 
 
@@ -94,26 +112,29 @@ class Choice:
 
     def check(self, value, where, name):
         if value not in self.options:
-            fail(where, name, f"'{value}' is unknown, {nearest(value, self.options)}")
+            fail(where, name, f"{shown(value)} is unknown, {nearest(value, self.options)}")
         return value
 
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items."""
+    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items, `most` limits it."""
 
     item: object
     length: int = 0
     scalar: bool = False
+    most: int = MAX_ITEMS
     default: object = REQUIRED
 
     def check(self, value, where, name):
         if self.scalar and not isinstance(value, list):
             value = Items([value], where, [where])
         if not isinstance(value, list):
-            fail(where, name, f"expected a list, got {value!r}")
+            fail(where, name, f"expected a list, got {shown(value)}")
         if self.length and len(value) != self.length:
             fail(where, name, f"expected {self.length} items, got {len(value)}")
+        if len(value) > self.most:
+            fail(where, name, f"a list of {len(value)} items; at most {self.most}")
         checked = [self.item.check(v, value.at(i), f"{name}[{i + 1}]") for i, v in enumerate(value)]
         return Items(checked, value.where, value.entries)
 
@@ -127,10 +148,12 @@ class MapOf:
 
     def check(self, value, where, name):
         if not isinstance(value, Table):
-            fail(where, name, f"expected a table of names, got {value!r}")
+            fail(where, name, f"expected a table of names, got {shown(value)}")
+        if len(value) > MAX_NAMES:
+            fail(where, name, f"{len(value)} entries; at most {MAX_NAMES}")
         for key in value:
-            if not re.fullmatch(NAME, key):
-                fail(value.at(key), name, f"'{key}' is no name: take letters, digits, _ and -")
+            if len(key) > MAX_NAME or not re.fullmatch(NAME, key):
+                fail(value.at(key), name, f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -")
         checked = {k: self.item.check(v, value.at(k), f"{name}.{k}" if name else k) for k, v in value.items()}
         return Table(checked, value.where, value.entries)
 
@@ -145,7 +168,7 @@ class Record:
 
     def check(self, value, where, name):
         if not isinstance(value, Table):
-            fail(where, name or "house", f"expected a table with {', '.join(self.fields)}, got {value!r}")
+            fail(where, name or "house", f"expected a table with {', '.join(self.fields)}, got {shown(value)}")
         self._check_keys(value, name)
         checked = {key: _field(field, key, value, name) for key, field in self.fields.items()}
         return Table(checked, where, value.entries)
@@ -153,7 +176,7 @@ class Record:
     def _check_keys(self, value, name):
         for key in value:
             if key not in self.fields:
-                fail(value.at(key), name or "house", f"unknown key '{key}', {nearest(key, self.fields)}")
+                fail(value.at(key), name or "house", f"unknown key {shown(key)}, {nearest(key, self.fields)}")
         given = [key for key in self.one_of if key in value]
         if self.one_of and len(given) != 1:
             got = " and ".join(given) if given else "none"
@@ -174,7 +197,7 @@ def _field(field, key, value, name):
 
 @dataclass(frozen=True)
 class Variants:
-    """Tables told apart by the entry `key`, e.g. `layer: columns`."""
+    """Tables distinguished by their entry `key`, e.g. `layer: columns`."""
 
     key: str
     options: dict
@@ -182,10 +205,10 @@ class Variants:
 
     def check(self, value, where, name):
         if not isinstance(value, Table):
-            fail(where, name, f"expected a table with '{self.key}', got {value!r}")
+            fail(where, name, f"expected a table with '{self.key}', got {shown(value)}")
         if self.key not in value:
             fail(where, name, f"key '{self.key}' is missing (one of {', '.join(self.options)})")
         kind = value[self.key]
         if not isinstance(kind, str) or kind not in self.options:
-            fail(value.at(self.key), f"{name}.{self.key}", f"'{kind}' is unknown, {nearest(kind, self.options)}")
+            fail(value.at(self.key), f"{name}.{self.key}", f"{shown(kind)} is unknown, {nearest(kind, self.options)}")
         return self.options[kind].check(value, where, name)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One structure of a house (main house, entrance): its grid, its place, and the heights of the layers of its stack."""
+"""One structure of a house (main house, entrance): its grid, its position, and the levels of the layers of its stack."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box
+from .geometry import box, halfspace_vertices
+from .layout import MAX_STOREYS, MIN_SPACING
+from .limits import MAX_ELEMENTS
 from .model import Element
 
 ACROSS = {"x": "y", "y": "x"}
@@ -30,7 +32,7 @@ class Axis:
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """One layer of the stack between z0 and z1 [m]; `storey`: storey whose columns carry it (columns: their own)."""
+    """One layer of the stack between z0 and z1 [m]; `storey`: number of column layers up to this one."""
 
     table: dict
     kind: str
@@ -40,7 +42,7 @@ class Layer:
 
 
 class Structure:
-    """Grid, place and layers of one structure; makes elements that carry its name, material and source line."""
+    """Grid, position and layers of one structure; makes elements with its name, material and source line."""
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
@@ -48,11 +50,12 @@ class Structure:
         origin = _origin(table, local, others, name)
         self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
         self.layers = _layers(table["stack"], name)
+        self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
-        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), reaching the margin and `beyond` [m] further.
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), extended by the margin and `beyond` [m].
 
-        An edge that lies on an edge of one of the `others` (areas of the same layer) reaches no further: they meet on the grid line.
+        An edge shared with one of the `others` (areas of the same layer) is not extended.
         """
         nodes = self._span(area)
         others = [self._span(other) for other in others]
@@ -70,11 +73,11 @@ class Structure:
         for axis in "xy":
             self.check_nodes(axis, area[axis], area.at(axis))
             if min(area[axis]) == max(area[axis]):
-                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty")
+                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty; give two different nodes")
         return {axis: (min(area[axis]), max(area[axis])) for axis in "xy"}
 
     def sides(self, **nodes):
-        """Walls that a node (x=, y=) or a line (only one of them) lies on."""
+        """Walls on which a node (x=, y=) or a line (only one of them) lies."""
         found = set()
         for axis, node in nodes.items():
             if node == 0:
@@ -97,7 +100,9 @@ class Structure:
         return [layer.storey for layer in self.layers if layer.kind == "columns"]
 
     def element(self, kind, name, vertices, table, where, **more):
-        """Element named '<structure>.<name>' of the material that `table` names."""
+        """Element '<structure>.<name>' of the material of `table`."""
+        self.element_count += 1
+        require_few(self.element_count, where, f"structures.{self.name}")
         material = table["material"]
         return Element(f"{self.name}.{name}", kind, vertices, material, self.materials[material]["density"],
                        group=self.name, source=where, **more)
@@ -105,6 +110,19 @@ class Structure:
     def block(self, kind, name, low, high, table, where, **more):
         """Element that is a box from `low` to `high` (3,) [m]."""
         return self.element(kind, name, box(low, high), table, where, **more)
+
+    def cut(self, name, planes, where):
+        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of the member `name`; HouseError where nothing is left."""
+        try:
+            return halfspace_vertices(planes)
+        except ValueError as problem:
+            raise HouseError(f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its dimensions") from None
+
+
+def require_few(count, where, name):
+    """HouseError for more than MAX_ELEMENTS elements."""
+    if count > MAX_ELEMENTS:
+        raise HouseError(f"{where}: {name}: more than {MAX_ELEMENTS} elements; make the house smaller")
 
 
 def _abut(nodes, other, axis, edge):
@@ -119,8 +137,8 @@ def _positions(axis, path):
     if axis["positions"] is None:
         return axis["module"] * np.arange(axis["count"] + 1)
     positions = np.array(axis["positions"])
-    if len(positions) < 2 or (np.diff(positions) <= 0).any():
-        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order [m]")
+    if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
+        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order, {MIN_SPACING:g} m or more apart")
     return positions
 
 
@@ -150,7 +168,7 @@ def _origin(table, local, others, name):
 
 
 def _layers(stack, name):
-    """Layers from the ground (z = 0) up; a roof takes no height of its own because nothing stands on it."""
+    """Layers from the ground (z = 0) up; a roof adds no height because no layer lies on it."""
     layers, z, storey = [], 0.0, 0
     for i, table in enumerate(stack):
         kind = table["layer"]
@@ -158,6 +176,8 @@ def _layers(stack, name):
         if layers and layers[-1].kind == "roof" and kind != "roof":
             raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
+        if storey > MAX_STOREYS:
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: more than {MAX_STOREYS} layers of columns; remove some")
         layers.append(Layer(table, kind, storey, z, top))
         z = z if kind == "roof" else top
     return layers

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ground motion: reading records, changing them on request, measuring them, and a seeded synthetic one.
+"""Ground motion: readers of records, optional processing, measures, and a seeded synthetic motion.
 
 Needs numpy and scipy only, never YADE. Frame everywhere: columns ew, ns, ud = x east, y north, z up; m/s2.
 """

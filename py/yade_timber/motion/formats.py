@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The file formats: each reader turns the lines of one file into channels.
+"""The file formats: each reader converts the lines of one file into channels.
 
 K-NET and KiK-net ASCII: NIED, "About K-NET ASCII format" (17 header lines, whole counts, scale factor). Its Record
 Time includes the logger's trigger delay: the first sample is 15 s earlier (KNET_DELAY). All samples are read.
-PEER AT2: four header lines whose fourth has changed its form over the years, values in g.
+PEER AT2: four header lines, the fourth in several forms, values in g.
 Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), values in g.
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
 Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows.
@@ -17,6 +17,7 @@ from datetime import timedelta
 
 import numpy as np
 
+from ..base.input_file import shown
 from .record import GAL, RecordError, RecordWarning, unit_factor
 from .text import (
     UP,
@@ -25,12 +26,19 @@ from .text import (
     direction_of,
     finite,
     numbers,
+    positive,
     require_count,
     require_step,
     table,
+    whole,
 )
 
 KNET_HEADER_LINES = 17
+AT2_HEADER_LINES = 20
+"""Lines in which the number of samples of an AT2 file is searched."""
+JMA_HEADER_LINES = 30
+"""Lines in which the row of column names of a JMA file is searched."""
+
 KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
 """Channel numbers of KiK-net: 1-3 borehole, 4-6 surface, each north, east, up."""
 
@@ -46,15 +54,18 @@ Headers print 3 to 6 digits; a damaged sample moves the peak by far more.
 SPACING_TOLERANCE = 0.1
 """Largest deviation of a time column from equal spacing, in steps: room for printed rounding, none for a gap."""
 
+_PEKNOLD = "points at equal spacing of"
+
 
 def sniff(lines):
-    """Name of the format that the lines are in, or None."""
-    head = "\n".join(lines[:20])
-    if re.match(r"\s*Origin Time", lines[0]):
+    """Name of the format of the lines, or None."""
+    head = "\n".join(lines[:AT2_HEADER_LINES])
+    start = lines[0].strip().strip('"')
+    if start.startswith("Origin Time"):
         return "knet"
-    if re.match(r'\s*"?SITE CODE', lines[0], re.I):
+    if start.upper().startswith("SITE CODE"):
         return "jma"
-    if re.search(r"\bNPTS\b", head) or re.search(r"points at equal spacing of", head, re.I):
+    if "NPTS" in head or _PEKNOLD in head.lower():
         return "at2"
     if _csv_columns(lines) is not None:
         return "csv"
@@ -62,7 +73,11 @@ def sniff(lines):
 
 
 def parse(path, lines, units=None, stated=False):
-    """Channels of one file. `units` states the unit where the file does not; stated: directions are given, those in the file do not matter. Raises RecordError."""
+    """Channels of one file. Raises RecordError.
+
+    units   unit where the file does not state one
+    stated  True: the caller states the directions, those in the file are ignored
+    """
     kind = sniff(lines)
     if kind is None:
         raise RecordError(
@@ -78,51 +93,53 @@ def parse(path, lines, units=None, stated=False):
 # --- K-NET and KiK-net --------------------------------------------------------------------------
 
 _KNET_FIELDS = {
-    "time": r"Record Time\s*(\S+\s+\S+)",
-    "sampling": r"Sampling Freq\.?\s*\(Hz\)\s*(\S+?)\s*Hz",
-    "duration": r"Duration Time\s*\(s\)\s*(\S+)",
-    "direction": r"Dir\.\s*(\S+)",
-    "scale": r"Scale Factor\s*(\S+)",
-    "peak": r"Max\.? Acc\.?\s*\(gal\)\s*(\S+)",
+    "Record Time": "",
+    "Sampling Freq": "(Hz)",
+    "Duration Time": "(s)",
+    "Dir.": "",
+    "Scale Factor": "",
+    "Max": "(gal)",
 }
-"""Both spellings of the header: 'Long.' or 'Lon.', 'Max. Acc.' or 'Max Acc.'."""
+"""Beginning of a header line -> unit before its value. There are two spellings: 'Max. Acc. (gal)' and 'Max Acc. (gal)'."""
 
 
 def _knet(path, lines, units):
     """K-NET or KiK-net: counts times scale factor, mean of the whole record removed."""
     if units is not None:
         raise RecordError(f"{path}: K-NET files state their scale factor; give no unit")
-    field = _knet_fields(path, lines)
-    rate = finite(field["sampling"], f"{path}, Sampling Freq")
-    if rate <= 0.0:
-        raise RecordError(f"{path}, Sampling Freq: {rate:g} Hz; it must be > 0")
+    fields = _knet_fields(path, lines)
+    sampling, where = fields["Sampling Freq"]
+    rate = positive(sampling.removesuffix("Hz"), where)
     counts = numbers(path, lines[KNET_HEADER_LINES:], KNET_HEADER_LINES + 1)
-    stated = finite(field["duration"], f"{path}, Duration Time") * rate
-    require_count(path, len(counts), round(stated), "Duration Time x Sampling Freq")
-    values = (counts - counts.mean()) * _knet_scale(path, field["scale"])
-    _compare_peak(path, values, finite(field["peak"], f"{path}, Max. Acc."))
-    direction = KIK_DIRECTIONS.get(field["direction"], direction_of(field["direction"]))
-    begins = clock(field["time"], f"{path}, Record Time") - KNET_DELAY
-    return [Channel(path, require_step(1.0 / rate, path), values, direction, begins)]
+    require_count(path, len(counts), round(finite(*fields["Duration Time"]) * rate), "Duration Time x Sampling Freq")
+    values = (counts - counts.mean()) * _knet_scale(*fields["Scale Factor"])
+    _compare_peak(path, values, finite(*fields["Max"]))
+    direction = fields["Dir."][0]
+    begins = clock(*fields["Record Time"]) - KNET_DELAY
+    return [Channel(path, require_step(1.0 / rate, where), values, KIK_DIRECTIONS.get(direction, direction_of(direction)), begins)]
 
 
 def _knet_fields(path, lines):
-    header = "\n".join(lines[:KNET_HEADER_LINES])
+    """{beginning of a header line: (value, file:line: beginning)}."""
     fields = {}
-    for name, pattern in _KNET_FIELDS.items():
-        match = re.search(r"^\s*" + pattern, header, re.M)
-        if match is None:
-            raise RecordError(f"{path}: K-NET header without '{name}' in its {KNET_HEADER_LINES} lines")
-        fields[name] = match.group(1)
+    for number, line in enumerate(lines[:KNET_HEADER_LINES], 1):
+        text = line.strip()
+        for label, unit in _KNET_FIELDS.items():
+            value = text.removeprefix(label).partition(unit)[2] if unit else text.removeprefix(label)
+            if text.startswith(label) and value.strip() and label not in fields:
+                fields[label] = " ".join(value.split()[: 2 if label == "Record Time" else 1]), f"{path}:{number}: {label}"
+    for label in _KNET_FIELDS:
+        if label not in fields:
+            raise RecordError(f"{path}: K-NET header without '{label}' in its {KNET_HEADER_LINES} lines")
     return fields
 
 
-def _knet_scale(path, text):
+def _knet_scale(text, where):
     """'3920(gal)/6182761' -> m/s2 per count."""
-    match = re.fullmatch(r"([\d.]+)\(gal\)/([\d.]+)", text)
-    if match is None or finite(match.group(2), path) == 0.0:
-        raise RecordError(f"{path}, Scale Factor: '{text}'; it must be like 3920(gal)/6182761")
-    return GAL * float(match.group(1)) / float(match.group(2))
+    gal, form, counts = text.partition("(gal)/")
+    if not form:
+        raise RecordError(f"{where}: {shown(text)}; it must be like 3920(gal)/6182761")
+    return GAL * positive(gal, where) / positive(counts, where)
 
 
 def _compare_peak(path, values, stated_gal):
@@ -137,49 +154,80 @@ def _compare_peak(path, values, stated_gal):
 
 # --- PEER AT2 -----------------------------------------------------------------------------------
 
-_AT2_COUNT = (
-    re.compile(r"NPTS\s*[=:]\s*(?P<n>\d+).*?DT\s*[=:]\s*(?P<dt>[-+\d.eE]+)", re.I),
-    re.compile(r"^\s*(?P<n>\d+)\s*,?\s+(?P<dt>[-+\d.eE]+)\s*,?\s*NPTS\s*,\s*DT", re.I),
-)
-_PEKNOLD_COUNT = re.compile(r"(?P<n>\d+)\s+points at equal spacing of\s+(?P<dt>[-+\d.eE]+)\s*sec", re.I)
-_UNIT = re.compile(r"(?:in|^|the)\s*units?\s*(?:of|are|is|in|:|=)?\s*\(?\s*([a-z][\w/^]*)", re.I)
-_NUMERIC_LINE = re.compile(r"^[\s\d.eEdD+-]*\d[\s\d.eE+-]*$")
-
 
 def _at2(path, lines, units, stated):
     """PEER AT2 and Peknold's variant: one channel, in g unless the header states another unit."""
-    count, first = _at2_header(path, lines)
+    count, dt, first, where = _at2_header(path, lines)
     header = lines[:first]
     _refuse_other_quantity(path, header)
-    factor = _stated_unit(path, [m.group(1) for m in map(_UNIT.search, header) if m], units)
+    factor = _stated_unit(path, [unit for unit in map(_unit_in, header) if unit], units)
     values = numbers(path, lines[first:], first + 1)
-    require_count(path, len(values), int(count["n"]), "NPTS")
-    dt = require_step(finite(count["dt"], f"{path}, DT"), f"{path}, DT")
-    return [Channel(path, dt, values * factor, None if stated else _at2_direction(path, header))]
+    require_count(path, len(values), whole(count, f"{where}: NPTS"), "NPTS")
+    step = require_step(finite(dt, f"{where}: DT"), f"{where}: DT")
+    return [Channel(path, step, values * factor, None if stated else _at2_direction(path, header))]
 
 
 def _at2_header(path, lines):
-    """Match with groups n and dt, and the index of the first line of data."""
-    for index, line in enumerate(lines[:20]):
-        for pattern in _AT2_COUNT:
-            if match := pattern.search(line):
-                return match, index + 1
-    for line in lines[:20]:
-        if match := _PEKNOLD_COUNT.search(line):
-            first = next((i for i, row in enumerate(lines) if _NUMERIC_LINE.match(row)), len(lines))
-            return match, first
-    raise RecordError(f"{path}: AT2 header without a readable 'NPTS= n, DT= s' or 'n s NPTS, DT' in 20 lines")
+    """(number of samples and time step as text, index of the first line of data, file:line of both)."""
+    head = list(enumerate(lines[:AT2_HEADER_LINES], 1))
+    for number, line in head:
+        if found := _count_and_step(line):
+            return *found, number, f"{path}:{number}"
+    for number, line in head:
+        if found := _peknold_count_and_step(line):
+            first = next((i for i, row in enumerate(lines) if _is_numeric(row)), len(lines))
+            return *found, first, f"{path}:{number}"
+    raise RecordError(f"{path}: AT2 header without a readable 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines")
+
+
+def _words(line, separators):
+    """Lower-case words of a line, separated by blanks and the characters of `separators`."""
+    return line.lower().translate(dict.fromkeys(map(ord, separators), " ")).split()
+
+
+def _count_and_step(line):
+    """(n, dt) as text from 'NPTS= n, DT= s SEC' or 'n s NPTS, DT', else None."""
+    words = _words(line, ",=:")
+    if "npts" not in words or "dt" not in words:
+        return None
+    npts, dt = words.index("npts"), words.index("dt")
+    if npts == 2 and dt == 3:
+        return words[0], words[1]
+    return (words[npts + 1], words[dt + 1].rstrip("second")) if dt >= npts + 2 and dt + 1 < len(words) else None
+
+
+def _peknold_count_and_step(line):
+    """(n, dt) as text from 'n points at equal spacing of s sec', else None."""
+    before, found, after = line.lower().partition(_PEKNOLD)
+    return (before.split()[-1], after.split()[0]) if found and before.strip() and after.strip() else None
+
+
+def _is_numeric(line):
+    try:
+        return bool([float(word) for word in line.split()])
+    except ValueError:
+        return False
+
+
+def _unit_in(line):
+    """'... in units of G', 'The units are (g)', 'units: gal' -> the unit, else None."""
+    words = _words(line, "()=:,")
+    for i, word in enumerate(words):
+        if word in ("unit", "units") and (i == 0 or words[i - 1] in ("in", "the")):
+            rest = words[i + 2 :] if words[i + 1 : i + 2] and words[i + 1] in ("of", "are", "is", "in") else words[i + 1 :]
+            return rest[0].rstrip(".") if rest and rest[0][0].isalpha() else None
+    return None
 
 
 def _refuse_other_quantity(path, header):
     for number, line in enumerate(header, 1):
-        match = re.match(r"\s*(VELOCITY|DISPLACEMENT) TIME", line, re.I)
-        if match:
-            raise RecordError(f"{path}, line {number}: {match.group(1).lower()} record; it must be acceleration")
+        for quantity in ("velocity", "displacement"):
+            if line.strip().lower().startswith(f"{quantity} time"):
+                raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
 
 
 def _stated_unit(path, in_file, stated):
-    """m/s2 per unit, from what the file states and the caller states; refuses none and contradiction."""
+    """m/s2 per unit, from the units in the file and the caller's; refuses none and contradiction."""
     given = list(in_file) + ([stated] if stated is not None else [])
     if not given:
         raise RecordError(f"{path}: no unit stated; state it in the file or as units= (gal, m/s2 or g)")
@@ -214,20 +262,17 @@ def _jma(path, lines, units):
     sampling = keys.get("SAMPLING RATE", keys.get("SAMPLING FREQ"))
     if sampling is None:
         raise RecordError(f"{path}: JMA header without SAMPLING RATE")
-    rate = finite(re.sub(r"\s*Hz.*$", "", sampling, flags=re.I), f"{path}, SAMPLING RATE")
-    if rate <= 0.0:
-        raise RecordError(f"{path}, SAMPLING RATE: {rate:g} Hz; it must be > 0")
-    factor = _stated_unit(path, [keys["UNIT"].split("(")[0]] if "UNIT" in keys else [], units)
+    rate, where = positive(sampling[0].lower().partition("hz")[0], sampling[1]), sampling[1]
+    factor = _stated_unit(path, [keys["UNIT"][0].partition("(")[0]] if "UNIT" in keys else [], units)
     rows = table(path, lines[first:], first + 1, len(names), ",")
-    step = require_step(1.0 / rate, f"{path}, SAMPLING RATE")
-    begins = clock(keys["INITIAL TIME"], f"{path}, INITIAL TIME") if "INITIAL TIME" in keys else None
-    return _columns_to_channels(path, names, rows, factor, step, begins)
+    begins = clock(*keys["INITIAL TIME"]) if "INITIAL TIME" in keys else None
+    return _columns_to_channels(path, names, rows * factor, require_step(1.0 / rate, where), begins)
 
 
 def _jma_header(path, lines):
-    """({key: value}, [column names], index of the first row); cells after the first are ignored in key lines."""
+    """({key: (value, file:line: key)}, [column names], index of the first row); cells after the first are ignored in key lines."""
     keys = {}
-    for index, line in enumerate(lines[:30]):
+    for index, line in enumerate(lines[:JMA_HEADER_LINES]):
         cells = [cell.strip().strip('"') for cell in line.split(",")]
         names = [_column_name(cell)[0] for cell in cells if cell]
         if {"ns", "ew", "ud"} <= set(names):
@@ -235,8 +280,9 @@ def _jma_header(path, lines):
         key, _, value = cells[0].partition("=")
         if not value.strip() and len(cells) > 1:
             value = cells[1]
-        keys[key.strip().upper().rstrip(".")] = value.strip()
-    raise RecordError(f"{path}: JMA header without a row that names NS, EW and UD in its first 30 lines")
+        key = key.strip().upper().rstrip(".")
+        keys[key] = value.strip(), f"{path}:{index + 1}: {shown(key)}"
+    raise RecordError(f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES} lines")
 
 
 # --- plain CSV ----------------------------------------------------------------------------------
@@ -249,15 +295,15 @@ _CSV_ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "e
 def _plain_csv(path, lines, units):
     """CSV with named columns: ns, ew, ud (one or more), optionally time [s] or [ms], and a stated unit."""
     header_index, names, units_of, delimiter = _csv_columns(lines)
-    comments = _csv_comments(lines[:header_index])
-    in_file = [comments[key] for key in ("units", "unit") if key in comments] + [units_of[name] for name in names if units_of[name] and name != "time"]
+    comments = _csv_comments(path, lines[:header_index])
+    in_file = [comments[key][0] for key in ("units", "unit") if key in comments] + [units_of[name] for name in names if units_of[name] and name != "time"]
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
     step = _csv_step(path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
     if "samples" in comments:
-        require_count(path, len(rows), int(finite(comments["samples"], path)), "'# samples:'")
-    return _columns_to_channels(path, names, rows, factor, step)
+        require_count(path, len(rows), whole(*comments["samples"]), "'# samples:'")
+    return _columns_to_channels(path, names, rows * factor, step)
 
 
 def _csv_columns(lines):
@@ -278,37 +324,46 @@ def _csv_columns(lines):
 def _times(path, values, unit):
     """A column of times in s."""
     if unit not in _SECONDS:
-        raise RecordError(f"{path}: time in '{unit}'; s or ms")
+        raise RecordError(f"{path}: time in {shown(unit)}; s or ms")
     return values * _SECONDS[unit]
 
 
 def _column_name(cell):
     """'NS [gal]', 'ns_gal', 'N-S(gal)' -> ('ns', 'gal'); 'time' -> ('time', None)."""
-    match = re.fullmatch(r'\s*"?([A-Za-z-]+)(?:[\s_]*[\[(_]\s*([^\])"]+?)\s*[\])]?)?"?\s*', cell)
-    if match is None:
-        return cell.strip().lower(), None
-    name = match.group(1).lower()
-    return _CSV_ALIASES.get(name, name), match.group(2)
+    text = cell.strip().strip('"').strip()
+    name = text[: next((i for i, c in enumerate(text) if not (c.isalpha() or c == "-")), len(text))]
+    rest = text[len(name) :].strip()
+    unit = rest.strip("_[]() \t")
+    if rest and not (rest[0] in "[(_" and unit):
+        return text.lower(), None
+    return _CSV_ALIASES.get(name.lower(), name.lower()), unit or None
 
 
-def _csv_comments(lines):
-    """{key: value} of the lines '# key: value' before the row of names."""
-    pairs = (re.match(r"#\s*([A-Za-z ]+?)\s*[:=]\s*(.+?)\s*$", line) for line in lines)
-    return {match.group(1).lower(): match.group(2) for match in pairs if match}
+def _csv_comments(path, lines):
+    """{key: (value, file:line: key)} of the lines '# key: value' or '# key = value' before the row of names."""
+    pairs = {}
+    for number, line in enumerate(lines, 1):
+        text = line[1:].replace("=", ":", 1) if "=" in line.partition(":")[0] else line[1:]
+        key, _, value = (part.strip() for part in text.partition(":"))
+        if line.startswith("#") and key.replace(" ", "").isalpha() and value:
+            pairs[key.lower()] = value, f"{path}:{number}: {key.lower()}"
+    return pairs
 
 
 def _csv_step(path, comments, times):
     """Time step [s] from '# dt: 0.01', '# sampling: 100 Hz' or the time column."""
+    where = path
     if "dt" in comments:
-        step = finite(re.sub(r"\s*s$", "", comments["dt"]), f"{path}, dt")
+        text, where = comments["dt"]
+        step = finite(text.removesuffix("s"), where)
     elif "sampling" in comments:
-        rate = finite(re.sub(r"\s*Hz$", "", comments["sampling"], flags=re.I), f"{path}, sampling")
-        step = 1.0 / rate if rate > 0.0 else 0.0
+        text, where = comments["sampling"]
+        step = 1.0 / positive(text.lower().removesuffix("hz"), where)
     elif times is not None:
         step = (times[-1] - times[0]) / (len(times) - 1)
     else:
         raise RecordError(f"{path}: no time step; give a time column [s] or a comment '# dt: 0.01' [s]")
-    require_step(step, path)
+    require_step(step, where)
     if times is not None:
         late = np.abs(times - times[0] - step * np.arange(len(times))) / step
         if late.max() > SPACING_TOLERANCE:
@@ -316,9 +371,10 @@ def _csv_step(path, comments, times):
     return step
 
 
-def _columns_to_channels(path, names, rows, factor, step, begins=None):
+def _columns_to_channels(path, names, rows, step, begins=None):
+    """One channel for each column of accelerations; rows (n, columns) in m/s2."""
     return [
-        Channel(path, step, rows[:, index] * factor, _CSV_DIRECTIONS[name], begins)
+        Channel(path, step, rows[:, index], _CSV_DIRECTIONS[name], begins)
         for index, name in enumerate(names)
         if name in _CSV_DIRECTIONS
     ]

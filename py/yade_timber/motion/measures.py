@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError
@@ -18,13 +18,13 @@ CM = 0.01
 """One centimetre in metres."""
 
 VELOCITY_CORNER = 0.05
-"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs give baseline, not motion."""
+"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs record baseline errors, not motion."""
 
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
 
 STEPS_PER_PERIOD = 20
-"""Smallest number of steps per oscillator period at which its peak is looked for; misses at most 1.2 % of a peak."""
+"""Smallest number of steps per oscillator period; sampling then underestimates a peak by at most 1.2 %."""
 
 
 # --- peaks --------------------------------------------------------------------------------------
@@ -73,7 +73,7 @@ def displacement(motion, corner=VELOCITY_CORNER):
 
 
 def _integral(motion, corner, times):
-    """Acceleration integrated once or twice, from rest before the high-pass's transients: without them it would drift."""
+    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a drift."""
     values, pad = motion.acceleration, 0
     if corner is not None:
         values, pad = highpass_with_ends(values, motion.dt, corner, 2)
@@ -91,7 +91,7 @@ class JmaIntensity:
 
     raw       I = 2 log10(a0) + 0.94, not rounded; -inf for a motion of zeros
     official  raw rounded to two decimals, then cut to one
-    a0        filtered vector acceleration that is held for 0.3 s in total. [gal]
+    a0        filtered vector acceleration that is reached or exceeded for 0.3 s in total. [gal]
     """
 
     raw: float
@@ -153,7 +153,7 @@ class Spectrum:
 def response_spectrum(acceleration, dt, periods, damping=0.05):
     """Response spectrum of (n,) or (n, k) ground acceleration [m/s2].
 
-    With several columns the response is the vector of the columns' responses and its length is taken (the resultant).
+    With several columns the result is the length of the vector of the columns' responses (the resultant).
     dt [s], periods [s] > 0, damping in parts of critical, 0 <= damping < 1. Exact for ground acceleration that is
     linear between its samples (Nigam and Jennings 1969), half a period of free vibration after its end included.
     """
@@ -185,7 +185,7 @@ def oscillator(acceleration, dt, period, damping=0.05):
 
 
 def _phi2(z):
-    """(exp(z) - 1 - z) / z^2, by its series where the difference would lose more than 1e-12 of it."""
+    """(exp(z) - 1 - z) / z^2; by its series where cancellation would cost more than 1e-12 of it."""
     if abs(z) < 1e-2:
         return 1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0
     return (np.exp(z) - 1.0 - z) / z**2
@@ -227,7 +227,7 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 
 def onset(motion, share=0.05):
-    """When the strong shaking sets in: the Arias intensity reaches `share` of its final value. [s]; None without any shaking."""
+    """Onset of strong shaking: time at which the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

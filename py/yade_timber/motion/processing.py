@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Changes to a ground motion, each made only when asked for; every function returns a new GroundMotion."""
+"""Processing of ground motions; every function returns a new GroundMotion."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from datetime import timedelta
 from fractions import Fraction
 
 import numpy as np
-import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
-from .filters import zero_phase_highpass
+from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
 from .record import GAL, RecordError
 
 PAD_SECONDS = 5.0
-"""Zeros added at the end before a band-limited resampling, which takes the record as periodic. [s]"""
+"""Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
 
 LARGEST_RATIO = 100_000
 """Largest numerator or denominator of old step / new step for band-limited resampling."""
@@ -34,7 +34,7 @@ def turned(motion, angle):
 
 
 def round_off(x):
-    """Sine or cosine with the rounding noise at whole right angles taken away."""
+    """Sine or cosine without rounding noise at multiples of a right angle."""
     return float(np.round(x, 15))
 
 
@@ -92,11 +92,11 @@ def scaled_to_intensity(motion, intensity):
 def resample(motion, dt, method="bandlimited"):
     """Samples at another time step. Returns (motion, error).
 
-    bandlimited  Fourier interpolation of the record, zeros behind it; going to a larger step it also removes what
-                 the new step cannot carry. dt / old dt must be a ratio of whole numbers.
-    linear       straight lines between the samples, as the ground-motion engine reads them
+    bandlimited  Fourier interpolation of the record, padded with zeros; for a larger step it also removes
+                 frequencies above the new Nyquist frequency. dt / old dt must be a ratio of whole numbers.
+    linear       straight lines between the samples, as in the ground-motion engine
     error        largest difference from the band-limited interpolation of the original at the new times, in parts of
-                 the record's PGA (0 for an upsampling by `bandlimited`, whose old samples are met to rounding)
+                 the record's PGA (0 for an upsampling by `bandlimited`)
     """
     if method not in ("bandlimited", "linear"):
         raise RecordError(f"resampling method '{method}'; admissible: bandlimited, linear")
@@ -115,12 +115,13 @@ def _linear(motion, dt, count):
 
 
 def _fourier(motion, dt):
-    """(band-limited interpolation at the new times, the same without what lies above the new Nyquist frequency)."""
+    """(band-limited interpolation at the new times, the same without frequencies above the new Nyquist frequency)."""
     ratio = Fraction(dt / motion.dt).limit_denominator(LARGEST_RATIO)
     if ratio <= 0 or abs(float(ratio) - dt / motion.dt) > 1e-9 * dt / motion.dt or ratio.numerator > LARGEST_RATIO:
-        raise RecordError(f"{motion.name}: {dt:g} s is no whole-number ratio of {motion.dt:g} s; choose another step")
+        raise RecordError(f"{motion.name}: {dt:g} s is not a whole-number ratio of {motion.dt:g} s; choose another step")
     periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
     total = periods * ratio.numerator
+    require_size(max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator, f"{motion.name}: resampling to {dt:g} s")
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
     kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)
@@ -131,14 +132,14 @@ def _fourier(motion, dt):
 
 
 def interpolation_error(motion):
-    """Largest error of straight lines between the samples, in parts of the PGA; found half way between them."""
+    """Largest error of straight lines between the samples, taken half way between them. [fraction of the PGA]"""
     return resample(motion, 0.5 * motion.dt, "linear")[1]
 
 
 def shaking_window(motion, threshold=0.5):
     """Times of the first and the last sample above `threshold` [gal] in any component: (first, last) [s].
 
-    What lies before and behind is the quiet head and tail. Raises RecordError if nothing exceeds the threshold.
+    Raises RecordError if no sample exceeds the threshold.
     """
     above = np.flatnonzero(np.abs(motion.acceleration).max(axis=1) > threshold * GAL)
     if not above.size:
@@ -146,5 +147,5 @@ def shaking_window(motion, threshold=0.5):
     return float(above[0] * motion.dt), float(above[-1] * motion.dt)
 
 
-def _changed(motion, acceleration, what):
-    return replace(motion, acceleration=acceleration, source=f"{motion.source}; {what}".lstrip("; "))
+def _changed(motion, acceleration, change):
+    return replace(motion, acceleration=acceleration, source=f"{motion.source}; {change}".lstrip("; "))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""From files to a ground motion: which files belong together, and how their components are mapped.
+"""Files to ground motion: the files of one record, and the mapping of their components.
 
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
 from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.input_file import exists, is_file, is_folder, shown
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
@@ -27,12 +28,13 @@ _SUFFIXES = (
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
     ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew))\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
 )
-"""What follows a prefix in the names of one record's three files; tried in this order, so that of a KiK-net pair the
-sensor at the surface is taken, where houses stand (the borehole's three files can be named one by one)."""
+"""Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
+(the borehole's three files can be named one by one)."""
 
 
+MAX_COMPONENTS = 3
 SURPRISING = 5 * STANDARD_GRAVITY
-"""[m/s2]"""
+"""Acceleration above which a warning is given. [m/s2]"""
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
 """The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 
@@ -46,14 +48,14 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files.
 
     record     a file, three files separated by commas, or the common prefix of three files
-    component  direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; needed only
-               where a file does not say its own, and stronger than what the file says
+    component  direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; replaces
+               the directions in the files, needed only where a file does not state its own
     units      unit of the numbers (gal, m/s2, g) where the file does not state it; a contradiction is refused
     angle      azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's
                +y to the record's north. With 90 the record's north component shakes the house along +x.
     trim_to_shortest  cut components of different length at the shortest one instead of refusing them
     Returns GroundMotion; a component that no file gives is zero, and its `source` says so.
-    Raises RecordError: missing, truncated, unknown format, not a number, no unit, components that do not fit.
+    Raises RecordError: missing, truncated, unknown format, not a number, no unit, components of different records.
     """
     paths = find_files(record)
     channels = [channel for path in paths for channel in parse(path, read_lines(path), units, component is not None)]
@@ -61,30 +63,44 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     dt, values = _aligned(channels, trim_to_shortest)
     acceleration = _to_house_axes(str(record), values, directions)
     if np.abs(acceleration).max() > SURPRISING:
-        warnings.warn(f"{record}: {np.abs(acceleration).max() / GAL:.0f} gal, more than was ever recorded: is the unit right?", RecordWarning, stacklevel=2)
+        warnings.warn(f"{record}: {np.abs(acceleration).max() / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning, stacklevel=2)
     motion = GroundMotion(dt, acceleration, _common_name(paths), _provenance(channels, directions), _beginning(channels))
     return turned(motion, angle)
 
 
 def find_files(record):
     """Files of a record: one file, a comma-separated list, or three files with a common prefix. Raises RecordError."""
-    path = Path(str(record)).expanduser()
-    if path.is_file():
+    path = _path(str(record))
+    if is_file(path):
         return [path]
-    if path.is_dir():
+    if is_folder(path):
         raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
-    parts = [Path(part.strip()).expanduser() for part in str(record).split(",")]
-    if len(parts) == 1 or path.parent.is_dir() and "," not in path.name:
+    if exists(path):
+        raise RecordError(f"{record}: not a regular file; copy its content to a file")
+    parts = [_path(part.strip()) for part in str(record).split(",")]
+    if len(parts) == 1 or is_folder(path.parent) and "," not in path.name:
         return _find_by_prefix(path)
+    if len(parts) > MAX_COMPONENTS:
+        raise RecordError(f"{record}: {len(parts)} files; at most {MAX_COMPONENTS}, one for each component")
     for part in parts:
-        if not part.is_file():
-            raise RecordError(f"{part}: no such file")
+        if not is_file(part):
+            raise RecordError(f"{part}: no such file, or not a regular one")
     return parts
+
+
+def _path(text):
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:  # '~name' of an unknown user
+        return Path(text)
 
 
 def _find_by_prefix(prefix):
     folder = prefix.parent
-    names = sorted(p.name for p in folder.iterdir()) if folder.is_dir() else []
+    try:
+        names = sorted(p.name for p in folder.iterdir()) if is_folder(folder) else []
+    except OSError as error:
+        raise RecordError(f"{folder}: cannot be read ({error.strerror})") from None
     rests = {name[len(prefix.name) :]: folder / name for name in names if name.startswith(prefix.name)}
     partial = []
     for _, pattern, _ in _SUFFIXES:
@@ -102,20 +118,20 @@ def _directions(channels, component):
     if component is None:
         directions = [channel.direction for channel in channels]
     else:
-        words = str(component).split(",")
-        if len(words) != len(channels):
-            raise RecordError(f"component={component}: {len(words)} directions for {len(channels)} components")
-        directions = [_stated_direction(word) for word in words]
+        names = str(component).split(",")
+        if len(names) != len(channels):
+            raise RecordError(f"component={component}: {len(names)} directions for {len(channels)} components")
+        directions = [_stated_direction(name) for name in names]
     for channel, direction in zip(channels, directions):
         if direction is None:
             raise RecordError(f"{channel.path}: direction not stated; give it: --component ns, ew, ud or an azimuth")
     return directions
 
 
-def _stated_direction(word):
-    direction = direction_of(word)
+def _stated_direction(name):
+    direction = direction_of(name)
     if direction is None:
-        raise RecordError(f"component={word}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
+        raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
     return direction
 
 
@@ -174,15 +190,15 @@ def _common_name(paths):
 
 
 def _provenance(channels, directions):
-    """One line: the files, the direction of each component, what is missing."""
+    """One line: the files, the direction of each component, a note on missing components."""
     by_file = {}
     for channel, direction in zip(channels, directions):
-        by_file.setdefault(channel.path.name, []).append(_word(direction))
-    files = ", ".join(f"{name} ({', '.join(words)})" for name, words in by_file.items())
+        by_file.setdefault(channel.path.name, []).append(_direction_name(direction))
+    files = ", ".join(f"{file} ({', '.join(names)})" for file, names in by_file.items())
     note = "" if len(channels) == 3 else "; the other components are zero"
     return files + note
 
 
-def _word(direction):
-    """'ns', 'ew', 'up', 'down' or an azimuth in words."""
+def _direction_name(direction):
+    """'ns', 'ew', 'up', 'down' or an azimuth like '30 deg'."""
     return {0.0: "ns", 90.0: "ew"}.get(direction, f"{direction:g} deg" if isinstance(direction, float) else direction)

@@ -8,6 +8,8 @@ from datetime import datetime
 
 import numpy as np
 
+from ..base.input_file import InputError, shown
+
 GAL = 0.01
 """One gal (cm/s2) in m/s2."""
 
@@ -30,12 +32,16 @@ UNITS = {
 """Known spellings of acceleration units and their size in m/s2."""
 
 
-class RecordError(ValueError):
-    """A record cannot be used; the message is one line: file, line, problem, what is admissible."""
+MAX_ACCELERATION = 1e3
+"""Largest acceleration of a ground motion. [m/s2] The largest recorded ones are below 50."""
+
+
+class RecordError(InputError):
+    """A record that cannot be used; the message is one line: file:line: member: problem; admissible range; remedy."""
 
 
 class RecordWarning(UserWarning):
-    """A record can be used, but something in it does not fit its own header."""
+    """A usable record that contradicts its own header or exceeds recorded motions."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +51,8 @@ class GroundMotion:
     dt            time step [s]
     acceleration  (n, 3) [m/s2], columns ew, ns, ud: positive towards east, north and up
     name          short name
-    source        where it comes from and how its components were mapped
-    begins        date and time of the first sample, where the record says it (K-NET, JMA: Japan's time)
+    source        files or generator, mapping of the components, processing
+    begins        date and time of the first sample, where the record states it (K-NET, JMA: Japan Standard Time)
     Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
     """
 
@@ -67,6 +73,7 @@ class GroundMotion:
         bad = np.flatnonzero(~np.isfinite(acceleration).all(axis=1))
         if bad.size:
             raise RecordError(f"{self.name}: sample {bad[0]} is not finite; every sample must be a number")
+        require_possible(np.abs(acceleration).max(), self.name)
         acceleration.setflags(write=False)
         object.__setattr__(self, "acceleration", acceleration)
 
@@ -105,9 +112,15 @@ class GroundMotion:
         return {"ns": float(peak[1]), "ew": float(peak[0]), "ud": float(peak[2])}
 
 
+def require_possible(peak, where):
+    """Refuse a peak acceleration [m/s2] that no ground motion has."""
+    if not peak <= MAX_ACCELERATION:
+        raise RecordError(f"{where}: accelerations of up to {peak:.3g} m/s2; at most {MAX_ACCELERATION:g} m/s2; check the unit and the scale")
+
+
 def unit_factor(unit, where):
     """Size of an acceleration unit in m/s2; `where` (file, line) opens the message of RecordError."""
     key = unit.strip().lower().replace(" ", "").strip("()[]")
     if key not in UNITS:
-        raise RecordError(f"{where}: unknown unit '{unit}'; admissible: {', '.join(UNITS)}")
+        raise RecordError(f"{where}: unknown unit {shown(unit)}; admissible: {', '.join(UNITS)}")
     return UNITS[key]

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What ground motion is asked for: one set of names for command lines and for the columns of batch tables."""
+"""Request for a ground motion: the same names for command-line options and for columns of batch tables."""
 
 import math
 from dataclasses import dataclass, field, fields
 
+import numpy as np
+
+from ..base.input_file import shown
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_motion
-from .record import RecordError
+from .record import RecordError, require_possible
 from .synthetic import DEFAULT_SEED, synthetic_motion
 
 
@@ -17,38 +20,38 @@ def _option(kind, metavar, text, low=None, high=None):
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """A ground motion as asked for; what is None was not asked for. The changes are made in the order of the fields.
+    """Source and processing of a ground motion; None: not requested. Processing follows the order of the fields.
 
-    `scale` is left to the run, which records it beside the motion.
+    `scale` is applied by the run, which records it beside the motion.
     """
 
-    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; a file, a prefix, or files with commas between (default: synthetic, like Ojiya 2004)")
+    record: str = _option(str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; a file, a prefix, or files separated by commas (default: synthetic, like Ojiya 2004)")
     seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
-    component: str = _option(str, "WORDS", "direction of each of the record's files, where they do not say: ns, ew, ud or azimuth, with commas between")
-    units: str = _option(str, "UNIT", "gal, m/s2 or g, where the record does not say")
-    shortest: bool = _option(bool, None, "components of different length are cut at the shortest one instead of being refused")
+    component: str = _option(str, "DIRECTIONS", "direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by commas")
+    units: str = _option(str, "UNIT", "unit of the record where it states none: gal, m/s2 or g")
+    shortest: bool = _option(bool, None, "cut components of different length at the shortest one instead of refusing them")
     azimuth: float = _option(
-        float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y: with 90 it shakes along +x (default 0)", -360, 360
+        float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y; with 90 the north component acts along +x (default 0)", -360, 360
     )
-    start: float = _option(float, "S", "leave out what comes before this time of the record [s]", 0, 1e5)
-    end: float = _option(float, "S", "leave out what comes after this time of the record [s]", 0, 1e5)
+    start: float = _option(float, "S", "remove the record before this time [s]", 0, 1e5)
+    end: float = _option(float, "S", "remove the record after this time [s]", 0, 1e5)
     detrend: int = _option(int, "ORDER", "baseline: subtract a polynomial of this order from the accelerations (0: the mean)", 0, 8)
     highpass: float = _option(float, "HZ", "baseline: zero-phase high-pass at this frequency [Hz]", 1e-3, 100)
-    pga: float = _option(float, "GAL", "scale all components so that the larger horizontal one peaks here [gal]", 1e-3, 1e5)
+    pga: float = _option(float, "GAL", "scale all components to this peak of the larger horizontal one [gal]", 1e-3, 1e5)
     intensity: float = _option(float, "I", "scale all components to this JMA intensity (not rounded)", 0, 8)
     scale: float = _option(float, "X", "factor on the ground motion (default 1)", 0, 1e6)
-    resample: bool = _option(bool, None, "band-limited samples at the run's time step, instead of straight lines between the record's samples")
+    resample: bool = _option(bool, None, "resample at the run's time step, band-limited, instead of linear interpolation between the record's samples")
 
     def given(self):
-        """Names of what was asked for."""
+        """Names of the requested fields."""
         return [f.name for f in fields(self) if getattr(self, f.name) is not None and getattr(self, f.name) is not False]
 
     def check(self, name="--{}"):
-        """Raise RecordError for what is out of range or contradicts itself; `name` makes the reader's name of a field."""
+        """Raise RecordError for values out of range and contradictions; `name`: format of a field's name in messages."""
         for f in fields(self):
             value, low, high = getattr(self, f.name), f.metadata["low"], f.metadata["high"]
             if value is not None and low is not None and not low <= value <= high:
-                raise RecordError(f"{name.format(f.name)} {value:g}: must be {_range(value, low, high)}; {f.metadata['help']}")
+                raise RecordError(f"{name.format(f.name)} {_shown(value)}: must be {_range(value, low, high)}; {f.metadata['help']}")
         for one, other in (("record", "seed"), ("pga", "intensity"), ("pga", "scale"), ("intensity", "scale")):
             if getattr(self, one) is not None and getattr(self, other) is not None:
                 raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
@@ -59,7 +62,7 @@ class MotionRequest:
             raise RecordError(f"{name.format('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
     def motion(self, dt):
-        """The GroundMotion asked for, before `scale`. dt [s]: time step to resample to. Raises RecordError."""
+        """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`. Raises RecordError."""
         motion = self._source()
         if self.start is not None or self.end is not None:
             motion = trim(motion, self.start or 0.0, self.end)
@@ -71,12 +74,17 @@ class MotionRequest:
             motion = scaled_to_pga(motion, self.pga, "level")
         if self.intensity is not None:
             motion = scaled_to_intensity(motion, self.intensity)
+        require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)
         return resample(motion, dt)[0] if self.resample else motion
 
     def _source(self):
         if self.seed is not None:
             return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
-        return read_motion(self.record or DEFAULT_RECORD, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+        return read_motion(DEFAULT_RECORD if self.record is None else self.record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+
+
+def _shown(value):
+    return shown(value) if isinstance(value, int) else f"{value:g}"
 
 
 def _range(value, low, high):

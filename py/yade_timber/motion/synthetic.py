@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A seeded synthetic motion like the one recorded at Ojiya (K-NET NIG019) on 2004-10-23, which may not be shipped.
+"""A seeded synthetic motion like the one recorded at Ojiya (K-NET NIG019) on 2004-10-23, which may not be redistributed.
 
-It matches what is published of that record (TARGETS), not its wave form. How it is made, for one seed:
+It matches the published measures of that record (TARGETS), not its wave form. Steps for one seed:
 
 1. Noise: white noise under an envelope (15 s of quiet, P waves, S waves from 18 s, decay), coloured by a
    soil filter (Kanai-Tajimi) with a low cut and a high cut.
 2. Pulses: Mavroeidis-Papageorgiou velocity pulses of about 0.65 s (the site's period), which carry the response
    spectrum's peak, and one of about 2 s, which carries displacement.
-3. Rest: two smooth humps far below 1 gal take away the final velocity and displacement.
+3. Rest: two smooth functions far below 1 gal remove the final velocity and displacement.
 4. Peaks: Ricker wavelets of 5 Hz bring the component and vector peak accelerations to their targets.
 5. Loop: pulse size, number of cycles, noise level and the share of NS are corrected, and 2-4 repeated, until vector
    PGV, JMA intensity and response spectrum fit as well.
 
-A motion that does not converge is thrown away and the next random stream of the same seed is taken.
+A motion that does not converge is discarded and replaced by the next random stream of the same seed.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its parts load when first used: a run needs none of them, and they take 27 MB
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import zero_phase_highpass
 from .measures import CM, VELOCITY_CORNER, jma_intensity, peak, pga, response_spectrum
@@ -30,7 +30,7 @@ GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
 DEFAULT_SEED = 3
-"""Seed of the motion that the package ships. With it an unbraced house falls N-S, as in the paper; that depends on the seed, see docs/claims."""
+"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds differ, see docs/claims."""
 
 DT = 0.01
 """Time step. [s]"""
@@ -51,12 +51,12 @@ TARGETS = {
     "psv_ew": 500.0,
 }
 """Published values: peaks of components and of the horizontal vector [gal], [cm/s], JMA intensity, and the value that
-the 5 % pseudo-velocity [cm/s] exceeds at PSV_PERIODS (asked of EW alone, hence of the resultant too)."""
+the 5 % pseudo-velocity [cm/s] exceeds at PSV_PERIODS (checked for EW alone, hence for the resultant too)."""
 
 PSV_PERIODS = np.linspace(0.60, 0.70, 11)
 """Periods at which the pseudo-velocity is above its target. [s]"""
 
-PSV_AIM = 1.08
+PSV_GOAL = 1.08
 """Smallest pseudo-velocity over PSV_PERIODS that the loop aims at, in parts of the target."""
 
 LOOPS, ATTEMPTS = 25, 100
@@ -64,8 +64,8 @@ LOOPS, ATTEMPTS = 25, 100
 
 
 @dataclass(frozen=True)
-class _Knobs:
-    """What the loop turns: pulse velocity [m/s], cycles in the pulse, noise level [m/s2], NS part of the pulse."""
+class _Parameters:
+    """Parameters of the loop: pulse velocity [m/s], cycles in the pulse, noise level [m/s2], NS part of the pulse."""
 
     pulse: float = 1.15
     cycles: float = 3.6
@@ -112,13 +112,13 @@ def _pgv_h(motion):
 def _converge(random, seed):
     """One motion brought to the targets, or None."""
     noise, pulses = _noise(random), _Pulses.drawn(random)
-    knobs = _Knobs()
+    parameters = _Parameters()
     for _ in range(LOOPS):
-        motion = _assemble(noise, pulses, knobs, seed)
+        motion = _assemble(noise, pulses, parameters, seed)
         got = achieved(motion)
         if _fits(got):
             return motion
-        knobs = _corrected(knobs, got)
+        parameters = _corrected(parameters, got)
     return None
 
 
@@ -128,23 +128,23 @@ def _fits(got):
     return peaks and abs(got["jma"] - TARGETS["jma"]) < 0.02 and got["psv_ew"] > 1.03 * TARGETS["psv_ew"]
 
 
-def _corrected(knobs, got):
-    """Damped multiplicative corrections; each knob mainly moves one measure."""
+def _corrected(parameters, got):
+    """Damped multiplicative corrections; each parameter mainly moves one measure."""
     size = (TARGETS["pgv_h"] / got["pgv_h"]) ** 0.6
-    spectrum = PSV_AIM * TARGETS["psv_ew"] / got["psv_ew"] * got["pgv_h"] / TARGETS["pgv_h"]
+    spectrum = PSV_GOAL * TARGETS["psv_ew"] / got["psv_ew"] * got["pgv_h"] / TARGETS["pgv_h"]
     strength = 10.0 ** (0.5 * (TARGETS["jma"] - got["jma"]))
-    return _Knobs(
-        pulse=knobs.pulse * size,
-        cycles=float(np.clip(knobs.cycles * spectrum**0.5, 2.0, 5.5)),
-        noise=float(np.clip(knobs.noise * strength**0.8, 1.8, 6.0)),
-        share=float(np.clip(knobs.share * strength**0.5, 0.2, 0.9)),
+    return _Parameters(
+        pulse=parameters.pulse * size,
+        cycles=float(np.clip(parameters.cycles * spectrum**0.5, 2.0, 5.5)),
+        noise=float(np.clip(parameters.noise * strength**0.8, 1.8, 6.0)),
+        share=float(np.clip(parameters.share * strength**0.5, 0.2, 0.9)),
     )
 
 
-def _assemble(noise, pulses, knobs, seed):
+def _assemble(noise, pulses, parameters, seed):
     """Noise and pulses with their peaks brought to the targets, at rest at the end."""
-    acceleration = knobs.noise * noise
-    acceleration[:, :2] += pulses.acceleration(knobs)
+    acceleration = parameters.noise * noise
+    acceleration[:, :2] += pulses.acceleration(parameters)
     acceleration[:, 2] *= TARGETS["pga_ud"] * GAL / np.abs(acceleration[:, 2]).max()
     acceleration = _at_rest(acceleration)
     _fit_horizontal_peaks(acceleration[:, 0], acceleration[:, 1])
@@ -214,13 +214,13 @@ class _Pulses:
             signs=random.choice([-1.0, 1.0], 3),
         )
 
-    def acceleration(self, knobs):
+    def acceleration(self, parameters):
         """EW and NS accelerations of the pulses. (n, 2) [m/s2]"""
-        main, second, slow = (_pulse(*self._shape(k), knobs.cycles if k == 0 else 2.2) for k in range(3))
+        main, second, slow = (_pulse(*self._shape(k), parameters.cycles if k == 0 else 2.2) for k in range(3))
         ew = main + 0.35 * second + 0.30 * slow
-        delayed = _pulse(self.times[0] + 0.16, self.periods[0], self.phases[0], knobs.cycles)
-        ns = self.signs[0] * knobs.share * delayed + self.signs[1] * 0.65 * second + self.signs[2] * 0.35 * slow
-        return knobs.pulse * np.column_stack([ew, ns])
+        delayed = _pulse(self.times[0] + 0.16, self.periods[0], self.phases[0], parameters.cycles)
+        ns = self.signs[0] * parameters.share * delayed + self.signs[1] * 0.65 * second + self.signs[2] * 0.35 * slow
+        return parameters.pulse * np.column_stack([ew, ns])
 
     def _shape(self, k):
         return self.times[k], self.periods[k], self.phases[k]
@@ -239,14 +239,14 @@ def _pulse(centre, period, phase, cycles):
 
 
 def _at_rest(acceleration):
-    """Take away the final velocity and displacement with two smooth humps over the shaking. (n, 3) [m/s2]
+    """Remove the final velocity and displacement by two smooth corrections over the shaking. (n, 3) [m/s2]
 
-    The humps last 24 s: the correction is below 0.1 Hz and, as observed for seed 0, 0.05 gal.
+    They last 24 s: the correction is below 0.1 Hz and, as observed for seed 0, 0.05 gal.
     """
     t = _times()
     phase = np.clip((t - P_ARRIVAL - 0.5) / (DURATION - P_ARRIVAL - 1.0), 0.0, 1.0)
-    humps = np.column_stack([np.sin(np.pi * phase) ** 2, np.sin(np.pi * phase) ** 2 * np.cos(np.pi * phase)])
-    return acceleration - humps @ np.linalg.solve(_final_state(humps), _final_state(acceleration))
+    corrections = np.column_stack([np.sin(np.pi * phase) ** 2, np.sin(np.pi * phase) ** 2 * np.cos(np.pi * phase)])
+    return acceleration - corrections @ np.linalg.solve(_final_state(corrections), _final_state(acceleration))
 
 
 def _final_state(acceleration):

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What all record formats share: text of a file, its numbers, and one channel of a record."""
+"""Text of record files: lines, numbers, tables of numbers, dates; and one channel of a record.
+
+String methods instead of regular expressions keep the time of a line proportional to its length.
+`where` opens the message of an error: file, line, member.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,21 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.input_file import read_bytes, shown
 from .record import RecordError
+
+MAX_FILE_SIZE = 10_000_000
+"""Of one file. [bytes]"""
+MAX_LINE = 1000
+"""Characters of one line."""
+MAX_SAMPLES = 200_000
+"""Samples of one component: 33 minutes at 100 Hz."""
+MAX_NUMBER = 1e15
+"""Largest absolute value of a number in a record, of any unit."""
+MIN_STEP, MAX_STEP = 1e-4, 1.0
+"""Time steps of accelerographs. [s]"""
+YEARS = range(1800, 2200)
+"""Years of records."""
 
 UP = "up"
 """Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
@@ -19,14 +37,14 @@ DOWN = "down"
 
 @dataclass(frozen=True)
 class Channel:
-    """One component of a record as its file gives it.
+    """One component of a record, as stored in its file.
 
     path       file
     dt         time step [s]
     values     (n,) [m/s2]
     direction  azimuth in degrees clockwise from north in which the motion is positive, UP, DOWN,
-               or None where the file does not say
-    begins     date and time of the first sample, or None where the file does not say
+               or None where the file does not state it
+    begins     date and time of the first sample, or None where the file does not state it
     """
 
     path: Path
@@ -37,9 +55,9 @@ class Channel:
 
 
 def read_lines(path):
-    """Lines of a text file, UTF-8 or CP932. Raises RecordError when there is no such text."""
+    """Lines of a text file, UTF-8 or CP932. Raises RecordError for another file, one that is too large or has too long a line."""
     try:
-        raw = Path(path).read_bytes()
+        raw = read_bytes(path, MAX_FILE_SIZE)
     except OSError as error:
         raise RecordError(f"{path}: cannot be read ({error.strerror})") from None
     for encoding in ("utf-8-sig", "cp932"):
@@ -48,42 +66,71 @@ def read_lines(path):
         except UnicodeDecodeError:
             continue
         if "\0" not in text and text.strip():
-            return text.splitlines()
+            return _checked_lines(path, text.splitlines())
     raise RecordError(f"{path}: empty or not a text file; a record must be text in UTF-8 or CP932")
 
 
+def _checked_lines(path, lines):
+    long = next((i for i, line in enumerate(lines, 1) if len(line) > MAX_LINE), None)
+    if long is not None:
+        raise RecordError(f"{path}:{long}: a line of {len(lines[long - 1])} characters; at most {MAX_LINE}")
+    if len(lines) > 2 * MAX_SAMPLES:
+        raise RecordError(f"{path}: {len(lines)} lines; at most {2 * MAX_SAMPLES}; cut the record")
+    return lines
+
+
 def finite(text, where):
-    """A finite number. Raises RecordError opening with `where` (file, line)."""
+    """A finite number of at most MAX_NUMBER. Raises RecordError."""
     try:
         value = float(text)
     except ValueError:
         value = np.nan
-    if not np.isfinite(value):
-        raise RecordError(f"{where}: '{text.strip()}' is not a finite number")
+    if not abs(value) <= MAX_NUMBER:
+        raise RecordError(f"{where}: {shown(text.strip())} is not a finite number up to {MAX_NUMBER:g}")
     return value
+
+
+def positive(text, where):
+    """A finite number > 0. Raises RecordError."""
+    value = finite(text, where)
+    if value <= 0.0:
+        raise RecordError(f"{where}: {value:g}; it must be > 0")
+    return value
+
+
+def whole(text, where):
+    """A whole number >= 0 of at most 9 digits. Raises RecordError."""
+    text = text.strip()
+    if not text.isdecimal() or len(text) > 9:
+        raise RecordError(f"{where}: {shown(text)} is not a whole number of at most 9 digits")
+    return int(text)
 
 
 def numbers(path, lines, first):
     """All blank-separated numbers of `lines`; `first` is the number (from 1) of the first of them.
 
-    Returns (n,). Raises RecordError with file and line for what is not a finite number.
+    Returns (n,). Raises RecordError with file and line for a value that is not a finite number.
     """
+    tokens = []
+    for number, line in enumerate(lines, first):
+        tokens += line.split()
+        _require_few_samples(len(tokens), f"{path}:{number}")
     try:
-        values = np.array(" ".join(lines).split(), dtype=float)
-        if np.isfinite(values).all():
+        values = np.array(tokens, dtype=float)
+        if len(values) >= 2 and np.abs(values).max() <= MAX_NUMBER:
             return values
     except ValueError:
         pass
     for number, line in enumerate(lines, first):
         for token in line.split():
-            finite(token, f"{path}, line {number}")
-    raise RecordError(f"{path}: numbers could not be read")
+            finite(token, f"{path}:{number}")
+    raise RecordError(f"{path}: {len(tokens)} samples; a record needs at least 2")
 
 
 def table(path, lines, first, columns, delimiter):
     """Rows of `columns` separated numbers -> (n, columns); blank lines are skipped.
 
-    Raises RecordError with file and line for a row of another length or what is not a finite number.
+    Raises RecordError with file and line for a row of another length or a value that is not a finite number.
     """
     rows = []
     for number, line in enumerate(lines, first):
@@ -92,45 +139,54 @@ def table(path, lines, first, columns, delimiter):
             cells.pop()
         if not any(cells):
             continue
-        where = f"{path}, line {number}"
+        where = f"{path}:{number}"
         if len(cells) != columns:
             raise RecordError(f"{where}: {len(cells)} values; the header names {columns} columns")
         rows.append([finite(cell, where) for cell in cells])
+        _require_few_samples(len(rows), where)
     if len(rows) < 2:
         raise RecordError(f"{path}: {len(rows)} samples; a record needs at least 2")
     return np.array(rows)
 
 
+def _require_few_samples(count, where):
+    if count > MAX_SAMPLES:
+        raise RecordError(f"{where}: more than {MAX_SAMPLES} samples; cut the record")
+
+
 def require_count(path, got, stated, meaning):
-    """Refuse a record whose number of samples is not the one that its header states."""
+    """Refuse a record whose number of samples differs from the one in its header."""
     if got != stated:
-        word = "truncated" if got < stated else "too long"
-        raise RecordError(f"{path}: {word}, {got} samples; {meaning} says {stated}")
+        kind = "truncated" if got < stated else "too long"
+        raise RecordError(f"{path}: {kind}, {got} samples; {meaning} says {stated}")
 
 
 def require_step(dt, where):
-    """Refuse a time step that no accelerograph has; 1 microsecond to 1 second. [s]"""
-    if not 1e-6 <= dt <= 1.0:
-        raise RecordError(f"{where}: time step {dt:g} s; it must be between 1e-6 and 1 s")
+    """Refuse a time step that no accelerograph has. [s]"""
+    if not MIN_STEP <= dt <= MAX_STEP:
+        raise RecordError(f"{where}: time step {dt:g} s; it must be between {MIN_STEP:g} and {MAX_STEP:g} s")
     return dt
 
 
-def clock(words, where):
-    """Date and time from 'year month day hour minute second' with any signs between. Raises RecordError."""
-    numbers_ = re.findall(r"[\d.]+", words)
+def clock(text, where):
+    """Date and time from 'year month day hour minute second', separated by any other characters. Raises RecordError."""
+    parts = re.findall(r"[\d.]+", text)
     try:
-        year, month, day, hour, minute = map(int, numbers_[:5])
-        return datetime(year, month, day, hour, minute) + timedelta(seconds=float(numbers_[5]))
-    except (ValueError, IndexError):
-        raise RecordError(f"{where}: '{words.strip()}' is no date and time; it must be like 2004/10/23 17:56:00") from None
+        year, month, day, hour, minute = map(int, parts[:5])
+        seconds = float(parts[5])
+        if year in YEARS and seconds < 61.0:
+            return datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
+    except (ValueError, OverflowError, IndexError):
+        pass
+    raise RecordError(f"{where}: {shown(text.strip())} is not a date and time of the years {YEARS[0]} to {YEARS[-1]}; it must be like 2004/10/23 17:56:00")
 
 
-def direction_of(word):
+def direction_of(name):
     """Direction from a component's name ('090', 'N-S', 'UP', ...) or None.
 
-    Compass words: towards north, east and up. An azimuth is a whole number of degrees from 0 to 360.
+    Compass names: towards north, east and up. An azimuth is a whole number of degrees from 0 to 360.
     """
-    key = re.sub(r"[^a-z0-9]", "", word.lower())
+    key = "".join(c for c in name.lower() if c.isascii() and c.isalnum())
     if key in ("ns", "n", "north", "northsouth", "y"):
         return 0.0
     if key in ("ew", "e", "east", "eastwest", "x"):
@@ -139,6 +195,6 @@ def direction_of(word):
         return UP
     if key in ("dn", "dwn", "down"):
         return DOWN
-    if re.fullmatch(r"\d{1,3}", key) and int(key) <= 360:
-        return float(int(key))
+    if key.isdecimal() and len(key) <= 3 and int(key) <= 360:
+        return float(key)
     return None

@@ -12,7 +12,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ..house import HouseError
-from ..house.reading import house_files
+from ..house.loader import house_files
 from ..motion import RecordError
 from ..motion.readers import find_files
 

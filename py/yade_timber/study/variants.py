@@ -8,7 +8,7 @@ import yaml
 
 from .claims import parse_run
 from ..base.atomic_write import write_text
-from ..house.reading import SHIPPED, read_table
+from ..house.loader import SHIPPED, load_table
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def write_house(variant, run, folder):
 
 def shipped(name="base"):
     """A shipped house file and the files it extends, as plain tables."""
-    return json.loads(json.dumps(read_table(SHIPPED / f"{name}.yaml")))
+    return json.loads(json.dumps(load_table(SHIPPED / f"{name}.yaml")))
 
 
 def friction(timber=None, snow=None):

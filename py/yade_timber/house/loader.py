@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""House files -> tables. `extends` merges a file into the one that it extends: a file beside it or a shipped one."""
+
+from functools import reduce
+from pathlib import Path
+
+from ..base.input_file import is_file, read_bytes, shown
+from .errors import HouseError
+from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
+from .parser import Table, parse_table
+
+SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
+
+
+def load_table(path):
+    """File `path` with everything it extends merged in; raises HouseError with file and line."""
+    return reduce(merge, reversed([table for _, table in _chain(Path(path))]))
+
+
+def house_files(path):
+    """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
+    return [file for file, _ in _chain(Path(path))]
+
+
+def _chain(path):
+    """[(file, table)] of a house file and the files that it extends."""
+    links, nodes_left, where = [], MAX_NODES, f"{path.name}:1"
+    while path is not None:
+        files = [file for file, _ in links]
+        if path.resolve() in [file.resolve() for file in files]:
+            raise HouseError(f"{where}: extends: the file extends itself through {' -> '.join(file.name for file in files)}; remove one 'extends'")
+        if len(links) == MAX_FILES:
+            raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
+        table, nodes = parse_table(_text(path), path.name, nodes_left)
+        links.append((path, table))
+        nodes_left, where = nodes_left - nodes, table.at("extends")
+        path = _extended(path, table)
+    return links
+
+
+def _text(path):
+    try:
+        return read_bytes(path, MAX_FILE_SIZE).decode("utf-8")
+    except UnicodeDecodeError:
+        raise HouseError(f"{path}: cannot be read: not UTF-8 text") from None
+    except OSError as problem:
+        raise HouseError(f"{path}: cannot be read: {problem.strerror}") from None
+
+
+def _extended(path, table):
+    """The file that a file extends, or None; removes the entry from the table."""
+    parent = table.pop("extends", None)
+    if parent is None:
+        return None
+    if not isinstance(parent, str):
+        raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {shown(parent)}")
+    found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
+    if found is None:
+        raise HouseError(f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that name "
+                         f"(base, {', '.join(shipped_houses())})")
+    return found
+
+
+def shipped_houses():
+    """Names of the shipped houses that `load_house` takes, e.g. ['A', 'B', 'B1', ..., 'storehouse']."""
+    return sorted(path.stem.removeprefix("model") for path in SHIPPED.glob("*.yaml") if path.stem != "base")
+
+
+def shipped_paths(name):
+    """Possible files of a shipped house, from its name ('C2', 'base') or its file's name."""
+    return [SHIPPED / name] if name.endswith(".yaml") else [SHIPPED / f"model{name}.yaml", SHIPPED / f"{name}.yaml"]
+
+
+def merge(base, change):
+    """`change` laid over `base`: tables entry by entry, null removes an entry, everything else is replaced as a whole."""
+    result = Table(base, change.where, base.entries)
+    for key, value in change.items():
+        if value is None and key in base:
+            del result[key]
+            continue
+        both = isinstance(value, Table) and isinstance(base.get(key), Table)
+        result[key] = merge(base[key], value) if both else value
+        result.entries[key] = change.at(key)
+    return result
