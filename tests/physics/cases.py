@@ -11,7 +11,6 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene.engines import angular_momentum, energy, energy_residual  # noqa: F401
 
 O = yw.Omega()
 G = 9.81
@@ -71,8 +70,7 @@ def angle_about(body, axis):
 
 def spin(body, omega):
     """Give a body an angular velocity. [rad/s]"""
-    body.state.angVel = Vector3(*omega)
-    body.state.angMom = angular_momentum(body)
+    yt.set_velocity(body, body.state.vel, omega)
 
 
 def equivalent_modulus():

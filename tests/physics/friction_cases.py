@@ -2,7 +2,7 @@
 """Item 2, friction: blocks on inclines and planes. Tangential springs on prescribed paths: path_cases.py."""
 import numpy as np
 import yade_timber as yt
-from cases import DENSITY, G, energy, energy_residual, scene, steps, turned
+from cases import DENSITY, G, scene, steps, turned
 from rows import Registry, Row, series
 from yade.minieigenHP import Quaternion, Vector3
 
@@ -89,22 +89,27 @@ def sliding_run(dt, v=1.0, orientation=Quaternion.Identity, origin=Vector3.Zero)
     """
     block, along = incline(0.0, dt, orientation, origin)
     steps(int(round(0.1 / dt)))
-    start, before = block.state.pos, energy_residual(energy())
+    start, before = block.state.pos, residual()
     block.state.vel += v * along
-    jump = energy_residual(energy()) - before
+    jump = residual() - before
     heat = dissipated()
     steps(int(round((v / (MU * G) + 0.1) / dt)))
     return {
         "distance": (block.state.pos - start).dot(along),
         "heat": dissipated() - heat,
-        "residual": energy_residual(energy()) - before - jump,
+        "residual": residual() - before - jump,
         "end": orientation.conjugate() * (block.state.pos - origin),
     }
 
 
+def residual():
+    """Residual of the energy balance. [J]"""
+    return yt.energy_residual(yt.energy())
+
+
 def dissipated():
     """Energy dissipated by friction and dashpots. [J]"""
-    return sum(energy()[name] for name in ("friction", "dashpot_normal", "dashpot_shear"))
+    return sum(yt.energy()[name] for name in ("friction", "dashpot_normal", "dashpot_shear"))
 
 
 @case

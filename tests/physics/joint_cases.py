@@ -7,7 +7,7 @@ springs has 1/n of the stiffness.
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from cases import DENSITY, O, energy, energy_residual, spin, steps
+from cases import DENSITY, O, spin, steps
 from rows import Registry, Row, series, worst
 from scipy.linalg import eigh
 from yade.minieigenHP import Vector3
@@ -234,7 +234,7 @@ def swing(dt, count, ks=1.0):
     def probe():
         angular = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)), Vector3.Zero)
         linear = sum((b.state.mass * b.state.vel for b in (beam, column)), Vector3.Zero)
-        return [energy_residual(energy()), *linear, *angular]
+        return [yt.energy_residual(yt.energy()), *linear, *angular]
 
     O.step()
     first = np.array(probe())

@@ -7,8 +7,6 @@ the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS`.
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from yade.minieigenHP import Vector3
-from yade_timber.scene.engines import angular_momentum
 
 O = yw.Omega()
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
@@ -43,10 +41,7 @@ def append(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0)):
     ids, shift = {}, np.asarray(shift, float)
     for name in order:
         ids[name] = O.bodies.append(yt.polyhedron(corners(name) @ rotation.T + shift, fixed=name == "plate", name=name))
-    block = O.bodies[ids["block"]].state
-    block.vel = Vector3(*(rotation @ (-2.2, -0.3, 0)))
-    block.angVel = Vector3(*(np.linalg.det(rotation) * rotation @ (0, 0, 2.0)))
-    block.angMom = angular_momentum(O.bodies[ids["block"]])
+    yt.set_velocity(O.bodies[ids["block"]], rotation @ (-2.2, -0.3, 0), np.linalg.det(rotation) * rotation @ (0, 0, 2.0))
     return ids
 
 
