@@ -19,9 +19,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 import yade_timber as yt  # noqa: E402
 from bench_tools import machine, markdown_table, parser, publish  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.motion import GroundMotion, default_motion  # noqa: E402
-from yade_timber.recording.frames import steps_between  # noqa: E402
-from yade_timber.run.recorder import Recorder  # noqa: E402
+from yade_timber.motion import default_motion  # noqa: E402
 from yade_timber.scene import engines, scenario  # noqa: E402
 from yade_timber.study.options import run_script  # noqa: E402
 
@@ -39,9 +37,9 @@ def arguments():
 
 
 # --- scenes: each returns the function that is measured, with or without the skip ----------------------------------------
-def shaken(options, snow_depth=1.0, **changes):
+def shaken(options, **changes):
     """The house in strong shaking."""
-    scenario.build(scenario.Scenario("skips", options.house, default_motion(), snow_depth, options={"skip_rest": 0, **changes}))
+    scenario.build(scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0, **changes}))
     engines.find_engine(yw.GroundMotionEngine).start = -STRONG
     return lambda: O.run(options.steps, True)
 
@@ -84,39 +82,6 @@ def joints(options, skip):
     return run
 
 
-def snow(options, skip):
-    """The house without snow."""
-    run = shaken(options, snow_depth=0.0)
-    if skip:
-        loop = next(e for e in O.engines if isinstance(e, yw.ContactLoop))
-        for dispatcher in (loop.loop.physDispatcher, loop.loop.lawDispatcher):
-            dispatcher.functors = [f for f in dispatcher.functors if "Snow" not in type(f).__name__]
-    return run
-
-
-def motion(options, skip):
-    """The house on still ground, without a ground motion or with one of zeros."""
-    zeros = None if skip else GroundMotion(0.01, np.zeros((1000, 3)))
-    scenario.build(scenario.Scenario("skips", options.house, zeros, options={"skip_rest": 0}))
-    return lambda: O.run(options.steps, True)
-
-
-def frames(options, skip):
-    """With recorded frames, as in run scripts without --no-frames."""
-    case = scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0})
-    model = scenario.build(case)
-    engines.find_engine(yw.GroundMotionEngine).start = -STRONG
-    recorder = None if skip else Recorder(case, model, "skips")
-
-    def run():
-        for _ in range(options.steps // steps_between(O.dt)):
-            O.run(steps_between(O.dt), True)
-            if recorder:
-                recorder.take(O.time)
-
-    return run
-
-
 def fixed(options, skip):
     """Two hundred blocks in a row, a millimetre apart, without loads: fixed or free."""
     O.reset()
@@ -133,9 +98,6 @@ CASES = {  # (skipped work, scene) -> build
     ("energies that are not recorded", "strong shaking, snow"): energies,
     ("the joint engine when all joints are broken", "strong shaking, snow, no joints"): joints,
     ("fixed bodies: no integration, no pairs", "200 blocks side by side"): fixed,
-    ("functors of snow (kept: YADE ends the process if a pair of materials has none)", "strong shaking, no snow"): snow,
-    ("the ground motion when there is none", "still ground, no snow"): motion,
-    ("frames that are not recorded", "strong shaking, snow"): frames,
 }
 
 

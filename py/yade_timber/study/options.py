@@ -37,40 +37,25 @@ def run_script(main):
 # --- types of arguments -----------------------------------------------------------------------------------------------
 
 
-def count(text):
-    """A whole number >= 1."""
-    return _whole(text, 1)
+def _number(kind, low, noun):
+    """Type of a number: int or float, from the smallest admissible value on, finite."""
+
+    def read(text):
+        try:
+            value = kind(text) if len(text) <= 30 else math.nan
+        except ValueError:
+            value = math.nan
+        if not low <= value < 1e9:
+            raise argparse.ArgumentTypeError(f"'{text[:40]}': must be {noun}, smaller than 1e9")
+        return value
+
+    return read
 
 
-def seed(text):
-    """A whole number >= 0."""
-    return _whole(text, 0)
-
-
-def _whole(text, low):
-    if not text.isascii() or not text.isdigit() or len(text) > 9 or int(text) < low:
-        raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a whole number from {low} to 999999999")
-    return int(text)
-
-
-def positive(text):
-    """A finite number > 0."""
-    return _number(text, lambda value: 0 < value < math.inf, "> 0")
-
-
-def non_negative(text):
-    """A finite number >= 0."""
-    return _number(text, lambda value: 0 <= value < math.inf, ">= 0")
-
-
-def _number(text, admissible, limits):
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not admissible(value):
-        raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a finite number {limits}")
-    return value
+count = _number(int, 1, "a whole number >= 1")
+seed = _number(int, 0, "a whole number >= 0")
+positive = _number(float, sys.float_info.min, "a number > 0")
+non_negative = _number(float, 0, "a number >= 0")
 
 
 def house(text):
