@@ -15,7 +15,8 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import held  # noqa: E402
+from yade_timber.base.lock import held, locked  # noqa: E402
+from yade_timber.study.batch import read_table  # noqa: E402
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  set                                dt    duration
@@ -71,14 +72,10 @@ def test_stopped_killed_resumed(folder):
 
     killed = start(folder)
     long = wait_for(folder, "long-*", killed, held)
-    orphans = children(killed)
-    killed.kill()
-    killed.wait()
-    if held(long):  # the orphan computes the run: no second process takes it
-        meanwhile = subprocess.run([*killed.args, "--only", long.name], cwd=folder, capture_output=True, text=True)
-        assert meanwhile.returncode == 1 and ("another process" in meanwhile.stdout or not held(long))
-    for pid in orphans:
+    runs = children(killed)
+    for pid in [killed.pid, *runs]:
         os.kill(pid, signal.SIGKILL)
+    killed.wait()
     while held(long):
         time.sleep(0.02)
     finished = {path: path.stat().st_mtime_ns for path in (folder / "results" / "runs").glob("*/run.json")}
@@ -93,6 +90,16 @@ def test_stopped_killed_resumed(folder):
     again = start(folder)
     output, _ = again.communicate(timeout=60)
     assert "runs to do" not in output and "3 done, 1 failed" in output, output
+
+
+def test_a_run_of_another_process_is_left_alone(folder):
+    row = next(row for row in read_table(folder / "runs.txt") if row.description == "long")
+    run = folder / "results" / "runs" / row.name
+    run.mkdir(parents=True)
+    with locked(run):
+        process = start(folder, "--only", row.name)
+        output, _ = process.communicate(timeout=60)
+    assert process.returncode == 1 and "another process" in output and {path.name for path in run.iterdir()} == {".lock"}
 
 
 @pytest.mark.parametrize(
