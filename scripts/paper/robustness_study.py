@@ -17,7 +17,7 @@ sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, whic
 from yade_timber.study.claims import RUNS, parse_run  # noqa: E402
 from yade_timber.study.comparison import run_cases  # noqa: E402
 from yade_timber.study.driver import Task  # noqa: E402
-from yade_timber.study.options import Parser, add_driver_options, run_script, selected  # noqa: E402
+from yade_timber.study.options import Parser, add_driver_options, record, run_script, selected  # noqa: E402
 
 SEEDS = (0, 1, 2, 4, 5)
 SCALES = (0.5, 0.75, 1.25, 1.5)
@@ -43,7 +43,7 @@ def tasks_of(case, options, folder):
 def main():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/robustness")
-    parser.add_argument("--record", metavar="FILE_OR_PREFIX", help="a recorded motion as one more case")
+    parser.add_argument("--record", type=record, metavar="FILE_OR_PREFIX", help="a recorded motion as one more case")
     parser.add_argument("--only", help="cases, comma-separated (default: all)")
     options = parser.parse_args()
     known = all_cases(options.record)

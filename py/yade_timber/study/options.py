@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 from ..base.errors import RunError
+from ..base.time_step import DEFAULT_DT
 from ..house import HouseError, load_house
 from ..motion import MotionRequest, RecordError
 
@@ -67,6 +68,15 @@ def house(text):
     return text
 
 
+def record(text):
+    """A recorded ground motion without errors."""
+    try:
+        MotionRequest(record=text).motion(DEFAULT_DT)
+    except RecordError as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from None
+    return text
+
+
 def list_of(kind):
     """Type of a comma-separated list: 'list_of(positive)' reads '0.5,1'."""
     return lambda text: [kind(part) for part in text.split(",")]
@@ -95,7 +105,7 @@ def add_driver_options(parser, folder):
 
 def add_run_options(parser):
     """Options that are passed to every run."""
-    parser.add_argument("--record", metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
+    parser.add_argument("--record", type=record, metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
     parser.add_argument("--seed", type=seed, metavar="N", help="synthetic ground motion of another seed")
     parser.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion")
     parser.add_argument("--start", type=float, metavar="S", help="start of the ground motion, in the record's time [s]")
