@@ -80,24 +80,25 @@ class DamageSurvey:
     def _columns(self):
         return np.array([k for k, kind in enumerate(self.elements.kind) if kind == "column"], int)
 
+    @cached_property
+    def _vertical_at_start(self):
+        return _vertical(self.elements.orientation[self._columns])
+
     def fallen_columns(self, state):
         """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
-        cosine = (_vertical(state.orientation[self._columns]) * _vertical(self.elements.orientation[self._columns])).sum(1)
-        return cosine < math.cos(FALLEN_ANGLE)
+        return (_vertical(state.orientation[self._columns]) * self._vertical_at_start).sum(1) < math.cos(FALLEN_ANGLE)
 
     def loose_columns(self, state):
-        """(C,) bool for each column: not fallen, without a joint that has a spring left."""
-        intact = np.asarray(state.broken < self.joints.springs)
-        joined = np.union1d(self.joints.a[intact], self.joints.b[intact])
-        return self._present(state) & ~self.fallen_columns(state) & ~np.isin(self._columns, joined)
-
-    def _present(self, state):
-        return ~np.isnan(state.position[self._columns, 0])
+        """(C,) bool for each column: no joint of it has a spring left."""
+        intact, joined = state.broken < self.joints.springs, np.zeros(len(self.elements.name), bool)
+        joined[self.joints.a[intact]] = joined[self.joints.b[intact]] = True
+        return ~joined[self._columns]
 
     def count_columns(self, state):
-        """The part `columns` of the summary: {'total', 'fallen', 'loose'}."""
-        masks = {"total": self._present(state), "fallen": self.fallen_columns(state), "loose": self.loose_columns(state)}
-        return {name: int(mask.sum()) for name, mask in masks.items()}
+        """The part `columns` of the summary: {'total', 'fallen', 'loose' (and not fallen)}."""
+        present, fallen = ~np.isnan(state.position[self._columns, 0]), self.fallen_columns(state)
+        loose = present & ~fallen & self.loose_columns(state)
+        return {"total": int(present.sum()), "fallen": int(fallen.sum()), "loose": int(loose.sum())}
 
     @cached_property
     def loose_at_start(self):
@@ -118,7 +119,7 @@ class DamageSurvey:
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
             if level.structure == structure and marks:
-                moves.append(((state.position[marks] - self.elements.position[marks]).mean(0), level.height))
+                moves.append(((state.position[marks] - self.elements.position[marks]).sum(0) / len(marks), level.height))
         return moves
 
     def fallen_structures(self, state):
@@ -149,11 +150,13 @@ class DamageSurvey:
 
     def fallen_snow(self, state):
         """Names of the roof elements that have lost their snow (SNOW_DROP)."""
+        if not self._snow:
+            return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
         return [self.elements.name[roof] for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
 
 
 def _vertical(q):
-    """(..., 3) the world's vertical in the body frame of unit quaternions (..., 4) w, x, y, z."""
-    w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
-    return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], -1)
+    """(n, 3) the world's vertical in the body frames of unit quaternions (n, 4) w, x, y, z."""
+    w, x, y, z = q.T
+    return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]).T
