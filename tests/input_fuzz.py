@@ -126,15 +126,43 @@ def damaged_trees(draw):
     return yaml.safe_dump(tree, allow_unicode=True, sort_keys=False).encode("utf-8", "surrogatepass")
 
 
-house_files = damaged_trees() | damaged_texts([SHED]) | st.binary(max_size=200)
+SIZES = st.sampled_from([0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3, 0.0101, 0.02, 0.05, 0.1, 0.3, 0.49, 0.5, 1, 1.99, 2, 3, 20, 99]) | st.floats(0, 3)
+ROOFS = st.sampled_from(["type: gable, pitch", "type: gable, ridge: x, pitch", "type: hip, pitch", "type: hip, corner_cut: 0.1, pitch", "type: gable, ridge_height", "type: hip, ridge_height"])
+
+
+@st.composite
+def varied_trees(draw):
+    """The shed with another roof and a few numbers replaced by others, small and large, that often are admissible."""
+    tree = yaml.safe_load(SHED.replace("type: gable, pitch", draw(ROOFS)))
+    for _ in range(draw(st.integers(1, 3))):
+        numbers = list(_numbers(tree["structures"]["shed"])) + [(tree["snow"], "depth"), (tree["plumb"], "drift")]
+        node, key = draw(st.sampled_from(numbers))
+        node[key] = draw(SIZES) if draw(st.booleans()) else node[key] * draw(st.floats(0.5, 2))
+    return yaml.safe_dump(tree, sort_keys=False).encode()
+
+
+def _numbers(node):
+    """(table or list, key) of all numbers in a tree."""
+    for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+        if isinstance(value, (dict, list)):
+            yield from _numbers(value)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            yield node, key
+
+
+house_files = varied_trees() | damaged_trees() | damaged_texts([SHED]) | st.binary(max_size=200)
 record_files = damaged_texts(record_texts()) | st.binary(max_size=200)
 
 _OPTIONS = ("record", "seed", "component", "units", "azimuth", "start", "end", "detrend", "highpass", "pga", "intensity", "scale")
 _option_values = st.sampled_from(["0", "1", "-1", "0.1", "2", "30", "1e-3", "100", "300", "1e5", "1e6", "nan", "inf", "-inf", "1e308", "9" * 30, "9" * 400, "9" * 5000, "", " ", "nonsense", "x" * 5000,
                                   "a,b", "," * 500, "ns,ew,ud", "gal", "g", "/", "/dev/zero", "/dev/null", "/proc/kmsg", "~nobody-of-that-name/x", "\ud800", "\x1b[31m"])  # fmt: skip
-motion_options = st.lists(st.tuples(st.sampled_from(_OPTIONS), _option_values | st.floats().map(repr) | st.floats(0, 30).map(repr)), max_size=4).map(
-    lambda pairs: [f"--{name}={value}" for name, value in pairs]
-)
+
+
+def _command_line(pairs):
+    return [f"--{name}={value}" for name, value in pairs]
+
+
+motion_options = st.lists(st.tuples(st.sampled_from(_OPTIONS), _option_values | st.floats().map(repr) | st.floats(0, 30).map(repr)), max_size=4).map(_command_line)
 
 
 class _Stopped(Exception):

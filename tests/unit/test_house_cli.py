@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""scripts/house.py: what its options make of a house file, and the line that bad input gets."""
+"""scripts/house.py: scenario from options and house file; refusal of bad input in one line."""
 import pytest
 from yade_timber.run import cli
 from yade_timber.run.launch import main_house
@@ -9,7 +9,7 @@ SNOWY = "extends: storehouse\nname: mine\nsnow: {depth: 0.7}\n"
 
 @pytest.fixture
 def own(tmp_path):
-    """A house file with snow of its own."""
+    """A house file that sets a depth of snow."""
     path = tmp_path / "my.house.yaml"
     path.write_text(SNOWY)
     return path
@@ -20,7 +20,7 @@ def read(*words):
 
 
 def test_a_file_by_itself(own):
-    """Its own snow, no earthquake; results under the file's name."""
+    """Snow of the file, no earthquake; results under the file's name."""
     scenario, output = read(own)
     assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth, scenario.duration) == ("my.house", str(own), None, 0.7, cli.QUIET_DURATION)
     assert str(output.folder) == "results/my.house"
@@ -31,7 +31,7 @@ def test_snow_and_quake(own):
     assert scenario.snow_depth == 0 and scenario.scale == 0.5 and scenario.duration == scenario.motion.duration == 40
 
 
-def test_a_record_shakes_without_being_asked(own, tmp_path):
+def test_a_record_implies_an_earthquake(own, tmp_path):
     record = tmp_path / "r.csv"
     record.write_text("# units: gal\n# dt: 0.01\nns,ew,ud\n" + "1,2,3\n" * 50)
     scenario, _ = read(own, "--record", record)

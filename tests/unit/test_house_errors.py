@@ -64,7 +64,7 @@ def message(tmp_path, text):
     return str(caught.value)
 
 
-def test_a_storehouse_of_ones_own(tmp_path):
+def test_a_small_storehouse(tmp_path):
     counts = build(tmp_path, STOREHOUSE).counts()
     assert counts["by_kind"] == {"ground": 1, "sill": 4, "column": 6, "brace": 1, "beam": 4, "roof": 1, "snow": 1}
     assert counts["joints_by_kind"] == {"column_beam": 12, "brace_beam": 2, "beam_beam": 4}
@@ -72,7 +72,7 @@ def test_a_storehouse_of_ones_own(tmp_path):
 
 
 def test_structures_are_not_jointed_to_each_other(tmp_path):
-    """A second store that touches the first has its own joints only, though the roofs' side faces lie flush."""
+    """Two stores in contact: no joints between them, though the side faces of their roofs are flush."""
     start, end = STOREHOUSE.index("  store:"), STOREHOUSE.index("joint_types:")
     second = STOREHOUSE[start:end].replace("store:", "annex:").replace("origin: [0, 0]", "beside: store, gap: 0")
     ties = "  - {between: [roof, roof], type: peg, kind: roof_roof}\nsnow:"
@@ -80,7 +80,7 @@ def test_structures_are_not_jointed_to_each_other(tmp_path):
     assert model.counts()["joints_by_kind"] == {"column_beam": 24, "brace_beam": 4, "beam_beam": 8}
 
 
-def test_joint_reading_is_one_switch_that_a_joint_type_may_override(tmp_path):
+def test_joint_types_override_the_joint_reading(tmp_path):
     text = STOREHOUSE + "law: {joint_reading: joint}\n"
     assert {joint.per for joint in build(tmp_path, text).joints} == {"joint"}
     assert {joint.per for joint in build(tmp_path, text.replace("strength: 2000", "strength: 2000, per: spring")).joints} == {"spring"}

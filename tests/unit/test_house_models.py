@@ -74,7 +74,7 @@ def test_no_overlap_and_every_joint_on_both_surfaces(name):
 
 
 def test_neighbours_are_flush():
-    """Members that meet do so with no gap: every near pair is either in contact to rounding or clear by millimetres."""
+    """Every pair with touching bounding boxes is either in contact to rounding or millimetres apart."""
     gaps = np.array([gap for *_, gap in overlaps(house("C"))])
     assert not ((np.abs(gaps) > 1e-9) & (gaps < 1e-3)).any()
 

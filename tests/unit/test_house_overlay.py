@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Houses changed without a new file: single keys, added braces, a factor on the joints; and the bays that are still free."""
+"""Variants of a house: changed keys, added braces, a factor on the strength of joints; free bays."""
 
 import sys
 from pathlib import Path
@@ -18,7 +18,7 @@ def where(column):
 
 
 def built(folder, **changes):
-    """(raw tables, HouseModel) of house B with changes, read back from the file that a run would get."""
+    """(tables, HouseModel) of house B with changes, written to a file and loaded again."""
     data = changed_house("B", where=where, **changes)
     path = folder / "house.yaml"
     path.write_text(yaml.safe_dump(data, sort_keys=False))
@@ -94,7 +94,7 @@ def test_refusals_name_row_and_column(changes, said):
 
 
 def test_free_bays_of_house_b():
-    """A wall of 9 bays with braces in 2 has 7 free ones, of 8 bays 6; the inner lines have 7 and 4; per storey 37. The entrance's 4 are all free."""
+    """Free bays: 7 of 9 and 6 of 8 in walls with two braces, 7 and 4 on the inner lines, 37 a storey; all 4 of the entrance."""
     bays = free_bays(load_house("B"))
     assert len(bays) == len(set(bays)) == 2 * 37 + 4
     walls = {wall: sum(f"main.brace1.{wall}." in name for name in bays) for wall in ("NS.x0", "NS.x4", "NS.x8", "EW.y0", "EW.y4", "EW.y9")}
@@ -103,7 +103,7 @@ def test_free_bays_of_house_b():
 
 
 def test_a_brace_in_a_free_bay_fits(tmp_path):
-    """No overlap, no loose end: the bays nearest to B's own braces and one over two modules on an inner line."""
+    """No overlap and joints at both ends, in the bays nearest to B's own braces and in one of two modules on an inner line."""
     names = ["main.brace1.NS.x0.1-2", "main.brace1.NS.x4.1-3", "main.brace2.EW.y9.7-6"]
     assert set(names) <= set(free_bays(load_house("B")))
     path = tmp_path / "house.yaml"

@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Houses that are none of the paper's: gable roofs, eaves, pyramids, areas, wings, what a file takes from another; small and very large."""
+"""Other houses than the paper's: gable roofs, eaves, pyramids, areas, wings, `extends`; small and large."""
 
 import sys
 import time
@@ -66,7 +66,7 @@ def test_gable_roof_against_closed_forms(tmp_path):
     assert model.counts()["joints_by_kind"]["roof_roof"] == 1
 
 
-def test_ridge_height_and_pitch_say_the_same(tmp_path):
+def test_ridge_height_and_pitch_are_equivalent(tmp_path):
     one = shed(tmp_path, "type: gable, ridge: x, pitch: 0.5, thickness: 0.12")
     other = shed(tmp_path, f"type: gable, ridge: x, ridge_height: {2.24 + 0.5 * 1.56}, thickness: 0.12")
     for a, b in zip(one.of_kind("roof"), other.of_kind("roof")):
@@ -96,7 +96,7 @@ def test_one_module_is_a_house(tmp_path, roof):
 
 
 def test_areas_meet_on_the_grid_line(tmp_path):
-    """Two roofs over one grid: no margin and no eaves where they meet, and the sum of both covers the whole."""
+    """Two roofs over one grid: no margin and no eaves at their common edge; together they cover the whole."""
     halves = [f"type: flat, thickness: 0.1, eaves: 0.2, area: {{x: [0, 2], y: {y}}}" for y in ("[0, 1]", "[1, 3]")]
     roofs = shed(tmp_path, halves[0] + "}\n      - {layer: roof, " + halves[1]).of_kind("roof")
     assert [e.name for e in roofs] == ["shed.roof1", "shed.roof2"]
@@ -123,8 +123,8 @@ def test_the_order_of_the_kinds_in_a_joint_rule_does_not_matter(tmp_path):
     assert turned != text and [frozenset(e) for e in ends[0]] == [frozenset(e) for e in ends[1]]
 
 
-def test_a_file_takes_what_it_does_not_say_from_a_shipped_house(tmp_path):
-    """`extends` by name; null takes an entry out; a file beside goes first."""
+def test_a_file_extends_a_shipped_house(tmp_path):
+    """`extends` by name; null removes an entry; a file in the same folder has priority over a shipped one."""
     model = house(tmp_path, "extends: C2\nname: mine\nstructures: {entrance: null}\ndamage: {regions: []}\n")
     assert {e.group for e in model.elements} == {"", "main"} and not any(j.broken for j in model.joints)
     (tmp_path / "base.yaml").write_text("extends: A\nname: beside\ndescription: the file beside\n")
@@ -135,13 +135,13 @@ def test_json_is_yaml(tmp_path):
     assert house(tmp_path, '{"extends": "C", "name": "mine", "snow": {"depth": 0.5}}').snow_depth == 0.5
 
 
-def test_two_beams_on_one_line_have_names_of_their_own(tmp_path):
+def test_two_beams_on_one_line_have_different_names(tmp_path):
     lines = "[{along: y, at: [0, 2], from: 0, to: 1}, {along: y, at: [0, 2], from: 2, to: 3}]"
     names = [e.name for e in shed(tmp_path, "type: flat, thickness: 0.1", lines=lines, walls=lines).elements]
     assert len(set(names)) == len(names) and "shed.beam1.NS.x0.2" in names
 
 
-def test_a_very_large_house_is_built_in_seconds(tmp_path):
+def test_a_large_house_is_built_in_seconds(tmp_path):
     """20 x 20 modules with a column at every node, each checked for overlaps with its neighbours."""
     everywhere = f"[{{along: y, at: {list(range(21))}, from: 0, to: 20}}]"
     start = time.process_time()

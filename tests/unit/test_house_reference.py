@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""docs/house_files.md names every key of a house file, with the range and the default that the schema has, and no other."""
+"""docs/house_files.md documents exactly the keys of the schema, with their ranges and defaults."""
 
 import re
 import sys
@@ -20,7 +20,7 @@ ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
 
 
 def tables(field, path=""):
-    """(path, Record) of every table that the schema knows; `[]` list, `*` a name of the user's, `{key: x}` one of several forms."""
+    """(path, Record) of every table of the schema; `[]` list, `*` a name chosen by the user, `{key: x}` one of several forms."""
     if isinstance(field, ListOf):
         yield from tables(field.item, path + "[]")
     elif isinstance(field, MapOf):
@@ -35,7 +35,7 @@ def tables(field, path=""):
 
 
 def value_words(field):
-    """What may stand behind a key, in the page's words."""
+    """Admissible values of a key, as worded on the page."""
     if isinstance(field, Number):
         return f"{'whole ' if field.whole else ''}number{field._range()}"
     if isinstance(field, ListOf):
@@ -46,7 +46,7 @@ def value_words(field):
 
 
 def default_words(field):
-    """The default, in the page's words."""
+    """The default, as worded on the page."""
     if field.default is REQUIRED:
         return "required"
     if field.default is None or field.default == ():

@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Measures against closed forms, an independent integration, and published values of real records where they are there."""
+"""Measures against closed forms, an independent integration, and published values of real records where available."""
 
 import os
 import sys
@@ -39,7 +39,7 @@ def test_peaks_of_components_and_vectors():
 
 
 def test_velocity_and_displacement_of_a_smooth_pulse():
-    """d = D sin^4 over 4 s, at rest before and behind. Trapezoids of 0.01 s err by (w dt)^2 / 12, about 2e-5."""
+    """d = D sin^4 over 4 s, at rest before and after. Trapezoids of 0.01 s err by (w dt)^2 / 12, about 2e-5."""
     dt, period, size = 0.01, 4.0, 0.3
     t = np.arange(round(20.0 / dt)) * dt - 8.0
     w = np.pi / period
@@ -52,7 +52,7 @@ def test_velocity_and_displacement_of_a_smooth_pulse():
 
 
 def test_motion_cut_within_its_shaking_does_not_drift():
-    """A burst that is cut while it moves: the rest has a velocity at its first sample, which the high-pass takes away before that sample, too.
+    """A burst cut while it moves has a velocity at its first sample. The high-pass removes it, before that sample too.
 
     The last 20 s are at rest to 2.2 mm, as observed; integrated from the first sample instead, the displacement runs away by 1.8 m.
     """
@@ -62,7 +62,7 @@ def test_motion_cut_within_its_shaking_does_not_drift():
     assert np.abs(gm.displacement(cut, 0.1)[-2000:]).max() < 5e-3
 
 
-def test_highpass_of_velocity_takes_an_offset_away():
+def test_highpass_of_velocity_removes_an_offset():
     motion = sine(1.0, 1.0)
     shifted = gm.GroundMotion(motion.dt, motion.acceleration + [0.0, 0.02, 0.0])
     assert gm.pgv(shifted, corner=None) > 45.0

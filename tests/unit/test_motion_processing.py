@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Changes to a motion: each does what it says, leaves the original alone, and is written into `source`."""
+"""Processing of a motion: closed forms, the original unchanged, a note in `source`."""
 
 import sys
 from pathlib import Path
@@ -20,7 +20,7 @@ def tone(dt=0.01, duration=20.0, frequency=2.0):
     return gm.GroundMotion(dt, np.outer(burst, [2.0, 1.0, 0.5]), "tone", "made here")
 
 
-def test_polynomial_takes_away_exactly_what_was_added():
+def test_polynomial_is_removed_exactly():
     motion = tone()
     t = motion.time
     bent = gm.GroundMotion(motion.dt, motion.acceleration + np.column_stack([0.1 + 0 * t, 0.01 * t, 1e-3 * t**2]))
@@ -55,7 +55,7 @@ def test_trim_and_quiet_ends():
 
 
 def test_turned():
-    """North shakes along +x after 90 degrees; four right angles are none; lengths stay."""
+    """North shakes along +x after 90 degrees; 360 degrees change nothing; lengths are preserved."""
     motion = tone()
     quarter = gm.turned(motion, 90.0)
     assert np.array_equal(quarter.ew, motion.ns) and np.array_equal(quarter.ns, -motion.ew) and np.array_equal(quarter.ud, motion.ud)
@@ -85,7 +85,7 @@ def test_bandlimited_upsampling_is_the_same_motion(dt):
     assert error == 0.0 and fine.dt == dt and "resampled" in fine.source
 
 
-def test_linear_resampling_knows_its_error():
+def test_linear_resampling_reports_its_error():
     """Straight lines miss a sine of angular frequency w by (w dt)^2 / 8 of its size."""
     fine, error = gm.resample(tone(), 0.001, "linear")
     assert error == pytest.approx((4 * np.pi * 0.01) ** 2 / 8, rel=0.05)

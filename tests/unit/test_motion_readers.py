@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reading records: every format from small synthetic files, and every refusal with its message.
+"""Readers of records: every format from small synthetic files; refusals by place and member.
 
 With YADE_TIMBER_RECORDS naming a folder of real records, those are checked against their published peaks too.
 """
@@ -176,7 +176,7 @@ def test_at2_component_stated_by_the_caller(tmp_path):
 
 
 def test_at2_prefix_with_compass_letters(tmp_path):
-    """As NGA-West2 names Japanese stations."""
+    """The naming of Japanese stations in NGA-West2."""
     for name in WAVES:
         write(tmp_path, f"RSN1_NIG019{name.upper()}.AT2", at2_text(WAVES[name], "somewhere"))
     motion = read_motion(tmp_path / "RSN1_NIG019")
@@ -184,7 +184,7 @@ def test_at2_prefix_with_compass_letters(tmp_path):
         np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
 
 
-def test_peknold_is_read_knowingly(tmp_path):
+def test_peknold(tmp_path):
     text = (
         "Data for El Centro 1940 North South Component (Peknold Version)\n"
         f"{N} points at equal spacing of 0.02 sec\n"

@@ -43,7 +43,7 @@ def test_targets_are_met_for_every_seed(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_timing(seed):
-    """15 s of nothing, first shaking right after, strong shaking from about 18 s, gone by 35-40 s."""
+    """15 s of quiet, then first shaking, strong shaking from about 18 s, its end by 35-40 s."""
     motion = made(seed)
     assert (motion.dt, motion.duration) == (0.01, 40.0)
     assert not motion.acceleration[: round(15.0 / motion.dt)].any()

@@ -56,7 +56,8 @@ def _report_loose_end(member, end, touching):
     for mate, area in _lying_at(member, end, touching):
         raise HouseError(f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches {mate.kind} {mate.name} at {where}; add "
                          f"a rule for {member.kind} and {mate.kind} to 'joints', or enlarge the contact area (joint_search.min_area)")
-    raise HouseError(f"{place} has no element at its {end} at {where}; put a beam, sill or floor there or remove the {member.kind}")
+    verb = "stands on nothing" if end == "bottom" else "supports nothing"
+    raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
 
 
 def _lying_at(member, end, touching):

@@ -15,8 +15,8 @@ DECIMALS = 2
 def write_csv(motion, path, comments=()):
     """Write `motion` in gal with named columns; `comments` are lines for the header, each without its '#'.
 
-    The file is written beside its place and then renamed, so that no half file passes for a whole one.
-    Raises RecordError when the place cannot be written.
+    The file is written under a temporary name and then renamed, so that no incomplete file appears.
+    Raises RecordError when the file cannot be written.
     """
     path = Path(path)
     header = [*comments, "units: gal", f"dt: {motion.dt:.10g}", f"samples: {len(motion)}"]
