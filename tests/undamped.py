@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes without dashpots, for checks against undamped solutions."""
 import yade.wrapper as yw
-from yade_timber.scene import engines as scene
+from yade_timber.scene.engines import find_engine
 
 O = yw.Omega()
 
 
 def undamp():
-    """Switch the dashpots of all contacts off, present and future."""
-    for functor in scene.interaction_loop().physDispatcher.functors:
+    """Set the damping ratio of all present and future contacts to zero."""
+    for functor in find_engine(yw.ContactLoop).loop.physDispatcher.functors:
         functor.dampingRatio = 0
     for interaction in O.interactions:
         if interaction.phys is not None:

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Table and plot of the package's errors: every physics case against closed forms, conservation laws and independent solutions.
+"""Table and plot of errors: every physics case against closed forms, conservation laws and independent solutions.
 
     yade -n -x scripts/bench/accuracy_study.py [--only NAME ...] [--out FOLDER]
 
-Writes accuracy.md, accuracy.csv and accuracy.png (error against time step) to FOLDER (default results/accuracy). Exit status 1
-if any
-error is out of its bound. The cases are those of tests/physics, where each bound is explained.
+Writes accuracy.md, accuracy.csv and accuracy.png (error against time step) to FOLDER (default results/accuracy). Exit status 1 if an
+error exceeds its bound. The cases are those of tests/physics, which explain each bound.
 """
-import argparse
 import csv
 import io
 import math
@@ -27,8 +25,10 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "physics")]
 from cases import all_cases  # noqa: E402
 from rows import Row  # noqa: E402
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
+from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.study.options import Parser, results_folder, run_script  # noqa: E402
 
-ITEMS = {
+SECTIONS = {
     "1": "Contact",
     "2": "Friction",
     "3": "Rocking",
@@ -39,27 +39,23 @@ ITEMS = {
     "8": "Invariance",
     "9": "Independent reference",
 }
-HEADS = ("item", "quantity", "expected", "got", "error", "bound", "dt [s]", "order", "within", "note")
+HEADS = ("section", "quantity", "expected", "computed", "error", "bound", "dt [s]", "order", "within", "note")
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="accuracy_study.py", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--only", nargs="+", default=[], metavar="NAME", help="files of cases (impact, friction, ...) or single cases"
-    )
-    parser.add_argument("--out", type=Path, default=Path("results/accuracy"), help="folder of the results")
+    parser = Parser(__doc__)
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="files of cases (impact, friction, ...) or single cases")
+    parser.add_argument("--out", type=results_folder, default="results/accuracy", help="folder of the results (default %(default)s)")
     return parser.parse_args()
 
 
 def rows_of(function):
-    """Rows of one case; a case that fails to run is a row of its own, which does not pass."""
+    """Rows of one case; a case that fails to run gives one row, which does not pass."""
     start = time.monotonic()
     try:
         rows = function()
-    except Exception as error:  # the table must show it and go on
-        rows = [
-            Row("?", function.__name__, math.nan, math.nan, note=f"did not run: {type(error).__name__}: {error}".splitlines()[0])
-        ]
+    except Exception as error:  # shown in the table; the other cases run
+        rows = [Row("?", function.__name__, math.nan, math.nan, note=f"did not run: {type(error).__name__}: {error}".splitlines()[0])]
     passed = sum(row.passes for row in rows)
     print(f"{function.__name__:45} {passed:3} of {len(rows):3} within bounds {time.monotonic() - start:7.1f} s", flush=True)
     return rows
@@ -75,47 +71,33 @@ def cells(row):
 
 
 def markdown(rows):
-    """The table by items. Errors are relative, except where the expected value is 0."""
+    """The page: one table per section."""
     lines = [
         "# Accuracy",
         "",
-        "Errors are relative to the expected value; absolute where it is 0. An empty bound: shown, not judged.",
+        "Errors are relative to the expected value, absolute if it is 0. Rows without a bound are for information only.",
         "",
     ]
     for item in sorted({row.item for row in rows}):
-        lines += [
-            f"## {item}. {ITEMS.get(item, 'Not run')}", "", "| " + " | ".join(HEADS[1:]) + " |", "|---" * (len(HEADS) - 1) + "|"
-        ]
+        lines += [f"## {item}. {SECTIONS.get(item, 'Not run')}", "", "| " + " | ".join(HEADS[1:]) + " |", "|---" * (len(HEADS) - 1) + "|"]
         lines += ["| " + " | ".join(text.replace("|", "\\|") for text in cells(row)[1:]) + " |" for row in rows if row.item == item]
         lines.append("")
     return "\n".join(lines)
 
 
 def comma_separated(rows):
-    """The same with all digits, for further use."""
+    """The table as CSV with all digits."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEADS)
     for r in rows:
-        writer.writerow(
-            (
-                r.item,
-                r.quantity,
-                repr(r.expected),
-                repr(r.got),
-                repr(r.error),
-                repr(r.bound),
-                r.dt or "",
-                r.order or "",
-                r.passes,
-                r.note,
-            )
-        )
+        numbers = map(repr, (r.expected, r.got, r.error, r.bound))
+        writer.writerow((r.item, r.quantity, *numbers, r.dt or "", r.order or "", r.passes, r.note))
     return text.getvalue()
 
 
 def curves(rows):
-    """{item: {quantity: ([dt], [error])}} of all quantities that were run with several steps."""
+    """{section: {quantity: ([dt], [error])}} of all quantities with several time steps."""
     found = defaultdict(lambda: defaultdict(lambda: ([], [])))
     for row in rows:
         if row.dt and row.error > 0:
@@ -127,7 +109,7 @@ def curves(rows):
 
 
 def draw(rows, path):
-    """Error against time step, a panel for each item, with slopes of order 1 and 2."""
+    """Error against time step, one panel per section, with slopes of order 1 and 2."""
     panels = curves(rows)
     figure, axes = plt.subplots(max(1, len(panels)), 1, figsize=(11, 4.2 * max(1, len(panels))), squeeze=False)
     for axis, (item, quantities) in zip(axes[:, 0], panels.items()):
@@ -137,7 +119,7 @@ def draw(rows, path):
         low = min(min(curve[1]) for curve in quantities.values())
         for order, style in ((1, ":"), (2, "--")):
             axis.loglog(steps, [low * (dt / steps[0]) ** order for dt in steps], style, color="0.6", label=f"order {order}")
-        axis.set(title=f"{item}. {ITEMS.get(item, '')}", xlabel="time step [s]", ylabel="error [-]")
+        axis.set(title=f"{item}. {SECTIONS.get(item, '')}", xlabel="time step [s]", ylabel="error [-]")
         axis.grid(True, which="major", alpha=0.3)
         axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
     figure.tight_layout()
@@ -150,20 +132,16 @@ def main():
     options = arguments()
     wanted = [f for f in all_cases() if not options.only or {f.__name__, f.__module__.removesuffix("_cases")} & set(options.only)]
     if not wanted:
-        sys.exit(
-            "error: --only: no such cases; tests/physics has the files " + ", ".join(
-                sorted({f.__module__.removesuffix("_cases") for f in all_cases()})
-            )
-        )
+        known = sorted({f.__module__.removesuffix("_cases") for f in all_cases()})
+        raise RunError(f"--only: no such cases; tests/physics has the files {', '.join(known)}")
     rows = sorted((row for function in wanted for row in rows_of(function)), key=lambda row: row.item)
-    options.out.mkdir(parents=True, exist_ok=True)
     write_text(options.out / "accuracy.md", markdown(rows))
     write_text(options.out / "accuracy.csv", comma_separated(rows))
     draw(rows, options.out / "accuracy.png")
     print(markdown(rows))
     failed = sum(not row.passes for row in rows)
     print(f"{len(rows)} rows, {failed} out of bounds; written to {options.out}")
-    sys.exit(1 if failed else 0)
+    return int(failed > 0)
 
 
-main()
+run_script(main)

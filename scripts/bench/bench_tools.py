@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the benchmark scripts share: timing of blocks of steps, the machine, the results page and its CSV files."""
+"""Shared by the benchmarks: options, timing of blocks of steps, description of the machine, results page and CSV files."""
 import csv
 import os
 import platform
@@ -12,30 +12,43 @@ import yade.wrapper as yw
 
 
 def resident_memory():
-    """Memory of this process that is in RAM [MB]."""
+    """Resident memory of this process [MB]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 BARE_MEMORY = resident_memory()
-"""Before the package is imported, if this module is the first to do it: bare YADE [MB]."""
+"""Resident memory before the package is imported, if this module imports it first: YADE alone [MB]."""
 
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
+from yade_timber.study.options import Parser, count, house, results_folder  # noqa: E402
 
 O = yw.Omega()
 
 PAGE = "performance.md"
-HEAD = "# Performance\n\nMade by `scripts/bench/benchmark_*.py`, each of which rewrites its own section.\n"
+HEAD = "# Performance\n\nEach section is written by a script `scripts/bench/benchmark_*.py`.\n"
 SETTLING = 1.0
-"""Simulated time before the measurement in a state of STATES [s]."""
+"""Simulated time before the measurement in one of STATES [s]."""
 STATES = {"at rest": 0.0, "strong shaking": 18.5}
-"""Where in the ground motion the run begins [s]."""
+"""{state: start of the run in the time of the ground motion [s]}."""
 SECTIONS = ("step", "profile", "skips", "peers", "street", "precision")
-"""Order on the page."""
+"""Sections of the page, in order."""
+
+
+def parser(about, steps, blocks=None, house_name=None):
+    """ArgumentParser of a benchmark; blocks, steps, house_name: defaults of --blocks, --steps, --house (None: no such option)."""
+    made = Parser(about)
+    if house_name:
+        made.add_argument("--house", type=house, default=house_name, help="shipped house or YAML file (default %(default)s)")
+    if blocks:
+        made.add_argument("--blocks", type=count, default=blocks, help="number of repeated measurements; their median counts (default %(default)s)")
+    made.add_argument("--steps", type=count, default=steps, help="steps per block (default %(default)s)")
+    made.add_argument("--out", type=results_folder, help="folder whose performance.md and CSV file get the result (default: print only)")
+    return made
 
 
 def cpu_per_step(steps):
-    """CPU time of this process per step over that many steps [s]. Other processes on the machine do not count."""
+    """CPU time of this process per step, mean of that many steps [s]; independent of other processes."""
     since = time.process_time()
     for _ in range(steps):
         O.step()
@@ -43,7 +56,7 @@ def cpu_per_step(steps):
 
 
 def wall_per_step(steps):
-    """Wall time per step over that many steps [s]; what counts with several threads."""
+    """Wall time per step, mean of that many steps [s]; for runs with several threads."""
     since = time.perf_counter()
     for _ in range(steps):
         O.step()
@@ -51,12 +64,12 @@ def wall_per_step(steps):
 
 
 def interleaved(measures, blocks):
-    """Median of each of several measurements [(name, call)], made in turns, so that a machine that slows down hits all alike: {name: [s]}."""
-    seen = {name: [] for name, _ in measures}
+    """{name: median [s]} of several measurements [(name, call)], made alternately so that a slower machine affects all alike."""
+    times = {name: [] for name, _ in measures}
     for _ in range(blocks):
         for name, call in measures:
-            seen[name].append(call())
-    return {name: statistics.median(values) for name, values in seen.items()}
+            times[name].append(call())
+    return {name: statistics.median(values) for name, values in times.items()}
 
 
 def machine():
@@ -66,13 +79,13 @@ def machine():
 
 
 def markdown_table(heads, rows):
-    """Rows of texts as a table."""
+    """Rows of texts as a Markdown table."""
     line = "| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|\n"
     return line + "".join("| " + " | ".join(str(cell) for cell in row) + " |\n" for row in rows)
 
 
 def write_csv(path, heads, rows):
-    """Table with all digits."""
+    """Write a CSV file with all digits."""
     with written_whole(path) as part, open(part, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(heads)
@@ -80,7 +93,7 @@ def write_csv(path, heads, rows):
 
 
 def write_section(folder, name, text):
-    """Replace a section of the results page, which lies in `folder`; its other sections stay."""
+    """Replace one section of the results page in `folder`; the other sections stay."""
     page = Path(folder) / PAGE
     old = page.read_text(encoding="utf-8") if page.exists() else ""
     kept = dict(re.findall(r"<!-- (\w+) -->\n(.*?)<!-- /\1 -->\n", old, re.S))

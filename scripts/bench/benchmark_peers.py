@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time per contact pair and step, contact points and their errors: this package, YADE's Polyhedra, Bullet, ODE.
+"""Time per contact pair and step, contact points and their errors: this package, YADE's Polyhedra, Bullet and ODE.
 
     scripts/setup --with-bench && yade -j1 -n -x scripts/bench/benchmark_peers.py [--pairs 100] [--out FOLDER]
 
-Bullet and ODE run in build/bench/benchmarks/benchmark_peers (Google Benchmark), beside this package's kernel: contact points, elastic law and
-dashpots for this one, contact points alone for them. YADE's Polyhedra and the whole path of this package through YADE are timed here: a step
-with many far-apart pairs, less the same step without functors, over the number of pairs. CPU time throughout.
+build/bench/benchmarks/benchmark_peers (Google Benchmark) measures Bullet, ODE (contact points alone) and the kernel of this package (contact
+points, contact law, solver). YADE's Polyhedra and this package in YADE are measured here: a step with many separate pairs, minus the same
+step without functors, divided by the number of pairs. CPU time throughout.
 """
-import argparse
 import json
 import math
 import subprocess
@@ -21,8 +20,10 @@ ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without sett
 sys.path.insert(0, str(ROOT / "scripts/bench"))
 
 import yade_timber as yt  # noqa: E402
-from bench_tools import cpu_per_step, interleaved, machine, markdown_table, publish  # noqa: E402
+from bench_tools import cpu_per_step, interleaved, machine, markdown_table, parser, publish  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
+from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.study.options import count, run_script  # noqa: E402
 
 O = yw.Omega()
 
@@ -31,13 +32,13 @@ FACE = "face on face"
 DEPTH = 1e-4
 """Overlap of the touching faces [m]; that of benchmarks/configurations.hpp."""
 PLATE, CUBE, ASIDE = (1.0, 1.0, 0.2), (0.3, 0.3, 0.3), (0.01, 0.02)
-"""Extents of the face configuration and where the cube stands [m]."""
+"""Extents of the face configuration, and horizontal position of the cube [m]."""
 SPACING = 3.0
 """Between pairs [m]."""
 WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
-HEADS = ("who", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]", "error of depth [m]")
+HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]", "error of depth [m]")
 NAMES = {
-    "timber": "this package: points, law, dashpots",
+    "timber": "this package: points, law, solver",
     "timber points": "this package: points alone",
     "timber cold": "this package: points, nothing cached",
     "Bullet": "Bullet: points",
@@ -48,28 +49,25 @@ NAMES = {
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="benchmark_peers.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--pairs", type=int, default=100, help="pairs in the scenes of YADE (default %(default)s)")
-    parser.add_argument("--blocks", type=int, default=7, help="blocks of steps (default %(default)s)")
-    parser.add_argument("--steps", type=int, default=50, help="steps per block (default %(default)s)")
-    parser.add_argument("--repetitions", type=int, default=5, help="of Google Benchmark; the median counts (default %(default)s)")
-    parser.add_argument("--out", type=Path, help="folder whose performance.md and peers.csv get the result")
-    return parser.parse_args()
+    made = parser(__doc__, blocks=7, steps=50)
+    made.add_argument("--pairs", type=count, default=100, help="pairs in the scenes of YADE (default %(default)s)")
+    made.add_argument("--repetitions", type=count, default=5, help="repetitions of Google Benchmark; their median counts (default %(default)s)")
+    return made.parse_args()
 
 
 # --- Google Benchmark --------------------------------------------------------------------------------------------------
 def kernel_rows(repetitions):
     """Rows of the C++ program."""
     if not PROGRAM.exists():
-        sys.exit(f"error: {PROGRAM} is missing: scripts/setup --with-bench builds it")
-    in_turns = "--benchmark_enable_random_interleaving=true"  # a noisy second hits all
-    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", in_turns]
+        raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
+    interleaving = "--benchmark_enable_random_interleaving=true"  # other load affects all alike
+    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", interleaving]
     found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
     median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
     rows = []
     for b in sorted(median, key=lambda b: b["family_index"]):
-        who, pair = b["run_name"].split("/", 1)
-        rows.append((who, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"], b["depth_error"]))
+        program, pair = b["run_name"].split("/", 1)
+        rows.append((program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"], b["depth_error"]))
     return rows
 
 
@@ -101,18 +99,18 @@ def polyhedra_engines():
 
 
 def timber_engines():
-    """All of `yt.engines` but what moves bodies."""
+    """The engines of `yt.engines` without the integrator."""
     return [e for e in yt.engines(gravity=(0, 0, 0)) if not isinstance(e, yw.SymplecticIntegrator)]
 
 
 def without_functors(engines):
-    """The same engines with an empty InteractionLoop and nothing behind it."""
-    place = next(k for k, e in enumerate(engines) if isinstance(e, (yw.ContactLoop, yw.InteractionLoop)))
-    return engines[:place] + [yw.InteractionLoop([], [], [])]
+    """The same engines up to the interaction loop, which is empty."""
+    index = next(k for k, e in enumerate(engines) if isinstance(e, (yw.ContactLoop, yw.InteractionLoop)))
+    return engines[:index] + [yw.InteractionLoop([], [], [])]
 
 
 def load(body, engines, pairs, functors=True):
-    """Pairs in the face configuration, at rest, in a scene of their own; returns its number."""
+    """Pairs in the face configuration, at rest, in a new scene; returns its number."""
     number = O.addScene()
     O.switchToScene(number)
     for k in range(pairs):
@@ -133,39 +131,39 @@ def timed(number, steps):
 
 
 def yade_rows(options):
-    """Rows of the face configuration of YADE's Polyhedra and of this package's whole path."""
+    """Rows of the face configuration: YADE's Polyhedra and this package in YADE."""
     O.reset()
     kinds = {WHOLE: (timber_body, timber_engines), POLYHEDRA: (polyhedra_body, polyhedra_engines)}
-    scenes = {(who, full): load(*kind, options.pairs, full) for who, kind in kinds.items() for full in (True, False)}
+    scenes = {(program, full): load(*kind, options.pairs, full) for program, kind in kinds.items() for full in (True, False)}
     times = interleaved([(key, timed(number, options.steps)) for key, number in scenes.items()], options.blocks)
-    return [judged(who, scenes[who, True], (times[who, True] - times[who, False]) / options.pairs) for who in kinds]
+    return [row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs) for program in kinds]
 
 
-def judged(who, number, seconds):
-    """Row with what the first pair of a scene found."""
+def row_of(program, number, seconds):
+    """Row with the contact points of the first pair of a scene."""
     O.switchToScene(number)
     geometry = O.interactions[0, 1].geom
-    if who == POLYHEDRA:
+    if program == POLYHEDRA:
         found = [(geometry.normal, geometry.equivalentPenetrationDepth)]
     else:
         found = [(normal, overlap) for _, normal, overlap, _ in geometry.points]
     tilt = max(math.atan2(n.cross(Vector3(0, 0, 1)).norm(), n[2]) for n, _ in found)
-    return who, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
+    return program, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
 
 
 # --- page --------------------------------------------------------------------------------------------------------------
 def section(rows):
-    """Text of the results page."""
+    """Section of the results page."""
     time = {(r[0], r[1]): r[2] for r in rows}
     whole, own = time[WHOLE, FACE], time[KERNEL, FACE]
     shown = [(r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}", f"{r[6]:.1g}") for r in sorted(rows, key=lambda r: r[1])]
     return f"""## Contact pairs against peers
 
-One pair and step, CPU time. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; all are placed so that normal and depth are known in closed form. Law and dashpots are included only where it says so.
-YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package's whole path through YADE on the face contact, and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
+CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them are known in closed form. Contact law and solver are included only where stated.
+For the face contact YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package in YADE, and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
 
-{markdown_table(("pair", "who", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]"), shown)}
-A depth error of Polyhedra is that of its equivalent depth, the cube root of the overlap volume. Bullet and ODE find no more than one or two points where a prism stands on its cut end.
+{markdown_table(("pair", "program", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]"), shown)}
+The depth of Polyhedra is its equivalent depth, the cube root of the overlap volume. Bullet and ODE find one or two of the four points of a prism that stands on its cut end.
 """
 
 
@@ -175,4 +173,4 @@ def main():
     publish(options.out, "peers", section(rows), HEADS, rows)
 
 
-main()
+run_script(main)

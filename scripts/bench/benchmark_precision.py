@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Error against run time over the time step and the options that trade one for the other; the stable step, predicted and measured.
+"""Error against run time for several time steps and solver options; predicted and measured stable time step.
 
     yade -j1 -n -x scripts/bench/benchmark_precision.py [--cases impact rocking ...] [--steps 1e-5 1e-4 ...] [--out FOLDER]
 
-A case returns curves sampled each millisecond and peak values. An error is the largest difference from the reference over the largest
-reference value. The reference is the package's default law with dashpots solved to 1e-6, at the smallest step that the case can afford.
+A case gives curves sampled each millisecond and peak values. The error is the largest difference from the reference divided by the largest
+reference value. The reference is the default contact law, solved to a tolerance of 1e-6 with the smallest time step of the case.
 """
-import argparse
 import math
 import sys
 import time
@@ -22,25 +21,27 @@ import yade.wrapper as yw  # noqa: E402
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / folder) for folder in ("scripts/bench", "tests", "tests/stress")]
 
-import hardships  # noqa: E402
-import limits  # noqa: E402
+import extreme_runs  # noqa: E402
+import stable_steps  # noqa: E402
 import yade_timber as yt  # noqa: E402
 from bench_tools import machine, markdown_table, write_csv, write_section  # noqa: E402
 from yade.minieigenHP import Quaternion, Vector3  # noqa: E402
-from yade_timber.scene import scenario  # noqa: E402
-from yade_timber.scene import engines as scene  # noqa: E402
 from yade_timber.base.atomic_write import written_whole  # noqa: E402
+from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.base.time_step import DEFAULT_DT, MAX_DT  # noqa: E402
 from yade_timber.house.errors import StepError  # noqa: E402
 from yade_timber.motion import GroundMotion, default_motion  # noqa: E402
+from yade_timber.scene import engines, scenario  # noqa: E402
+from yade_timber.study.options import Parser, positive, results_folder, run_script  # noqa: E402
 
 O = yw.Omega()
 
 SAMPLE = 1e-3
-"""Simulated time between samples [s]; every step divides it."""
-STEPS = (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 2.5e-4, 5e-4)
+"""Simulated time between samples [s]; a multiple of every time step."""
+STEPS = (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4, DEFAULT_DT, MAX_DT)
 """[s]"""
 REFERENCE = {"sweeps": 500, "tolerance": 1e-6}
-"""Options of the reference runs."""
+"""Solver options of the reference runs."""
 VARIANTS = {
     "default": {},
     "tolerance 1e-2": {"tolerance": 1e-2},
@@ -49,55 +50,55 @@ VARIANTS = {
     "increment form": {"increment": True},
     "vertex-edge contacts": {"vertex_edge": True},
 }
-WANTED = 0.01
-"""Largest error of drifts and joint forces at the default step [-]."""
+TOLERATED = 0.01
+"""Largest admissible error of drifts and joint forces at the default time step [-]."""
 UNBREAKABLE = 1e12
-"""Strength of joints in cases that are about the motion before breaks [N]."""
+"""Strength of joints in cases without breaks [N]."""
 STRONG = 17.6
-"""Where the strong part of the synthetic motion begins [s]."""
+"""Start of the strong part of the synthetic motion [s]."""
 SHAKEN = 6.0
-"""Time of shaking in which energy is watched [s]."""
+"""Duration of shaking for the energy balance [s]."""
 HEADS = ("case", "variant", "dt [s]", "run time [s]", "quantity", "error [-]")
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="benchmark_precision.py", description=__doc__.splitlines()[0])
+    parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(CASES), default=list(CASES), help="default: all")
-    parser.add_argument("--steps", nargs="+", type=float, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)")
+    parser.add_argument("--steps", nargs="+", type=positive, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)")
     parser.add_argument("--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME", help="default: all")
-    parser.add_argument("--no-limits", action="store_true", help="do not measure limits of stability")
-    parser.add_argument("--out", type=Path, default=Path("results/performance"), help="folder of performance.md, precision.csv, precision.png")
+    parser.add_argument("--no-limits", action="store_true", help="do not measure stable time steps and energy balance")
+    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of performance.md, precision.csv, precision.png")
     return parser.parse_args()
 
 
-# --- cases: build(dt, options) and what is looked at -------------------------------------------------------------------
+# --- cases: build(dt, options) and the curves that are compared ---------------------------------------------------------
 def plate():
     O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
 
 
 def build_impact(dt, options):
-    """A cube comes down at 1 m/s, a little askew."""
+    """A slightly tilted cube falls at 1 m/s."""
     O.reset()
     plate()
-    turn = Quaternion(Vector3(1, 0.3, 0).normalized(), 0.02)
-    cube = yt.box((0.2, 0.2, 0.2), (0, 0, 0.1035), orientation=turn)
+    rotation = Quaternion(Vector3(1, 0.3, 0).normalized(), 0.02)
+    cube = yt.box((0.2, 0.2, 0.2), (0, 0, 0.1035), orientation=rotation)
     O.bodies.append(cube)
     yt.set_velocity(cube, (0, 0, -1))
     O.dt, O.engines = dt, yt.engines(**options)
 
 
 def build_rocking(dt, options):
-    """A slender block let go at a tilt of 0.1."""
+    """A slender block released at a tilt of 0.1 rad."""
     O.reset()
     plate()
-    turn = Quaternion(Vector3(0, 1, 0), 0.1)
-    place = turn * Vector3(-0.1, 0, 0.4)
-    O.bodies.append(yt.box((0.2, 0.3, 0.8), (0.1 + place[0], 0, place[2]), orientation=turn))
+    rotation = Quaternion(Vector3(0, 1, 0), 0.1)
+    centre = rotation * Vector3(-0.1, 0, 0.4)
+    O.bodies.append(yt.box((0.2, 0.3, 0.8), (0.1 + centre[0], 0, centre[2]), orientation=rotation))
     O.dt, O.engines = dt, yt.engines(**options)
 
 
 def build_frame(dt, options):
-    """Two columns and a beam, joined, on a ground that sways with 3 m/s2 at 2 Hz."""
+    """Two columns and a beam, joined, under a ground acceleration of 3 m/s2 at 2 Hz."""
     O.reset()
     plate()
     ids = [O.bodies.append(yt.box((0.12, 0.12, 1.2), (x, 0, 0.6))) for x in (-0.6, 0.6)]
@@ -117,33 +118,33 @@ def build_house(house, strength=None):
         motion = default_motion()
         cut = GroundMotion(motion.dt, motion.acceleration[round(STRONG / motion.dt) :], "strong part")
         scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options={"skip_rest": 0, **options}))
-        for joint in scene.find_engine(yw.JointEngine).joints if strength else []:
+        for joint in engines.find_engine(yw.JointEngine).joints if strength else []:
             joint.strength = strength
 
     return build
 
 
 def path():
-    """Position of the body that was added last [m]. Its velocity jumps in impacts: a small shift in time would pass for a large error."""
+    """Position of the last body [m]. Its velocity is discontinuous in impacts: a small shift in time would appear as a large error."""
     return {"path": [*O.bodies[len(O.bodies) - 1].state.pos]}
 
 
 def drifts():
     """Displacement of the beam, or storey drifts."""
-    monitor = scene.find_engine(yw.HouseMonitor)
+    monitor = engines.find_engine(yw.HouseMonitor)
     if monitor is None:
         return {"drift": [*O.bodies[len(O.bodies) - 1].state.displ()]}
-    marks = {level: [O.bodies[b].state.displ() for b, l in zip(monitor.bodies, monitor.levels) if l == level] for level in set(monitor.levels)}
-    means = {level: np.mean([[*d][:2] for d in all], axis=0) for level, all in marks.items()}
+    displacements = {level: [O.bodies[b].state.displ() for b, l in zip(monitor.bodies, monitor.levels) if l == level] for level in set(monitor.levels)}
+    means = {level: np.mean([[*d][:2] for d in all], axis=0) for level, all in displacements.items()}
     return {"drift": np.concatenate([means[level] - means.get(level - 1, 0) for level in sorted(means)])}
 
 
 def joint_forces():
     """Force of each joint [N]."""
-    return [sum(f.norm() for f in joint.forces) for joint in scene.find_engine(yw.JointEngine).joints]
+    return [sum(f.norm() for f in joint.forces) for joint in engines.find_engine(yw.JointEngine).joints]
 
 
-CASES = {  # build, curves, duration [s], smallest step [s], whether joint forces count
+CASES = {  # build, curves, duration [s], smallest time step [s], whether joint forces are compared
     "impact": (build_impact, path, 0.03, 1e-6, False),
     "rocking block": (build_rocking, path, 1.0, 1e-6, False),
     "jointed frame": (build_frame, drifts, 1.0, 1e-6, True),
@@ -154,11 +155,11 @@ CASES = {  # build, curves, duration [s], smallest step [s], whether joint force
 
 # --- runs --------------------------------------------------------------------------------------------------------------
 def run(case, dt, options):
-    """({quantity: values}, CPU time of the steps [s]); None for values when the run failed or the house refuses the step."""
+    """({quantity: values}, CPU time of the steps [s]); None for values if the run failed or the time step is refused."""
     build, curves, duration, _, with_joints = CASES[case]
     try:
         build(dt, options)
-    except StepError:  # the step is too large for the house's joints
+    except StepError:  # too large a time step for the joints of the house
         return None, 0.0
 
     def sample():
@@ -180,12 +181,12 @@ def run(case, dt, options):
     return found, spent
 
 
-def error(found, wanted):
-    """Largest difference over the largest reference value (of a curve: largest way from its start); infinite when the run failed."""
+def error(found, reference):
+    """Largest difference over the largest reference value (of a curve: largest displacement from its start); infinite if the run failed."""
     if found is None or not np.isfinite(found).all():
         return math.inf
-    scale = abs(wanted - wanted[0]).max() if wanted.ndim > 1 else abs(wanted).max()
-    return abs(found - wanted).max() / scale
+    scale = abs(reference - reference[0]).max() if reference.ndim > 1 else abs(reference).max()
+    return abs(found - reference).max() / scale
 
 
 def study(case, options):
@@ -194,31 +195,31 @@ def study(case, options):
     references = {edge: run(case, finest, {**REFERENCE, "vertex_edge": edge})[0] for edge in {VARIANTS[v].get("vertex_edge", False) for v in options.variants}}
     rows = []
     for variant in options.variants:
-        wanted = references[VARIANTS[variant].get("vertex_edge", False)]
+        reference = references[VARIANTS[variant].get("vertex_edge", False)]
         for dt in sorted(s for s in options.steps if s >= finest):
             found, spent = run(case, dt, VARIANTS[variant])
-            rows += [(case, variant, dt, spent, name, error(found and found[name], wanted[name])) for name in wanted]
-            print(f"{case}, {variant}, dt = {dt:g} s: {spent:.2f} s, " + ", ".join(f"{r[4]} {r[5]:.2g}" for r in rows[-len(wanted) :]), flush=True)
+            rows += [(case, variant, dt, spent, name, error(found and found[name], reference[name])) for name in reference]
+            print(f"{case}, {variant}, dt = {dt:g} s: {spent:.2f} s, " + ", ".join(f"{r[4]} {r[5]:.2g}" for r in rows[-len(reference) :]), flush=True)
     return rows
 
 
 def limit_rows():
-    """Predicted and measured stable steps; houses by three tries, small scenes by bisection."""
+    """Predicted and measured stable time steps, by bisection."""
     rows = []
-    for build in (limits.hung_block, limits.stack, limits.house, limits.stiff_house):
-        predicted = limits.settled(build)
-        for words, damped in (("explicit springs, no dashpots", False), ("default", True)):
-            rows.append((build.__name__.replace("_", " "), words, predicted, limits.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped)))
+    for build in (stable_steps.suspended_block, stable_steps.stack, stable_steps.house, stable_steps.stiff_house):
+        predicted = stable_steps.settled(build)
+        for contacts, damped in (("explicit springs, no dashpots", False), ("default", True)):
+            rows.append((build.__name__.replace("_", " "), contacts, predicted, stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped)))
     return rows
 
 
 def energy_rows():
-    """(house, step [s], energy that appears in strong shaking under snow, of all that went in [-]); NaN where the health check stops the run."""
+    """(house, time step [s], energy gained in strong shaking under snow over the input [-]); NaN if the health check stops the run."""
     rows = []
     for house in ("B2", "C1", "C2"):
-        for dt in (1e-4, scenario.DEFAULT_DT, 4e-4, scenario.MAX_DT):
+        for dt in (1e-4, DEFAULT_DT, 4e-4, MAX_DT):
             try:
-                share = hardships.shaken(house, hardships.strong_part(SHAKEN), SHAKEN, snow_depth=1.0, dt=dt)[1]
+                share = extreme_runs.shaken(house, extreme_runs.strong_part(SHAKEN), SHAKEN, snow_depth=1.0, dt=dt)[1]
             except RuntimeError:
                 share = math.nan
             rows.append((house, dt, share))
@@ -228,7 +229,7 @@ def energy_rows():
 
 # --- page --------------------------------------------------------------------------------------------------------------
 def draw(rows, file):
-    """Error against run time, a panel for each case: the worst quantity of each run."""
+    """Error against run time, one panel per case: the largest error of each run."""
     cases = list(dict.fromkeys(r[0] for r in rows))
     figure, axes = plt.subplots(len(cases), 1, figsize=(9, 3.6 * len(cases)), squeeze=False, layout="constrained")
     for axis, case in zip(axes[:, 0], cases):
@@ -240,7 +241,7 @@ def draw(rows, file):
                 if variant == "default":
                     for k, (spent, e, dt) in enumerate(points):
                         axis.annotate(f"{dt:g}", (spent, e), textcoords="offset points", xytext=((5, 4), (-12, -11))[k % 2], fontsize=7)
-        axis.axhline(WANTED, color="0.5", lw=0.8, ls="--")
+        axis.axhline(TOLERATED, color="0.5", lw=0.8, ls="--")
         axis.set(title=case, xlabel="run time [s]", ylabel="error [-]")
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
@@ -258,35 +259,35 @@ def worst_errors(rows):
 
 
 def largest_step(rows, case):
-    """Largest step of the default variant up to which all errors stay below WANTED; None if none does."""
+    """Largest time step of the default variant up to which all errors are below TOLERATED; None if there is none."""
     good = None
     for dt, (_, e) in sorted(worst_errors([r for r in rows if r[:2] == (case, "default")]).items()):
-        if not e < WANTED:
+        if not e < TOLERATED:
             break
         good = dt
     return good
 
 
-def stable_section(stable, kept):
-    """The part about stability."""
-    limit = [(name, words, f"{p:.3g}", f"{m:.3g}", f"{m / p:.2f}") for name, words, p, m in stable]
-    energy = [(house, f"{dt:.3g}", f"{100 * share:.2g} %" if np.isfinite(share) else "failed") for house, dt, share in kept]
+def stable_section(stable, balance):
+    """Subsection on stability."""
+    limit = [(name, contacts, f"{p:.3g}", f"{m:.3g}", f"{m / p:.2f}") for name, contacts, p, m in stable]
+    energy = [(house, f"{dt:.3g}", f"{100 * share:.2g} %" if np.isfinite(share) else "failed") for house, dt, share in balance]
     return (
-        "\n### Stable step\n\n`yt.stable_dt(1)` against the measured limit (bisection to 2 %), which it gives for explicit springs without dashpots and for joints.\n\n"
+        "\n### Stable time step\n\n`yt.stable_dt(1)` predicts the limit of explicit springs without dashpots and of joints. Measured limits: bisection to 2 %.\n\n"
         f"{markdown_table(('scene', 'contacts', 'predicted [s]', 'measured [s]', 'ratio'), limit)}\n"
-        f"Energy that appears (-: is missing) in {SHAKEN:g} s of strong shaking under 1 m of snow, of all that went in:\n\n{markdown_table(('house', 'dt [s]', 'energy'), energy)}"
+        f"Energy gained (-: lost) in {SHAKEN:g} s of strong shaking under 1 m of snow, over the input:\n\n{markdown_table(('house', 'dt [s]', 'energy'), energy)}"
     )
 
 
-def section(rows, stable, kept, options):
-    """Text of the results page."""
+def section(rows, stable, balance, options):
+    """Section of the results page."""
     shown = [(c, v, f"{dt:g}", f"{t:.2f}", q, "failed" if math.isinf(e) else f"{e:.2g}") for c, v, dt, t, q, e in rows]
-    judged = [(case, f"{CASES[case][3]:g}", f"{largest_step(rows, case) or math.nan:g}") for case in options.cases]
-    table = "" if options.no_limits else stable_section(stable, kept)
+    largest = [(case, f"{CASES[case][3]:g}", f"{largest_step(rows, case) or math.nan:g}") for case in options.cases]
+    table = "" if options.no_limits else stable_section(stable, balance)
     return (
-        f"## Error against run time\n\n![error against run time](precision.png)\n\nErrors against the reference at the smallest step, largest difference over largest value. {machine()}.\n\n"
-        f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {WANTED:g} [s]'), judged)}"
-        "\nThe impact is of a cube that comes down on one corner after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s). It asks for a tenth of the default step; drifts of houses and forces in their joints do not.\n"
+        f"## Error against run time\n\n![error against run time](precision.png)\n\nErrors against the reference with the smallest time step: largest difference over largest value. {machine()}.\n\n"
+        f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {TOLERATED:g} [s]'), largest)}"
+        "\nIn the impact the corners of a cube touch one after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s). It needs a tenth of the default time step; drifts of houses and forces in their joints do not.\n"
         f"{table}\n### All runs\n\n{markdown_table(HEADS, shown)}"
     )
 
@@ -295,16 +296,15 @@ def main():
     options = arguments()
     for dt in options.steps:
         if abs(SAMPLE / dt - round(SAMPLE / dt)) > 1e-6:
-            sys.exit(f"error: --steps {dt:g}: must divide {SAMPLE:g} s, the time between samples")
+            raise RunError(f"--steps {dt:g}: must divide {SAMPLE:g} s, the time between samples")
     rows = [row for case in options.cases for row in study(case, options)]
-    stable, kept = ([], []) if options.no_limits else (limit_rows(), energy_rows())
-    options.out.mkdir(parents=True, exist_ok=True)
+    stable, balance = ([], []) if options.no_limits else (limit_rows(), energy_rows())
     draw(rows, options.out / "precision.png")
     write_csv(options.out / "precision.csv", HEADS, rows)
     write_csv(options.out / "stable_dt.csv", ("scene", "contacts", "predicted [s]", "measured [s]"), stable)
-    write_csv(options.out / "balance.csv", ("house", "dt [s]", "energy that appears [-]"), kept)
-    write_section(options.out, "precision", section(rows, stable, kept, options))
+    write_csv(options.out / "balance.csv", ("house", "dt [s]", "energy gained [-]"), balance)
+    write_section(options.out, "precision", section(rows, stable, balance, options))
     print(f"written to {options.out}")
 
 
-main()
+run_script(main)

@@ -1,20 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Make the shipped synthetic ground motion again from its seed, or one of another seed.
+"""Generate the shipped synthetic ground motion from its seed, or one of another seed.
 
     scripts/paper/make_ground_motion.py [--seed N] [--out FILE.csv]
 
-Prints the published targets beside what the motion has. Needs no YADE.
+Prints the published targets and the values of the motion. Needs no YADE.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import DEFAULT_RECORD, RecordError, synthetic_motion, write_csv  # noqa: E402
+from yade_timber.motion import DEFAULT_RECORD, synthetic_motion, write_csv  # noqa: E402
 from yade_timber.motion.synthetic import DEFAULT_SEED, GENERATOR_VERSION, TARGETS, achieved  # noqa: E402
+from yade_timber.study.options import Parser, run_script, seed  # noqa: E402
 
 LABELS = {
     "pga_ns": "PGA NS [gal]",
@@ -42,17 +42,14 @@ def target_text(key):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--seed", type=int, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)")
+    parser = Parser(__doc__)
+    parser.add_argument("--seed", type=seed, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)")
     parser.add_argument("--out", type=Path, help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)")
     options = parser.parse_args()
     out = options.out or (DEFAULT_RECORD if options.seed == DEFAULT_SEED else Path(f"ojiya_like_{options.seed}.csv"))
-    try:
-        motion = synthetic_motion(options.seed)
-        got = achieved(motion)
-        write_csv(motion, out, provenance(options.seed, got))
-    except RecordError as error:
-        sys.exit(f"error: {error}")
+    motion = synthetic_motion(options.seed)
+    got = achieved(motion)
+    write_csv(motion, out, provenance(options.seed, got))
     print(f"{'':46}{'target':>10}{'got':>10}")
     for key, label in LABELS.items():
         print(f"{label:46}{target_text(key):>10}{got[key]:10.2f}")
@@ -60,4 +57,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run_script(main)

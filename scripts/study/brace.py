@@ -1,57 +1,59 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where does one more brace help most? Each free bay of a house gets one in runs of its own; ranked by the largest storey drift, the mean of the motions.
+"""Effect of one more brace: each free bay of a house gets one in runs of its own, ranked by largest storey drift (mean of the motions).
 
     scripts/study/brace.py [-j 2] [--house B] [--scale 1] [--snow 0] [--seeds 1,2] [--only EW.y0,NS.x8] [--start 14 --end 34]
 
-The house as it is runs, too, and leaning to each side by 1/10 000: what differs by less than those runs do is chance.
-Writes brace.csv (a row a bay) and brace.png (ranking, and a plan of each storey).
+The unchanged house is run as well, also out of plumb by 1/10 000 to each side: differences below the scatter of these runs are not
+significant. Writes brace.csv (one row per bay) and brace.png (ranking, and a plan of each storey).
 """
 
-import sys
 from statistics import mean
 
 import matplotlib.pyplot as plt
-from study_common import BLUE, GREY, ORANGE, house_name, parser, run_all, save, write_table
+from study_common import house_name, parser, run_all, save, write_table
 
-from yade_timber.house import HouseError, brace_parts, build_house, free_bays, load_house
+from yade_timber.base.colors import BLUE, GREY, ORANGE
+from yade_timber.base.errors import RunError
+from yade_timber.house import brace_parts, build_house, free_bays, load_house
+from yade_timber.study.options import list_of, non_negative, positive, run_script, seed
 
-AS_IS = "as_it_is"
-PLUMB = ("north", "south", "east", "west")
+UNCHANGED = "unchanged"
+SIDES = ("north", "south", "east", "west")
 SHOWN, NUMBERED = 24, 5
-"""Bays in the picture's ranking, and those of them that are numbered in its plans."""
+"""Number of bays in the ranking of the picture, and of those numbered in its plans."""
 
 
 def arguments():
-    made = parser(__doc__, "study_brace")
+    made = parser(__doc__, "results/study_brace")
     made.add_argument("--house", default="B", type=house_name, help="shipped house or house file (default %(default)s)")
-    made.add_argument("--scale", type=float, default=1.0, help="factor on the motion (default %(default)g)")
-    made.add_argument("--snow", type=float, default=0.0, help="depth of snow [m] (default %(default)g)")
-    made.add_argument("--seeds", default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
-    made.add_argument("--only", default="", metavar="WORDS", help="only bays whose names contain one of these words, separated by commas")
+    made.add_argument("--scale", type=positive, default=1.0, help="factor on the motion (default %(default)g)")
+    made.add_argument("--snow", type=non_negative, default=0.0, help="snow depth [m] (default %(default)g)")
+    made.add_argument("--seeds", type=list_of(seed), default="1,2", metavar="N,N", help="synthetic motions (default %(default)s)")
+    made.add_argument("--only", default="", metavar="TEXT,TEXT", help="only bays whose names contain one of these texts, comma-separated")
     return made.parse_args()
 
 
 def rows(options, bays):
-    """Rows of the batch, for each motion: the house as it is, leaning a little to four sides, and with each brace."""
-    variants = [(AS_IS, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in PLUMB), *((bay, bay, "*") for bay in bays)]
+    """Rows of the batch, for each motion: the unchanged house, out of plumb to four sides, and with each brace."""
+    variants = [(UNCHANGED, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in SIDES), *((bay, bay, "*") for bay in bays)]
     same = {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}"}
     return [
         {**same, "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}
-        for seed in options.seeds.split(",")
+        for seed in options.seeds
         for name, brace, changes in variants
     ]
 
 
 def ranking(found):
-    """(rows of brace.csv, best first; mean drifts of the house as it is and leaning). Variants with a run that failed are left out; those
-    that collapse under a motion come last, the fewer motions the better, then the later."""
+    """(rows of brace.csv, best first; mean drifts of the unchanged house and of those out of plumb). Variants with a failed run are left
+    out. Those that collapse come last, in the order of the number of collapses, then of the mean time of collapse (later is better)."""
     variants = {}
     for entry in found:
         variants.setdefault((entry["braces"], entry["set"]), []).append(entry)
-    whole = {key: entries for key, entries in variants.items() if all(entry["status"] == "done" for entry in entries)}
-    without = [mean(entry["peak_drift"] for entry in entries) for (brace, _), entries in whole.items() if not brace]
-    table = [_ranked(brace, entries, without[0]) for (brace, _), entries in whole.items() if brace]
+    complete = {key: entries for key, entries in variants.items() if all(entry["status"] == "done" for entry in entries)}
+    without = [mean(entry["peak_drift"] for entry in entries) for (brace, _), entries in complete.items() if not brace]
+    table = [_ranked(brace, entries, without[0]) for (brace, _), entries in complete.items() if brace]
     table.sort(key=lambda row: (row["collapses"], -(row["collapse_time_s"] or 0), row["peak_drift"]))
     return table, without
 
@@ -65,7 +67,7 @@ def _ranked(brace, entries, base):
 
 
 def plot(table, without, options, path):
-    """The ranking's first bays, and a plan of each storey with every bay coloured by what a brace there does."""
+    """The first bays of the ranking, and a plan of each storey with every bay coloured by the effect of a brace there."""
     model = build_house(load_house(options.house), check=False)
     main_house = next(iter(model.storey_levels))
     storeys = sorted(model.storey_levels[main_house])
@@ -79,36 +81,36 @@ def plot(table, without, options, path):
     fallen = "; black: the house collapses" if any(row["collapses"] for row in table) else ""
     figure.colorbar(colours, ax=axes[1:], orientation="horizontal", shrink=0.6, label=f"change of the largest storey drift by one more brace there [%]{fallen}")
     snow = f", {options.snow:g} m of snow" if options.snow else ""
-    figure.suptitle(f"House {model.name}: one more brace; synthetic motions of seeds {options.seeds.replace(',', ', ')}, times {options.scale:g}{snow}")
+    figure.suptitle(f"House {model.name}: one more brace; synthetic motions of seeds {', '.join(map(str, options.seeds))}, times {options.scale:g}{snow}")
     save(figure, path)
     plt.close(figure)
 
 
 def draw_ranking(axis, table, without, model):
-    names = [f"{words(model, row['brace'])}   {rank}" for rank, row in enumerate(table, 1)]
+    names = [f"{bay_text(model, row['brace'])}   {rank}" for rank, row in enumerate(table, 1)]
     axis.barh(names, [100 * row["peak_drift"] for row in table], color=[ORANGE if row["collapses"] else BLUE for row in table], height=0.7)
-    axis.axvline(100 * without[0], color=GREY, lw=1.5, label="as it is")
-    axis.axvspan(100 * min(without), 100 * max(without), color=GREY, alpha=0.25, label="the same, out of plumb by 1/10 000")
+    axis.axvline(100 * without[0], color=GREY, lw=1.5, label="unchanged")
+    axis.axvspan(100 * min(without), 100 * max(without), color=GREY, alpha=0.25, label="unchanged, out of plumb by 1/10 000")
     axis.invert_yaxis()
     axis.tick_params(axis="y", labelsize=8)
-    axis.set(xlabel="largest storey drift, mean of the motions [%]", title=f"the best {len(table)} of the bays")
+    axis.set(xlabel="largest storey drift, mean of the motions [%]", title=f"the best {len(table)} bays")
     axis.margins(y=0.01)
     axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=2, frameon=False)
 
 
-def words(model, name):
-    """'storey 1, south wall, E-W bay at 3.2 m': the bay of a brace, by its middle along the wall."""
+def bay_text(model, name):
+    """Bay of a brace as text: 'storey 1, south wall, 3.2 m east', the position of its centre along the wall."""
     structure, storey, along, *_ = brace_parts(name)
     ends = bay_ends(model, name)
-    at, middle = (ends[1][0], sum(ends[0]) / 2) if along == "x" else (ends[0][0], sum(ends[1]) / 2)
-    spots = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
+    at, centre = (ends[1][0], sum(ends[0]) / 2) if along == "x" else (ends[0][0], sum(ends[1]) / 2)
+    lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
     low, high = ("south", "north") if along == "x" else ("west", "east")
-    side = low if at < min(spots) + 0.01 else high if at > max(spots) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
-    return f"storey {storey}, {side} wall, {middle:.1f} m {'east' if along == 'x' else 'north'}"
+    side = low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
+    return f"storey {storey}, {side} wall, {centre:.1f} m {'east' if along == 'x' else 'north'}"
 
 
 def draw_plan(axis, model, main_house, storey, table, colours):
-    """Columns and braces of a storey from above, north up; free bays as thick lines in the colour of what a brace there does."""
+    """Columns and braces of a storey from above, north up; free bays as thick lines, coloured by the effect of a brace there."""
     for column in model.of_kind("column", group=main_house):
         if column.storey == storey:
             (x0, y0, _), (x1, y1, _) = column.solid.bounds
@@ -127,7 +129,7 @@ def draw_plan(axis, model, main_house, storey, table, colours):
             if rank <= NUMBERED:
                 axis.annotate(str(rank), (sum(xs) / 2, sum(ys) / 2), ha="center", va="center", fontsize=9, weight="bold", zorder=4,
                               bbox={"boxstyle": "circle,pad=0.15", "fc": "white", "ec": "black", "lw": 0.6})
-    axis.set(aspect="equal", title=f"storey {storey} (dotted: braces it has)", xlabel="east [m]", ylabel="north [m]")
+    axis.set(aspect="equal", title=f"storey {storey} (dotted: existing braces)", xlabel="east [m]", ylabel="north [m]")
     axis.margins(0.06)
 
 
@@ -141,24 +143,22 @@ def bay_ends(model, name):
 
 def main():
     options = arguments()
-    try:
-        description = load_house(options.house)
-    except HouseError as problem:
-        sys.exit(f"error: {problem}")
+    description = load_house(options.house)
     main_house = next(iter(description.data["structures"]))
-    words = [word for word in options.only.split(",") if word] or [""]
-    bays = [bay for bay in free_bays(description) if bay.startswith(f"{main_house}.") and any(word in bay for word in words)]
+    texts = [text for text in options.only.split(",") if text] or [""]
+    bays = [bay for bay in free_bays(description) if bay.startswith(f"{main_house}.") and any(text in bay for text in texts)]
     if not bays:
-        sys.exit(f"error: --only {options.only}: no free bay's name holds that" if options.only else f"error: {options.house}: no free bay")
+        raise RunError(f"--only {options.only}: no free bay's name contains this" if options.only else f"{options.house}: no free bay")
     found = run_all(rows(options, bays), options)
-    if any(entry["status"] != "done" for entry in found if (entry["braces"], entry["set"]) == (None, None)):
-        sys.exit("error: nothing to compare: the house as it is did not run")
+    if any(run["status"] != "done" for run in found if (run["braces"], run["set"]) == (None, None)):
+        raise RunError("a run of the unchanged house failed: nothing to compare with")
     table, without = ranking(found)
-    write_table((options.to or options.out) / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])
-    plot(table, without, options, (options.to or options.out) / "brace.png")
-    print(f"as it is: {without[0]:.4f} ({min(without):.4f} to {max(without):.4f} out of plumb); best: {table[0]['brace']} {table[0]['peak_drift']:.4f}")
-    sys.exit(any(entry["status"] != "done" for entry in found))
+    folder = options.to or options.out
+    write_table(folder / "brace.csv", [{"rank": rank, **row} for rank, row in enumerate(table, 1)])
+    plot(table, without, options, folder / "brace.png")
+    print(f"unchanged: {without[0]:.4f} ({min(without):.4f} to {max(without):.4f} out of plumb); best: {table[0]['brace']} {table[0]['peak_drift']:.4f}")
+    return int(any(run["status"] != "done" for run in found))
 
 
 if __name__ == "__main__":
-    main()
+    run_script(main)

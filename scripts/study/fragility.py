@@ -1,35 +1,37 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fragility of houses: which part of them collapses under motions of rising strength, without and with snow.
+"""Fragility of houses: share of runs that collapse against the strength of the ground motion, with and without snow.
 
     scripts/study/fragility.py [-j 2] [--seeds 5] [--houses A,B,C] [--snow 0,1] [--scales 0.4,0.8,1.2] [--start 14 --end 34]
 
-Every run has another of the generator's motions (its seed), all with the published values of the Ojiya record, times the scale.
-Writes fragility.csv (a row a point, with its binomial interval) and fragility.png.
+Each seed is a synthetic motion with the published values of the Ojiya record, multiplied by the scale.
+Writes fragility.csv (one row per point, with its binomial confidence interval) and fragility.png.
 """
 
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy import optimize, stats
-from study_common import BLUE, GREEN, ORANGE, house_name, numbers, parser, run_all, save, write_table
+from study_common import house_name, parser, run_all, save, write_table
+
+from yade_timber.base.colors import BLUE, GREEN, GREY, ORANGE
+from yade_timber.study.options import count, list_of, non_negative, positive, run_script
 
 SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
-"""Factors on the motion that show each house's curve; others by --scales."""
+"""Factors on the motion that cover the curve of each house; --scales replaces them."""
 CONFIDENCE = 0.95
 SPREAD = (0.05, 1.0)
-"""Admissible logarithmic standard deviation of a fitted curve: few runs cannot tell a steep curve from a step."""
-LOOKS = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
+"""Limits of the logarithmic standard deviation of a fitted curve: few runs do not distinguish a steep curve from a step."""
+STYLES = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
 
 
 def arguments():
-    made = parser(__doc__, "study_fragility")
-    made.add_argument("--seeds", type=int, default=5, metavar="N", help="motions a point (default %(default)s)")
+    made = parser(__doc__, "results/study_fragility")
+    made.add_argument("--seeds", type=count, default=5, metavar="N", help="motions per point (default %(default)s)")
     made.add_argument("--houses", default="A,B,C", help="shipped houses or house files (default %(default)s)")
-    made.add_argument("--snow", type=numbers, default=[0.0, 1.0], metavar="M,M", help="depths of snow [m] (default 0,1)")
-    made.add_argument("--scales", type=numbers, metavar="X,X", help="factors on the motion (default: each house's own)")
+    made.add_argument("--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M", help="snow depths [m] (default 0,1)")
+    made.add_argument("--scales", type=list_of(positive), metavar="X,X", help="factors on the motion (default: a range for each house)")
     return made.parse_args()
 
 
@@ -45,7 +47,7 @@ def rows(options):
 
 
 def points(found):
-    """A row for each house, snow and scale: runs, collapses, their part and its Clopper-Pearson interval. Failed runs count nowhere but in `failed`."""
+    """One row per house, snow depth and scale: runs, collapses, their share and its Clopper-Pearson interval. Failed runs count only in `failed`."""
     groups = {}
     for entry in found:
         groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
@@ -63,20 +65,20 @@ def _point(house, snow, scale, entries):
     low, high = stats.binomtest(collapsed, len(done)).proportion_ci(CONFIDENCE, "exact") if done else (0.0, 1.0)
     times = [entry["collapse_time_s"] for entry in done if entry["collapsed"]]
     return {
-        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed, "part": collapsed / len(done) if done else float("nan"),
+        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed, "share": collapsed / len(done) if done else float("nan"),
         "low": float(low), "high": float(high), "failed": len(entries) - len(done), "median_collapse_time_s": float(np.median(times)) if times else "",
     }  # fmt: skip
 
 
 def fit(curve):
-    """(median, logarithmic standard deviation) of the lognormal curve of largest likelihood, or None where no point or every point is a collapse."""
+    """(median, logarithmic standard deviation) of the lognormal curve of maximum likelihood; None if no run or every run is a collapse."""
     scale, runs, collapsed = (np.array([point[key] for point in curve], float) for key in ("scale", "runs", "collapsed"))
     if collapsed.sum() in (0, runs.sum()):
         return None
 
     def cost(logs):
-        part = np.clip(stats.norm.cdf((np.log(scale) - logs[0]) / np.exp(logs[1])), 1e-9, 1 - 1e-9)
-        return -(collapsed * np.log(part) + (runs - collapsed) * np.log(1 - part)).sum()
+        share = np.clip(stats.norm.cdf((np.log(scale) - logs[0]) / np.exp(logs[1])), 1e-9, 1 - 1e-9)
+        return -(collapsed * np.log(share) + (runs - collapsed) * np.log(1 - share)).sum()
 
     bounds = [tuple(np.log([scale.min() / 2, scale.max() * 2])), tuple(np.log(SPREAD))]
     grid = [np.linspace(*bound, 60) for bound in bounds]
@@ -84,8 +86,8 @@ def fit(curve):
     return tuple(np.exp(optimize.minimize(cost, start, bounds=bounds, method="L-BFGS-B").x))
 
 
-def half(curve):
-    """Words: at which strength half of the runs collapse. Nothing is said of strengths that were not tried."""
+def median_text(curve):
+    """The strength at which half of the runs collapse, as text; no extrapolation beyond the strengths that were run."""
     fitted, scales = fit(curve), [point["scale"] for point in curve]
     if fitted is None:
         collapsed, runs = (sum(point[key] for point in curve) for key in ("collapsed", "runs"))
@@ -108,20 +110,20 @@ def plot(table, snows, path):
         axis.set_xticks([], minor=True)
         axis.grid(alpha=0.3)
         axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8, frameon=False)
-    axes[0, 0].set_ylabel("part of the runs in which the house collapses")
+    axes[0, 0].set_ylabel("share of runs in which the house collapses")
     runs = max(point["runs"] for point in table)
-    words = f"Points: {runs} motions each, bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, largest likelihood"
-    figure.suptitle(words, fontsize=9)
+    caption = f"Points: {runs} motions each; bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, maximum likelihood"
+    figure.suptitle(caption, fontsize=9)
     save(figure, path)
     plt.close(figure)
 
 
 def draw(axis, house, curve, shift):
-    """Points with their intervals, a little beside each other, and the fitted curve."""
-    colour, marker = LOOKS.get(house, ("#555555", "D"))
-    x, part, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "part", "low", "high"))
+    """Points with their intervals and the fitted curve. shift: factor on the abscissa that separates the houses."""
+    colour, marker = STYLES.get(house, (GREY, "D"))
+    x, share, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "share", "low", "high"))
     fitted = fit(curve)
-    axis.errorbar(x * shift, part, [part - low, high - part], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=f"house {house}: {half(curve)}")
+    axis.errorbar(x * shift, share, [share - low, high - share], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=f"house {house}: {median_text(curve)}")
     if fitted:
         line = np.geomspace(x.min(), x.max(), 200)
         axis.plot(line, stats.norm.cdf(np.log(line / fitted[0]) / fitted[1]), color=colour, lw=1.5)
@@ -135,9 +137,9 @@ def main():
     for house in map(label, options.houses.split(",")):
         for snow in options.snow:
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
-            print(f"house {house}, {snow:g} m of snow: {half(curve)}")
-    sys.exit(any(point["failed"] for point in table))
+            print(f"house {house}, {snow:g} m of snow: {median_text(curve)}")
+    return int(any(point["failed"] for point in table))
 
 
 if __name__ == "__main__":
-    main()
+    run_script(main)

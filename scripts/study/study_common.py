@@ -1,78 +1,58 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the studies share: their options, their table of runs, one CSV. A study can be stopped; the same command goes on."""
+"""Shared by the studies: options, batch of runs, CSV table, picture. A study can be stopped; the same command continues."""
 
-import argparse
-import csv
-import io
-import os
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.append(str(HERE.parents[1] / "py"))  # after the installed package, which the runs are made of
+SCRIPTS = Path(__file__).resolve().parents[1]
+sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
 
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 
-from yade_timber.study.batch import BatchError, run_table  # noqa: E402
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.colors import BLUE, GREEN, GREY, ORANGE  # noqa: E402, F401  (the studies' pictures take them from here)
+from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.base.table import csv_text  # noqa: E402
+from yade_timber.study.batch import read_table, run_rows, write_runs  # noqa: E402
+from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder  # noqa: E402
 
 START, END = 14.0, 34.0
-"""Part of the synthetic motion that a study runs: a second of quiet, then all of the strong shaking (18-24 s) and ten seconds to fall. [s]"""
+"""Part of the synthetic motion that a study runs: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
 
 
-def parser(about, name):
+def parser(about, folder):
     """ArgumentParser with the options of every study."""
-    made = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
-    made.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at a time (default %(default)s)")
-    made.add_argument("--start", type=float, default=START, metavar="S", help="the motion from here [s] (default %(default)g)")
-    made.add_argument("--end", type=float, default=END, metavar="S", help="the motion up to here [s] (default %(default)g)")
-    made.add_argument("--dt", metavar="S", default="*", help="time step [s] (default: that of the runs)")
-    made.add_argument("--out", type=Path, default=Path("results") / name, metavar="DIR", help="folder of the runs (default %(default)s)")
-    made.add_argument("--to", type=Path, metavar="DIR", help="folder of the study's CSV and PNG (default: that of the runs)")
+    made = Parser(about)
+    add_driver_options(made, folder)
+    made.add_argument("--start", type=non_negative, default=START, metavar="S", help="start of the part of the motion that is run [s] (default %(default)g)")
+    made.add_argument("--end", type=positive, default=END, metavar="S", help="end of that part [s] (default %(default)g)")
+    made.add_argument("--dt", type=positive, metavar="S", help="time step [s] (default: that of the run scripts)")
+    made.add_argument("--to", type=results_folder, metavar="DIR", help="folder of the study's CSV and PNG (default: the folder of the runs)")
     return made
 
 
 def house_name(text):
-    """A shipped house, or the whole path of a house file: tables lie elsewhere. For argparse."""
+    """Name of a shipped house, or absolute path of a house file. For argparse."""
     return str(Path(text).resolve()) if Path(text).is_file() else text
 
 
-def numbers(text):
-    """'0.5,1' -> [0.5, 1.0], for argparse."""
-    return [float(word) for word in text.split(",")]
-
-
 def run_all(rows, options):
-    """Run the rows (dicts of columns, all alike) through yade-batch; their results, see `yade_timber.batch.collect`. Ends the process on errors."""
+    """Run the rows (dicts with the same columns) as a batch; returns the rows of runs.csv. Raises BatchError, RunError, OSError."""
     if not rows:
-        sys.exit("error: no run is asked for")
-    options.out.mkdir(parents=True, exist_ok=True)
+        raise RunError("the options select no run")
     table = options.out / "table.txt"
-    rows = [{**row, "start": options.start, "end": options.end, "dt": options.dt} for row in rows]
+    rows = [{**row, "start": options.start, "end": options.end, "dt": options.dt or "*"} for row in rows]
     write_text(table, "\n".join(" ".join(map(str, line)) for line in [list(rows[0]), *(row.values() for row in rows)]) + "\n")
-    try:
-        found = run_table(table, options.out, max(1, options.jobs), HERE / "batch_run.py")
-    except (BatchError, OSError) as problem:
-        sys.exit(f"error: {problem}")
-    except KeyboardInterrupt:
-        sys.exit("stopped; the same command goes on")
-    for entry in found:
-        if entry["status"] != "done":
-            print(f"{entry['status']}: {entry['run']}: {entry['error']}", file=sys.stderr)
-    return found
+    table_rows = read_table(table)
+    run_rows(table_rows, options.out, SCRIPTS, options.jobs)
+    return write_runs(table_rows, options.out)
 
 
 def write_table(path, rows):
     """CSV of dicts; numbers with 5 digits."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({key: f"{value:.5g}" if isinstance(value, float) else value for key, value in row.items()} for row in rows)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, text.getvalue())
+    lines = [[f"{value:.5g}" if isinstance(value, float) else value for value in row.values()] for row in rows]
+    write_text(path, csv_text(list(rows[0]), lines))
     print(f"written: {path}")
 
 

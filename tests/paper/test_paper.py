@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The paper's fourteen runs again, against the golden file of their summaries (opt-in: ctest -L paper; hours).
+"""The paper's fourteen runs against the golden file of their summaries (on request: ctest -L paper; hours).
 
-YADE_TIMBER_UPDATE_GOLDEN=1 writes the file anew. Runs are kept in results/ below the working directory, so that a stopped test goes on;
-those made by another state of the package are done again.
+YADE_TIMBER_UPDATE_GOLDEN=1 writes the file. Runs are kept in results/ in the working directory, so that a stopped test continues; those
+made by another version of the package are repeated.
 """
 import datetime
 import json
@@ -11,21 +11,22 @@ import os
 from pathlib import Path
 
 import pytest
-from yade_timber.study import campaign
 from yade_timber.study import claims
+from yade_timber.study.driver import Task, run_missing
 
 TESTS = Path(__file__).resolve().parents[1]
 GOLDEN, SCRIPTS = TESTS / "golden" / "paper_runs.json", TESTS.parent / "scripts"
 LEFT_OUT = ("wall_s", "real_time_factor", "threads", "made_from")
-"""Differ from machine to machine and from one state of the package to the next."""
+"""Keys that depend on the machine or the version of the package."""
 STILL_ATOL = 1e-6
-"""Of peak drifts of runs that stand still [-], 4e-9 to 8e-6. Shaken houses rock and slam: there a change of 1e-13 m in the vertices changed peak drifts by up to 55 %."""
+"""Tolerance of peak drifts in runs without an earthquake [-], 4e-9 to 8e-6. With an earthquake the motion is chaotic: a change of 1e-13 m in
+the vertices changed peak drifts by up to 55 %."""
 
 
 @pytest.fixture(scope="module")
 def runs():
-    tasks = [campaign.Task(run, Path("results").absolute() / run) for run in claims.RUNS]
-    found = {task.script: summary for task, summary in campaign.run_missing(tasks, SCRIPTS).items()}
+    tasks = [Task(run, Path("results").absolute() / run) for run in claims.RUNS]
+    found = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS).items()}
     if os.environ.get("YADE_TIMBER_UPDATE_GOLDEN"):
         write(found)
     return found
@@ -37,7 +38,7 @@ def golden(runs):
 
 
 def write(found):
-    """The golden file: the summaries, and what made them."""
+    """Write the golden file: the summaries and their origin."""
     one = found[claims.RUNS[0]]
     content = {
         "made_by": "tests/paper/test_paper.py",
@@ -51,18 +52,18 @@ def write(found):
 
 
 @pytest.mark.parametrize("name", claims.RUNS)
-def test_fate(name, runs, golden):
-    """Collapse or not, and its direction: what a chaotic fall keeps."""
+def test_collapse(name, runs, golden):
+    """Whether a house collapses, and the direction: reproducible in spite of chaotic motion."""
     assert runs[name]["collapsed"] == golden[name]["collapsed"]
     assert not golden[name]["collapsed"] or runs[name]["tilt_direction"] == golden[name]["tilt_direction"]
 
 
-@pytest.mark.parametrize("name", [run for run in claims.RUNS if not claims.loads(run)[1]])
+@pytest.mark.parametrize("name", [run for run in claims.RUNS if not claims.parse_run(run)[1]])
 def test_drift(name, runs, golden):
     """Peak drifts of the runs without an earthquake."""
-    for storey, ways in golden[name]["peak_drift"].items():
-        for way, value in ways.items():
-            assert runs[name]["peak_drift"][storey][way] == pytest.approx(value, abs=STILL_ATOL)
+    for storey, drifts in golden[name]["peak_drift"].items():
+        for direction, value in drifts.items():
+            assert runs[name]["peak_drift"][storey][direction] == pytest.approx(value, abs=STILL_ATOL)
 
 
 def test_claims(runs, golden):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What all physics cases share: scenes, runs, and the closed forms of the paper's contact law. Needs a running YADE.
+"""Shared by all physics cases: scenes, runs, and the closed forms of the paper's contact law. Needs a running YADE.
 
-The expected values come from the paper's equations, written out here a second time; nothing is asked of the package but
-positions, velocities and forces.
+Expected values follow from the paper's equations, implemented here a second time. The package provides positions, velocities and
+forces only.
 """
 import importlib
 import pathlib
@@ -11,7 +11,6 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene.engines import angular_momentum, energy, energy_residual  # noqa: F401
 
 O = yw.Omega()
 G = 9.81
@@ -30,14 +29,12 @@ def scene(bodies, dt, **options):
 
 
 def integrate_first():
-    """Put the integrator in front: a velocity set between two steps then moves the body and reaches the contact law in the same
-    step.
-    """
+    """Put the integrator first: a velocity set between two steps then acts on positions and contact forces in the same step."""
     O.engines = [O.engines[-1]] + O.engines[:-1]
 
 
 def steps(count, probe=None, every=1):
-    """Make `count` steps; returns the array of probe() after each `every` of them."""
+    """Compute `count` steps; returns the values of probe() after each `every` steps as an array."""
     rows = []
     for k in range(count):
         O.step()
@@ -66,15 +63,14 @@ def turned(axis, angle):
 
 
 def angle_about(body, axis):
-    """Rotation of a body about a fixed axis since orientation zero. [rad] Only for motion about that axis."""
+    """Rotation of a body about a fixed axis from orientation zero. [rad] Valid for motion about that axis."""
     q = body.state.ori
     return 2 * np.arctan2(Vector3(q[0], q[1], q[2]).dot(Vector3(*axis)), q[3])
 
 
 def spin(body, omega):
     """Give a body an angular velocity. [rad/s]"""
-    body.state.angVel = Vector3(*omega)
-    body.state.angMom = angular_momentum(body)
+    yt.set_velocity(body, body.state.vel, omega)
 
 
 def equivalent_modulus():

@@ -1,32 +1,32 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 2, friction: blocks on inclines and planes. The tangential spring along prescribed paths: path_cases.py."""
+"""Item 2, friction: blocks on inclines and planes. Tangential springs on prescribed paths: path_cases.py."""
 import numpy as np
 import yade_timber as yt
-from cases import DENSITY, G, energy, energy_residual, scene, steps, turned
+from cases import DENSITY, G, scene, steps, turned
 from rows import Registry, Row, series
 from yade.minieigenHP import Quaternion, Vector3
 
 case = Registry()
 MU = 0.5
 BLOCK, PLATE = (0.4, 0.4, 0.1), (6.0, 2.0, 0.5)
-"""Flat enough to slide without tipping. [m]"""
+"""Extents of block and plate; the block slides without tipping. [m]"""
 KM = Vector3(600.0, -700.0, 400.0)
 """A shift of 1 km. [m]"""
 
 
-def place(body, orientation, origin):
-    """Turn a body about the world's origin, then move it."""
+def transform(body, orientation, origin):
+    """Rotate a body about the origin, then translate it."""
     body.state.pos = origin + orientation * body.state.pos
     body.state.ori = orientation * body.state.ori
 
 
 def incline(angle, dt=1e-4, orientation=Quaternion.Identity, origin=Vector3.Zero):
-    """Block at rest on a plate inclined towards +x [rad], the whole scene turned by `orientation` and moved to `origin`."""
+    """Block at rest on a plate inclined towards +x [rad]; the scene is rotated by `orientation` and translated to `origin`."""
     tilted = orientation * turned((0, 1, 0), angle)
     plate = yt.box(PLATE, (0, 0, -PLATE[2] / 2), None, yt.timber(friction=MU), fixed=True)
     block = yt.box(BLOCK, (0, 0, BLOCK[2] / 2), None, yt.timber(friction=MU))
     for body in (plate, block):
-        place(body, tilted, origin)
+        transform(body, tilted, origin)
     scene((plate, block), dt, gravity=orientation * Vector3(0, 0, -G))
     return block, tilted * Vector3(1, 0, 0)
 
@@ -35,7 +35,7 @@ def incline(angle, dt=1e-4, orientation=Quaternion.Identity, origin=Vector3.Zero
 def sticks_below_the_friction_angle():
     """10 s at 98 % of tan(phi), after half a second in which the springs take up the load.
 
-    Nothing creeps: seen 4e-15 m, the last bits of a coordinate.
+    No creep: observed 4e-15 m, rounding of a coordinate.
     """
     block, down = incline(np.arctan(0.98 * MU))
     steps(5000)
@@ -56,10 +56,10 @@ def sticks_below_the_friction_angle():
 
 @case
 def slides_above_the_friction_angle():
-    """g (sin - mu cos), from the gain of speed in 0.5 s.
+    """g (sin - mu cos), from the increase of speed in 0.5 s.
 
-    A constant force has no dt error: what is left is where the dashpots' sweeps stop (a change of 1e-3 of the impulses), at
-    the lowest acceleration 1.1e-8; with a tolerance of 1e-9 it is 5e-11.
+    A constant force has no time-step error. The error is that of the contact solver (tolerance 1e-3): 1.1e-8 at the lowest
+    acceleration; with a tolerance of 1e-9 it is 5e-11.
     """
     rows = []
     for share in (1.02, 1.5, 2.0):
@@ -77,42 +77,47 @@ def slides_above_the_friction_angle():
                 got,
                 bound=1e-7,
                 dt=1e-4,
-                note="stop of the dashpots' sweeps",
+                note="tolerance of the contact solver",
             )
         )
     return rows
 
 
 def sliding_run(dt, v=1.0, orientation=Quaternion.Identity, origin=Vector3.Zero):
-    """Block set in motion at v [m/s] on a level plate until it rests: dictionary of distance [m], heat [J] (friction and
-    dashpots), residual of the energy balance [J], end (3,) in the scene's own frame [m].
+    """Block that starts at v [m/s] on a level plate, until it rests: dictionary of distance [m], heat [J] (friction and
+    dashpots), residual of the energy balance [J], final position (3,) in the frame of the scene [m].
     """
     block, along = incline(0.0, dt, orientation, origin)
     steps(int(round(0.1 / dt)))
-    start, before = block.state.pos, energy_residual(energy())
+    start, before = block.state.pos, residual()
     block.state.vel += v * along
-    set_in = energy_residual(energy()) - before
+    jump = residual() - before
     heat = dissipated()
     steps(int(round((v / (MU * G) + 0.1) / dt)))
     return {
         "distance": (block.state.pos - start).dot(along),
         "heat": dissipated() - heat,
-        "residual": energy_residual(energy()) - before - set_in,
+        "residual": residual() - before - jump,
         "end": orientation.conjugate() * (block.state.pos - origin),
     }
 
 
+def residual():
+    """Residual of the energy balance. [J]"""
+    return yt.energy_residual(yt.energy())
+
+
 def dissipated():
-    """What friction and dashpots have taken so far. [J]"""
-    return sum(energy()[name] for name in ("friction", "dashpot_normal", "dashpot_shear"))
+    """Energy dissipated by friction and dashpots. [J]"""
+    return sum(yt.energy()[name] for name in ("friction", "dashpot_normal", "dashpot_shear"))
 
 
 @case
 def sliding_distance():
     """v^2 / (2 mu g), and the heat m v^2 / 2.
 
-    The set speed belongs to half a step before (leapfrog), so the distance is short by v dt / 2: order 1; seen 2.7e-4 at 5e-5 s,
-    of which 2.4e-4 are that half step. The heat knows nothing of it; seen 1e-7, energy that stays in the springs.
+    The initial velocity is that of half a step before (leapfrog), which shortens the distance by v dt / 2: order 1. Observed: 2.7e-4 at
+    5e-5 s, of which 2.4e-4 are this half step. The heat is not affected; observed 1e-7, energy that remains in the springs.
     """
     dts = (4e-4, 2e-4, 1e-4, 5e-5)
     runs = [sliding_run(dt) for dt in dts]
@@ -125,7 +130,7 @@ def sliding_distance():
         dts,
         4e-4,
         0.9,
-        note="leapfrog: speed set at a half step",
+        note="leapfrog: velocity at a half step",
     )
     rows.append(
         Row(
@@ -135,7 +140,7 @@ def sliding_distance():
             runs[2]["heat"],
             bound=1e-6,
             dt=dts[2],
-            note="energy left in the springs",
+            note="energy that remains in the springs",
         )
     )
     return rows + [
@@ -152,19 +157,19 @@ def sliding_distance():
 
 
 @case
-def independent_of_place_and_direction():
-    """The sliding run turned into three directions, and 1 km away, ends at the same place of its own frame: seen 3e-14 m and
-    2e-11 m (a coordinate of 1 km has a last bit of 1e-13 m).
+def independent_of_position_and_direction():
+    """The sliding run in three other directions and at a distance of 1 km ends at the same position of its own frame. Observed: 3e-14 m
+    and 2e-11 m (a coordinate of 1 km is rounded to 1e-13 m).
     """
     reference = sliding_run(1e-4)["end"]
     poses = {
-        "turned": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
-        "1 km away": [(Quaternion.Identity, KM)],
+        "rotated": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
+        "at 1 km": [(Quaternion.Identity, KM)],
     }
     rows = []
     for name, where in poses.items():
         off = max((sliding_run(1e-4, orientation=q, origin=o)["end"] - reference).norm() for q, o in where)
         rows.append(
-            Row("2", f"sliding, {name}: distance from the reference's end [m]", 0.0, off, bound=1e-9, dt=1e-4, note="rounding")
+            Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4, note="rounding")
         )
     return rows

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 1: impacts against Hertz's closed form and against the one-dimensional equation of motion.
 
-Times of a contact are some milliseconds: a step of 1e-5 s (the paper) makes 150 steps of the impact studied here at 1 m/s, one of
-1e-4 s makes 15.
+A contact lasts some milliseconds: the impact at 1 m/s has 150 steps of 1e-5 s (the paper) or 15 steps of 1e-4 s.
 """
 import numpy as np
 import yade_timber as yt
@@ -22,21 +21,20 @@ SPEEDS = (0.01, 0.1, 1.0, 10.0)
 UNITS = {"duration": "s", "overlap": "m", "force": "N", "restitution": "-"}
 
 CORNER = HALF - (np.sqrt(3) - 1) * 0.1 * HALF * np.sqrt(2)
-"""From an octahedron's centre to its rounded corner: faces moved in by r move the corner by sqrt(3) r, r = 10 % of an edge. [m]
-"""
+"""Distance of an octahedron's rounded corner from its centre: moving the faces in by r moves the corner by sqrt(3) r, r = 10 % of an edge. [m]"""
 
 
 def edge(width):
-    """From a square bar's centre to its rounded edge: faces moved in by r = width/10 move the edge by sqrt(2) r. [m]"""
+    """Distance of a square bar's rounded edge from its centre: moving the faces in by r = width/10 moves the edge by sqrt(2) r. [m]"""
     return width / np.sqrt(2) - (np.sqrt(2) - 1) * 0.1 * width
 
 
 class Impact:
-    """Two frictionless bodies that meet head-on along z.
+    """Central impact of two frictionless bodies along z.
 
     kind      'plate' (corner on a fixed plate), 'block' (corner on a free block), 'edges' (crossed edges of two free bars),
               'flat' (face on a fixed plate: four points at once)
-    points    how many contact points share the impact
+    points    number of contact points
     mass      of Eq. 43 [kg]; constant: c of F = c n^1.5 at one point [N/m^1.5]
     touching  distance of the centres at which the rounded bodies begin to touch [m]
     """
@@ -75,9 +73,9 @@ class Impact:
         return {"duration": DURATION * depth / v, "overlap": depth, "force": self.constant * depth**1.5, "restitution": 1.0}
 
     def run(self, v, dt, span, phase=0.3, upper=None, **options):
-        """Fly in at v [m/s], bounce within less than 3 span [s], fly out: the same quantities as closed_form().
+        """Impact at v [m/s] that lasts less than 3 span [s]: the same quantities as closed_form().
 
-        phase: shifts the contact's beginning by this share of a step.
+        phase: fraction of a step at which the contact begins.
         """
         gap = v * (int(0.1 * span / dt) + phase) * dt
         low, high = scene(self.bodies(upper), dt, gravity=(0, 0, 0), health_check=0, **options)
@@ -89,10 +87,10 @@ class Impact:
             return self.touching - (high.state.pos - low.state.pos)[2], largest, len(contacts)
 
         overlap, force, count = steps(int(3.2 * span / dt), probe).T
-        assert count.max() == self.points and count[-1] == 0, "another number of contact points than the case is about"
+        assert count.max() == self.points and count[-1] == 0, "unexpected number of contact points"
         out = (overlap[-2] - overlap[-1]) / dt  # free flight before and after: both ends of the contact are extrapolated
-        leaving = len(overlap) * dt + overlap[-1] / out
-        return {"duration": leaving - gap / v, "overlap": peak(overlap), "force": peak(force), "restitution": out / v}
+        separation = len(overlap) * dt + overlap[-1] / out
+        return {"duration": separation - gap / v, "overlap": peak(overlap), "force": peak(force), "restitution": out / v}
 
 
 def peak(samples):
@@ -105,27 +103,27 @@ def peak(samples):
 def dashpot_restitution(power, points=1):
     """Restitution of m n'' = -points max(0, e_n + C n'), e_n ~ n^power, C = 2 sqrt(m K_n), K_n = de_n/dn (Eqs. 23, 37-41).
 
-    Units in which m, v and the spring's factor are 1: for these laws the coefficient depends on none of them (power = 1.5:
-    Hertz). Once spring and dashpot together pull, nothing acts any more and the speed stays.
+    Units in which m, v and the factor of the spring are 1; the coefficient does not depend on them (power = 1.5: Hertz). When the sum of
+    spring and dashpot becomes tensile, the force is zero and the velocity constant.
     """
 
     def total(n, speed):
         n = max(n, 0.0)
         return n**power + 2 * np.sqrt(power * n ** (power - 1)) * speed
 
-    def leaves(t, y):
+    def separated(t, y):
         return total(*y) if t > 1e-6 else 1.0
 
-    leaves.terminal, leaves.direction = True, -1
+    separated.terminal, separated.direction = True, -1
     run = solve_ivp(
-        lambda t, y: (y[1], -points * total(*y)), (0, 50), (0, 1), rtol=1e-12, atol=1e-14, events=leaves, method="DOP853"
+        lambda t, y: (y[1], -points * total(*y)), (0, 50), (0, 1), rtol=1e-12, atol=1e-14, events=separated, method="DOP853"
     )
     return -run.y_events[0][0][1]
 
 
 @case
 def hertz_three_decades():
-    """Undamped, 200 steps a contact: leapfrog's error is some (1/200)^2 / 2 = 1.3e-5 at any speed; seen 1.3e-5 to 1.6e-5."""
+    """Undamped, 200 steps per contact: the leapfrog error is (1/200)^2 / 2 = 1.3e-5 at any speed. Observed: 1.3e-5 to 1.6e-5."""
     rows = []
     for kind in ("plate", "block", "edges", "flat"):
         impact = Impact(kind)
@@ -139,14 +137,14 @@ def hertz_three_decades():
                     f"Hertz impact, {kind}, worst of 0.01-10 m/s: {what} [{UNITS[what]}]",
                     pairs,
                     bound=3e-5,
-                    note="200 steps a contact; leapfrog error (dt/duration)^2 / 2",
+                    note="200 steps per contact; leapfrog error (dt/duration)^2 / 2",
                 )
             )
     return rows
 
 
 def convergence(name, dts, bounds, least_order, note, **options):
-    """Corner on a plate at 1 m/s, undamped: every quantity at several steps."""
+    """Corner on a plate at 1 m/s, undamped: every quantity for several time steps."""
     impact = Impact("plate")
     expected = impact.closed_form(1.0)
     runs = [impact.run(1.0, dt, expected["duration"], damping_ratio=0, **options) for dt in dts]
@@ -167,17 +165,16 @@ def convergence(name, dts, bounds, least_order, note, **options):
 
 @case
 def hertz_closed_form_converges():
-    """Contact of 1.49 ms. Second order; at 1.25e-5 s seen 3.5e-5, 2.9e-5, 4.4e-5."""
+    """Contact of 1.49 ms. Second order; observed at 1.25e-5 s: 3.5e-5, 2.9e-5, 4.4e-5."""
     bounds = {"duration": 5e-5, "overlap": 5e-5, "force": 8e-5}
     return convergence("closed form (Eq. 37)", (1e-4, 5e-5, 2.5e-5, 1.25e-5), bounds, 1.8, "leapfrog")
 
 
 @case
 def hertz_increment_form_converges():
-    """First order: each step takes the stiffness at its end, too large in loading and too small in unloading, and energy comes
-    in.
+    """First order: each step uses the stiffness at its end, too large in loading and too small in unloading, which adds energy.
 
-    At 1.25e-5 s seen 8e-3, 1e-2, 1.1e-2: some 300 times the closed form's error.
+    Observed at 1.25e-5 s: 8e-3, 1e-2, 1.1e-2, some 300 times the error of the closed form.
     """
     bounds = {"duration": 0.012, "overlap": 0.015, "restitution": 0.015}
     return convergence(
@@ -185,13 +182,13 @@ def hertz_increment_form_converges():
         (1e-4, 5e-5, 2.5e-5, 1.25e-5),
         bounds,
         0.7,
-        "stiffness taken at the end of the step",
+        "stiffness at the end of the step",
         increment=True,
     )
 
 
 def worst_phase(impact, v, dt, span, expected, **options):
-    """Restitution that is farthest from `expected` over 8 fractions of a step at which the contact may begin."""
+    """Restitution with the largest error of 8 fractions of a step at which the contact begins."""
     got = [impact.run(v, dt, span, phase=k / 8, **options)["restitution"] for k in range(8)]
     return max(got, key=lambda g: abs(g - expected))
 
@@ -200,8 +197,8 @@ def worst_phase(impact, v, dt, span, expected, **options):
 def restitution_with_the_papers_dashpot():
     """Critical dashpot: 0.1196 for one point and 0.0410 for four at any speed.
 
-    The dashpot sets in with infinite slope (C ~ n^(1/4)), so the share of a step in which contact begins counts: order 1.25,
-    worst phase about 3e-4 (one point) and 7e-4 (four) at 1600 steps an undamped contact.
+    The dashpot force begins with infinite slope (C ~ n^(1/4)), so that the error depends on the fraction of a step at which the contact
+    begins: order 1.25, largest error 3e-4 (one point) and 7e-4 (four) with 1600 steps per undamped contact.
     """
     rows = []
     for kind in ("plate", "flat"):
@@ -217,7 +214,7 @@ def restitution_with_the_papers_dashpot():
                 f"restitution, critical dashpot, {kind}, worst of 0.01-10 m/s [-]",
                 pairs,
                 bound=1e-3,
-                note="scipy DOP853; 1600 steps a contact, worst of 8 phases",
+                note="scipy DOP853; 1600 steps per contact, worst of 8 phases",
             )
         )
     return rows
@@ -225,8 +222,7 @@ def restitution_with_the_papers_dashpot():
 
 @case
 def restitution_converges():
-    """One point at 1 m/s, undamped contact of 1.49 ms; the explicit dashpots of the paper (sweeps = 0) beside the implicit ones.
-    """
+    """One point at 1 m/s, undamped contact of 1.49 ms; explicit dashpots as in the paper (sweeps = 0), and implicit ones."""
     impact = Impact("plate")
     span, expected, dts = impact.closed_form(1.0)["duration"], dashpot_restitution(1.5), (2e-5, 1e-5, 5e-6, 2.5e-6, 1.25e-6)
     rows = []
@@ -247,11 +243,11 @@ def restitution_converges():
 
 @case
 def snow_impact():
-    """Linear law: half a period pi sqrt(m/K) and depth v sqrt(m/K) undamped; with the critical dashpot exp(-2), where spring and
+    """Linear law: half a period pi sqrt(m/K) and depth v sqrt(m/K) undamped; with the critical dashpot exp(-2), when spring and
     dashpot cancel at t = 2 sqrt(m/K).
 
-    Undamped at 400 steps: leapfrog, period short by (w dt)^2 / 24 = 2.6e-6. Damped: C does not vanish at n = 0, so the first
-    fraction of a step counts in full and the order is 1; seen 5e-4 for the worst phase.
+    Undamped with 400 steps: leapfrog shortens the period by (w dt)^2 / 24 = 2.6e-6. Damped: C does not vanish at n = 0, so that the
+    order is 1. Observed: 5e-4 for the worst phase.
     """
     impact, rate = Impact("plate"), np.sqrt(3.948e4)
     span, snow = np.pi / rate, yt.snow(friction=0)

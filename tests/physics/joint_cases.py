@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 4: joints of four springs; frequencies, breaking, energy. No contact and no gravity: the bodies do not touch.
+"""Item 4: joints of four springs: frequencies, failure, energy. Without contact and gravity.
 
-A spring is u = end on body 2 - end on body 1, force kn u_n + ks u_s on body 1. Per joint, each of the n springs has 1/n of the
-stiffness.
+Stretch of a spring: u = end on body 2 - end on body 1; force on body 1: kn u_n + ks u_s. With values per joint, each of the n
+springs has 1/n of the stiffness.
 """
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from cases import DENSITY, O, energy, energy_residual, spin, steps
+from cases import DENSITY, O, spin, steps
 from rows import Registry, Row, series, worst
 from scipy.linalg import eigh
 from yade.minieigenHP import Vector3
@@ -16,17 +16,17 @@ case = Registry()
 STIFFNESS, STRENGTH = 58800.0, 5880.0
 """Column-beam joint: K_pn = K_ps [N/m] and P_max [N] (paper, section 3.2)."""
 STRETCH = STRENGTH / STIFFNESS
-"""Of a spring when it breaks. [m]"""
+"""Stretch of a spring at failure. [m]"""
 BEAM, COLUMN, SPACE = np.array((1.0, 0.2, 0.15)), np.array((0.12, 0.15, 0.9)), 0.05
-"""Edges of the two bodies and the space between the beam and the column above it. [m]"""
+"""Extents of the two bodies, and gap between the beam and the column above it. [m]"""
 CORNERS = np.array([(x, y, 0.0) for x in (-0.06, 0.06) for y in (-0.075, 0.075)])
-"""Springs, from the middle of the joint. [m]"""
-READINGS = {"spring": 1.0, "joint": 1 / len(CORNERS)}
-"""Share of the stiffness in each spring."""
+"""Positions of the springs relative to the centre of the joint. [m]"""
+STIFFNESS_SHARE = {"spring": 1.0, "joint": 1 / len(CORNERS)}
+"""Share of the stiffness in each spring, for values per spring and per joint. [-]"""
 
 
 def joined(dt, stiffness=(STIFFNESS, STIFFNESS), strength=STRENGTH, per="spring", points=CORNERS, density=DENSITY, fixed=False):
-    """Column above a beam with a joint between them."""
+    """A column above a beam, and the joint between them."""
     beam = yt.box(BEAM, (0, 0, -(BEAM[2] + SPACE) / 2), fixed=fixed)
     column = yt.box(COLUMN, (0, 0, (COLUMN[2] + SPACE) / 2), None, yt.timber(density=density))
     O.reset()
@@ -44,24 +44,22 @@ def linear_modes(stiffness, share):
     M x'' = -K x.
     """
     mass, rigidity = np.zeros((12, 12)), np.zeros((12, 12))
-    middles = np.array([(0, 0, -(BEAM[2] + SPACE) / 2), (0, 0, (COLUMN[2] + SPACE) / 2)])
+    centres = np.array([(0, 0, -(BEAM[2] + SPACE) / 2), (0, 0, (COLUMN[2] + SPACE) / 2)])
     for k, edges in enumerate((BEAM, COLUMN)):
         m = DENSITY * edges.prod()
         mass[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = np.diag(np.r_[m, m, m, m * ((edges**2).sum() - edges**2) / 12])
     spring = share * np.diag((stiffness[1], stiffness[1], stiffness[0]))
     for p in CORNERS:
-        stretch = np.hstack([-np.eye(3), cross_matrix(p - middles[0]), np.eye(3), -cross_matrix(p - middles[1])])
+        stretch = np.hstack([-np.eye(3), cross_matrix(p - centres[0]), np.eye(3), -cross_matrix(p - centres[1])])
         rigidity += stretch.T @ spring @ stretch
     squares, modes = eigh(rigidity, mass)
     return np.sqrt(squares[6:]), modes[:, 6:], mass
 
 
 def mode_frequency(mode, mass, guess, dt, **options):
-    """Set the bodies in motion along a mode; angular frequency over five periods, from zero crossings of its modal
-    velocity. [rad/s]
-    """
+    """Angular frequency of a mode from the zero crossings of its modal velocity over five periods. [rad/s]"""
     beam, column, _ = joined(dt, **options)
-    mode = 1e-4 * mode  # so small (about 1e-6 m) that the rotations are linear
+    mode = 1e-4 * mode  # amplitude about 1e-6 m: linear rotations
     for body, part in ((beam, mode[:6]), (column, mode[6:])):
         body.state.vel = Vector3(*part[:3])
         spin(body, part[3:])
@@ -78,15 +76,15 @@ def mode_frequency(mode, mass, guess, dt, **options):
 
 @case
 def frequencies():
-    """All six modes (shear with rocking both ways, torsion, axial; 22 to 500 rad/s) for both readings, and with unequal
-    stiffnesses.
+    """All six modes (shear with rocking in two directions, torsion, axial; 22 to 500 rad/s) with values per spring and per joint, and with
+    unequal stiffnesses.
 
-    Leapfrog raises a frequency by (w dt)^2 / 24: at 1e-4 s and 500 rad/s by 1.04e-4, which is what is seen.
+    Leapfrog increases a frequency by (w dt)^2 / 24: by 1.04e-4 at 1e-4 s and 500 rad/s, as observed.
     """
     dt, rows = 1e-4, []
     for per, ks in (("spring", 1.0), ("joint", 1.0), ("spring", 0.5)):
         stiffness = (STIFFNESS, ks * STIFFNESS)
-        rates, modes, mass = linear_modes(stiffness, READINGS[per])
+        rates, modes, mass = linear_modes(stiffness, STIFFNESS_SHARE[per])
         pairs = [(w, mode_frequency(modes[:, k], mass, w, dt, stiffness=stiffness, per=per)) for k, w in enumerate(rates)]
         rows.append(
             worst(
@@ -111,12 +109,12 @@ def highest_frequency_converges():
 
 
 HEAVY = 1e12
-"""Density of a column that keeps its speed whatever the springs do. [kg/m3]"""
+"""Density of a column whose velocity the springs do not change. [kg/m3]"""
 PULLS = {"tension": (0, 0, 1), "compression": (0, 0, -1), "shear": (0.6, 0.8, 0)}
 
 
 def break_joint(cause, per, dt=1e-4, speed=0.1):
-    """The column leaves the fixed beam at `speed` [m/s] until the joint breaks: (stretch [m], force of the joint [N], energy
+    """The column moves away from the fixed beam at `speed` [m/s] until the joint breaks: (stretch [m], force of the joint [N], energy
     released [J], causes).
     """
     _, column, joint = joined(dt, per=per, density=HEAVY, fixed=True)
@@ -130,19 +128,19 @@ def break_joint(cause, per, dt=1e-4, speed=0.1):
 
 @case
 def breaks_at_the_strength():
-    """Pulled, pressed and sheared to P_max: per spring, each of the four carries P_max at 10 cm and releases P_max^2 / 2K; per
-    joint, their sum does.
+    """Tension, compression and shear to P_max. With values per spring each of the four breaks at P_max and 10 cm and releases
+    P_max^2 / 2K; with values per joint their sum does.
 
-    A spring breaks in the first step in which its force exceeds P_max: at most one step's stretch too late (1e-5 m of 0.1 m), and
-    its energy twice as much.
+    A spring breaks in the first step in which its force exceeds P_max: the stretch is too large by at most one step (1e-5 m of 0.1 m),
+    the relative error of the energy is twice as large.
     """
     rows = []
     for per, count in (("spring", 4), ("joint", 1)):
         for cause in PULLS:
             stretch, force, released, causes = break_joint(cause, per)
             assert causes == [cause] * 4, causes
-            name = f"{cause} to the break, per {per}"
-            rows.append(Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4, note="length of a step"))
+            name = f"{cause} to failure, per {per}"
+            rows.append(Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4, note="displacement in one step"))
             rows.append(
                 Row(
                     "4",
@@ -151,7 +149,7 @@ def breaks_at_the_strength():
                     force,
                     bound=1.01e-4,
                     dt=1e-4,
-                    note="length of a step",
+                    note="displacement in one step",
                 )
             )
             rows.append(
@@ -162,37 +160,36 @@ def breaks_at_the_strength():
                     released,
                     bound=2.03e-4,
                     dt=1e-4,
-                    note="length of a step",
+                    note="displacement in one step",
                 )
             )
     return rows
 
 
 @case
-def broken_for_good():
-    """After the break the column comes back, through the joint and out on the other side: no force, no energy, no second break.
-    """
+def broken_joints_stay_broken():
+    """After the break the column moves back through the joint to the other side: no force, no energy, no second break."""
     _, column, joint = joined(1e-3, density=HEAVY, fixed=True)
     column.state.vel = Vector3(0, 0, 0.1)
     while not joint.isFinished:
         O.step()
     column.state.vel = Vector3(0, 0, -0.1)
     engine = O.engines[1]
-    seen = steps(4000, lambda: (O.forces.f(1).norm(), O.forces.t(1).norm(), engine.elastic, len(engine.breaks)))
-    assert column.state.pos[2] < 0.3, "the column has not come through"
+    values = steps(4000, lambda: (O.forces.f(1).norm(), O.forces.t(1).norm(), engine.elastic, len(engine.breaks)))
+    assert column.state.pos[2] < 0.3, "the column has not passed the joint"
     rows = [
         Row("4", f"broken joint: largest {what}", 0.0, value, bound=0.0, dt=1e-3, note="exact")
-        for what, value in zip(("force [N]", "torque [N m]", "energy [J]"), seen.max(0))
+        for what, value in zip(("force [N]", "torque [N m]", "energy [J]"), values.max(0))
     ]
-    return rows + [Row("4", "broken joint: breaks in the log [-]", 4, seen[-1, 3], bound=0.0, dt=1e-3, note="exact")]
+    return rows + [Row("4", "broken joint: breaks in the log [-]", 4, values[-1, 3], bound=0.0, dt=1e-3, note="exact")]
 
 
 OFF_AXIS = np.array([(x, y, (COLUMN[2] + SPACE) / 2) for y in (0.08, 0.2) for x in (-0.06, 0.06)])
-"""Springs in the plane of the column's centre, beside it."""
+"""Positions of springs in the plane of the column's centre, beside it. [m]"""
 
 
-def open_up(per, dt=1e-4, rate=0.1):
-    """The column turns about x through its centre at `rate` [rad/s]: tilts at which the springs broke, P_max a tenth. [rad]"""
+def tilts_at_failure(per, dt=1e-4, rate=0.1):
+    """The column rotates about x through its centre at `rate` [rad/s]: tilts at which springs of a tenth of P_max break. [rad]"""
     column = joined(dt, strength=STRENGTH / 10, per=per, points=OFF_AXIS, density=HEAVY, fixed=True)[1]
     spin(column, (rate, 0, 0))
     engine = O.engines[1]
@@ -203,10 +200,10 @@ def open_up(per, dt=1e-4, rate=0.1):
 
 @case
 def springs_break_one_by_one():
-    """A column that tips pulls its far springs first: a spring at y stretches by 2 y sin(tilt/2). Per joint all go at once, when
-    the four forces sum up to P_max.
+    """In a tilting column the far springs break first: the stretch of a spring at y is 2 y sin(tilt/2). With values per joint all break
+    when the sum of the four forces reaches P_max.
 
-    Late by at most a step's turn, 1e-5 rad of 0.05 to 0.13 rad.
+    The tilt is too large by at most one step, 1e-5 rad of 0.05 to 0.13 rad.
     """
     near, far = (2 * np.arcsin(STRETCH / 10 / (2 * y)) for y in (0.08, 0.2))
     together = 2 * np.arcsin(STRETCH / 10 / (0.08 + 0.2))
@@ -215,20 +212,19 @@ def springs_break_one_by_one():
         rows.append(
             worst(
                 "4",
-                f"tipping column, per {per}: tilt at the breaks, worst of 4 [rad]",
-                zip(expected, open_up(per)),
+                f"tilting column, per {per}: tilt at failure, worst of 4 [rad]",
+                zip(expected, tilts_at_failure(per)),
                 2.1e-4,
                 dt=1e-4,
-                note="length of a step",
+                note="displacement in one step",
             )
         )
     return rows
 
 
 def swing(dt, count, ks=1.0):
-    """Two free bodies tumbling on an unbroken joint for `count` steps; from 1000 samples of relative change:
-
-    energy (band about its mean, and mean of the last minus mean of the first tenth), linear and angular momentum.
+    """Two free bodies in rotation with an unbroken joint for `count` steps: relative changes in 1000 samples of energy (band about its
+    mean; mean of the last minus mean of the first tenth), linear and angular momentum.
     """
     beam, column, joint = joined(dt, stiffness=(STIFFNESS, ks * STIFFNESS))
     for body, velocity, omega in ((beam, (0.3, -0.2, -0.4), (0.5, 0.2, 1.0)), (column, (-0.1, 0.3, 0.6), (1.0, -1.5, -2.0))):
@@ -236,9 +232,9 @@ def swing(dt, count, ks=1.0):
         spin(body, omega)
 
     def probe():
-        turning = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)), Vector3.Zero)
-        moving = sum((b.state.mass * b.state.vel for b in (beam, column)), Vector3.Zero)
-        return [energy_residual(energy()), *moving, *turning]
+        angular = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)), Vector3.Zero)
+        linear = sum((b.state.mass * b.state.vel for b in (beam, column)), Vector3.Zero)
+        return [yt.energy_residual(yt.energy()), *linear, *angular]
 
     O.step()
     first = np.array(probe())
@@ -256,10 +252,10 @@ def swing(dt, count, ks=1.0):
 
 @case
 def a_million_steps_unbroken():
-    """Free beam and column, stretches up to 4 mm, 1e6 steps: energy swings in a band of (w dt)^2 width and does not drift;
-    momenta to rounding.
+    """Free beam and column, stretches up to 4 mm, 1e6 steps: the energy oscillates in a band of width (w dt)^2 without drift; momenta are
+    constant to rounding.
 
-    Seen: band 3.7e-6, drift 1.6e-7 (what is left of the band in the means of 100 samples), momenta 1e-13 and 1e-12.
+    Observed: band 3.7e-6, drift 1.6e-7 (remainder of the band in means of 100 samples), momenta 1e-13 and 1e-12.
     """
     got, dt = swing(1e-4, 1000000), 1e-4
     bounds = {"energy band": 1e-5, "energy drift": 1e-6, "linear momentum": 1e-11, "angular momentum": 1e-11}
@@ -271,8 +267,8 @@ def a_million_steps_unbroken():
 
 @case
 def energy_band_converges():
-    """Second order, for equal and unequal stiffnesses; the angular momentum of unequal ones, whose force is not along the spring,
-    too.
+    """Second order, for equal and unequal stiffnesses. The angular momentum is constant with unequal stiffnesses as well, whose force is
+    not parallel to the spring.
     """
     rows, dts = [], (2e-4, 1e-4, 5e-5)
     for ks in (1.0, 0.5):
@@ -287,8 +283,8 @@ def energy_band_converges():
             1.8,
             note="leapfrog",
         )
-        kept = max(r["angular momentum"] for r in runs)
+        change = max(r["angular momentum"] for r in runs)
         rows.append(
-            Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, kept, bound=1e-11, note="rounding")
+            Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, change, bound=1e-11, note="rounding")
         )
     return rows

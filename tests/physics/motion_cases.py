@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 5: free fall, and torque-free rotation about the intermediate axis against Jacobi's solution.
 
-The package's SymplecticIntegrator beside YADE's NewtonIntegrator (damping = 0, exactAsphericalRot: Fincham 1992).
+The package's SymplecticIntegrator and YADE's NewtonIntegrator (damping = 0, exactAsphericalRot: Fincham 1992).
 """
 import numpy as np
 import yade.wrapper as yw
@@ -14,11 +14,11 @@ from yade.minieigenHP import Vector3
 
 case = Registry()
 EDGES = np.array((0.4, 0.2, 0.1))
-"""Along x, y, z, so that I1 < I2 < I3 along them. [m]"""
+"""Along x, y, z; the moments of inertia about them are I1 < I2 < I3. [m]"""
 MOMENTS = DENSITY * EDGES.prod() / 12 * ((EDGES**2).sum() - EDGES**2)
-"""[kg m2]"""
+"""Moments of inertia about x, y, z. [kg m2]"""
 START = np.array((0.05, 6.0, 0.1))
-"""Angular velocity at t = 0: almost about the intermediate axis. [rad/s]"""
+"""Angular velocity at t = 0, almost about the intermediate axis. [rad/s]"""
 INTEGRATORS = {
     "SymplecticIntegrator": yw.SymplecticIntegrator,
     "NewtonIntegrator": lambda: yw.NewtonIntegrator(damping=0, exactAsphericalRot=True),
@@ -35,7 +35,7 @@ class Jacobi:
         i1, i2, i3 = moments
         self.twice_energy, self.momentum = (moments * start**2).sum(), np.sqrt(((moments * start) ** 2).sum())
         energy, square = self.twice_energy, self.momentum**2
-        assert square > energy * i2, "the other branch"
+        assert square > energy * i2, "L^2 <= 2 T I2"
         a1 = np.sqrt((energy * i3 - square) / (i1 * (i3 - i1)))
         a2 = np.sqrt((energy * i3 - square) / (i2 * (i3 - i2)))
         a3 = np.sqrt((square - energy * i1) / (i3 * (i3 - i1)))
@@ -49,7 +49,7 @@ class Jacobi:
         return self.amplitudes * np.array((cn, sn, dn))
 
     def flips(self, count):
-        """Times at which w2 vanishes. [s]"""
+        """Times of the zeros of w2. [s]"""
         half = 2 * ellipk(self.parameter)
         first = np.ceil(self.start / half)
         return (np.arange(first, first + count) * half - self.start) / self.rate
@@ -71,7 +71,7 @@ def attitude(time):
 
 
 def tumbling(integrator, dt):
-    """Body in torque-free rotation, and a probe of it: omega2 [rad/s], twice the energy [J], |L| [kg m2/s]."""
+    """A body in torque-free rotation and its probe: omega2 [rad/s], twice the energy [J], |L| [kg m2/s]."""
     body = yt.box(EDGES, (0, 0, 0))
     O.reset()
     O.bodies.append(body)
@@ -80,7 +80,7 @@ def tumbling(integrator, dt):
     spin(body, START)
 
     def probe():
-        local = np.array(body.state.ori.conjugate() * body.state.angMom)  # along the body's own axes, in its order
+        local = np.array(body.state.ori.conjugate() * body.state.angMom)  # in the body's principal frame
         omega = start * Vector3(*(local / moments))
         return omega[1], (local**2 / moments).sum(), np.linalg.norm(local)
 
@@ -88,20 +88,20 @@ def tumbling(integrator, dt):
 
 
 def tumble(integrator, dt):
-    """Torque-free for three flips: dictionary of the third flip's time [s], largest change of energy and momentum [-], angle
-    between the last attitude and scipy's [rad].
+    """Three flips: dictionary of the time of the third flip [s], largest change of energy and momentum [-], angle between the final
+    attitude and that of scipy [rad].
     """
     body, probe = tumbling(integrator, dt)
     start = body.state.ori
     count = int((JACOBI.flips(FLIPS)[-1] + 0.2) / dt)
     omega2, energy, momentum = steps(count, probe).T
     last = np.flatnonzero(omega2[1:] * omega2[:-1] < 0)[FLIPS - 1]
-    turned = np.array((body.state.ori * start.conjugate()).toRotationMatrix()).reshape(3, 3)
+    rotation = np.array((body.state.ori * start.conjugate()).toRotationMatrix()).reshape(3, 3)
     return {
         "flip": (last + 1 + omega2[last] / (omega2[last] - omega2[last + 1])) * dt,
         "energy": np.abs(energy / JACOBI.twice_energy - 1).max(),
         "momentum": np.abs(momentum / JACOBI.momentum - 1).max(),
-        "attitude": np.linalg.norm(turned - attitude(count * dt)) / np.sqrt(2),
+        "attitude": np.linalg.norm(rotation - attitude(count * dt)) / np.sqrt(2),
     }
 
 
@@ -112,15 +112,15 @@ def table(integrator, dts, quantities):
     rows = []
     for name, (key, expected, bound, order) in quantities.items():
         rows += series("5", f"{integrator}: {name}", expected, [run[key] for run in runs], dts, bound, order, note=note)
-    kept = max(run["momentum"] for run in runs)  # rounding of some 1e4 steps: seen 1.3e-15, at any dt
-    return rows + [Row("5", f"{integrator}: largest change of |L| [-]", 0.0, kept, bound=1e-13, note="rounding")]
+    change = max(run["momentum"] for run in runs)  # rounding in 1e4 steps; observed 1.3e-15 for any dt
+    return rows + [Row("5", f"{integrator}: largest change of |L| [-]", 0.0, change, bound=1e-13, note="rounding")]
 
 
 @case
 def symplectic_integrator_flips():
-    """Second order in everything but |L|, which is kept to rounding.
+    """Second order; |L| is constant to rounding.
 
-    Seen at 5e-4 s: flip 1.0e-6, energy 7e-8, attitude 2.3e-5 rad.
+    Observed at 5e-4 s: flip 1.0e-6, energy 7e-8, attitude 2.3e-5 rad.
     """
     flip = JACOBI.flips(FLIPS)[-1]
     return table(
@@ -136,7 +136,7 @@ def symplectic_integrator_flips():
 
 @case
 def symplectic_integrator_does_not_drift():
-    """One minute, 20 flips: energy stays within the band of the first flips, (dt)^2 wide; no drift."""
+    """One minute, 20 flips: the energy error remains of the order dt^2, without drift."""
     body, probe = tumbling("SymplecticIntegrator", 1e-3)
     energy = np.abs(steps(60000, probe, every=20)[:, 1] / JACOBI.twice_energy - 1)
     return [
@@ -153,10 +153,9 @@ def symplectic_integrator_does_not_drift():
 
 
 @case
-def yades_integrator_flips():
-    """YADE's rotation gains energy at order 1.3, which hastens the flips by a third at 2.5e-4 s: why the package has its own.
-
-    Shown, not judged.
+def newton_integrator_flips():
+    """The rotation of YADE's integrator gains energy (order 1.3), so that flips come earlier by a third at 2.5e-4 s. This is the reason
+    for the SymplecticIntegrator. For information only.
     """
     flip = JACOBI.flips(FLIPS)[-1]
     quantities = {
@@ -166,7 +165,7 @@ def yades_integrator_flips():
 
 
 def fall(dt, speed, time=1.0):
-    """Height after `time` [s] of free fall from rest at zero, speed (upward, [m/s]) being that half a step before the start."""
+    """Height after `time` [s] of free fall from height zero; speed: velocity half a step before the start, upward [m/s]."""
     body = yt.box(EDGES, (0, 0, 0))
     scene([body], dt)
     body.state.vel = Vector3(0, 0, speed)
@@ -176,8 +175,8 @@ def fall(dt, speed, time=1.0):
 
 @case
 def free_fall():
-    """Exact to rounding when the leapfrog is given the speed of half a step before, g dt / 2 upward; a body set to rest at t = 0
-    is late by dt / 2, order 1.
+    """Exact to rounding if the initial velocity is that of half a step before, g dt / 2 upward (leapfrog). A body at rest at t = 0 is
+    late by dt / 2: order 1.
     """
     expected, dts = -G / 2, (4e-4, 2e-4, 1e-4)
     rows = series(
@@ -188,7 +187,7 @@ def free_fall():
         dts,
         2e-4,
         0.9,
-        note="leapfrog: speed set at a half step",
+        note="leapfrog: velocity at a half step",
     )
     return rows + [
         Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4, note="rounding")

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 2, friction: the tangential spring along prescribed paths.
+"""Item 2, friction: the tangential spring on prescribed paths.
 
-Bodies so heavy that they follow the velocity they are given (the elastic law does not know the mass), no dashpots, no gravity:
-what the contact does along a path is then a matter of geometry alone.
+The bodies are so heavy that contact forces do not change their prescribed velocities (the elastic law does not depend on mass).
+Without dashpots and gravity the forces follow from the path alone.
 """
 import dataclasses
 
 import numpy as np
 import yade_timber as yt
-from cases import O, hertz_constant, integrate_first, scene, shear_stiffness, spin, steps, turned
+from cases import O, hertz_constant, integrate_first, scene, shear_stiffness, spin, turned
 from rows import Registry, Row, series
 from yade.minieigenHP import Vector3
 
@@ -17,7 +17,7 @@ HEAVY = 1e18
 """[kg/m3]"""
 MU, POINTS, OVERLAP = 0.5, 4, 1e-4
 SIZES = ((0.5, 0.4, 0.44), (0.2, 0.24, 0.28))
-"""Base and block; three different edges, so that the principal axes are the edges. [m]"""
+"""Extents of base and block; all edges differ, so that the principal axes are parallel to them. [m]"""
 CONSTANT = hertz_constant(np.prod(SIZES[0]), np.prod(SIZES[1]))
 FORCE = POINTS * CONSTANT * OVERLAP**1.5
 """Normal force at OVERLAP, all points. [N]"""
@@ -26,7 +26,7 @@ STIFFNESS = POINTS * shear_stiffness(CONSTANT, OVERLAP)
 
 
 def pair(dt=1e-4, friction=MU, offset=0.0):
-    """Base and block on it with OVERLAP, `offset` [m] between their centres along x (the base grows by twice of it)."""
+    """Base and a block on it with OVERLAP; `offset`: distance of their centres along x, which lengthens the base by twice as much [m]."""
     heavy = yt.timber(density=HEAVY, friction=friction)
     base, block = np.array(SIZES)
     low = yt.box(base + (2 * offset, 0, 0), (0, 0, -base[2] / 2), None, heavy)
@@ -43,7 +43,7 @@ def shear_force():
 
 
 def move(block, displacement, count):
-    """Move the block by `displacement` (3,) [m] in equal steps; returns the work that the tangential springs took. [J]"""
+    """Move the block by `displacement` (3,) [m] in equal steps; returns the work done on the tangential springs. [J]"""
     work, before, step = 0.0, shear_force(), Vector3(*displacement) / count
     for _ in range(count):
         block.state.vel = step / O.dt
@@ -55,7 +55,7 @@ def move(block, displacement, count):
 
 
 def by_count(quantity, expected, work, counts, bound, least_order, note):
-    """Rows for paths cut into more and more steps: these scenes have no time scale, the order is that in the length of a step."""
+    """Rows for paths in several numbers of steps. These scenes have no time scale: the order is that in the length of a step."""
     rows = series(
         "2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound, least_order, note=note
     )
@@ -65,13 +65,13 @@ def by_count(quantity, expected, work, counts, bound, least_order, note):
 
 
 def deeper(overlap):
-    """Displacement that takes the block from OVERLAP to this overlap. [m]"""
+    """Displacement of the block from OVERLAP to this overlap. [m]"""
     return (0, 0, OVERLAP - overlap)
 
 
 @case
 def elastic_cycle():
-    """There and back below the friction limit takes nothing; rounding of coordinates beside a path of 1e-7 m: seen 3e-15."""
+    """A cycle below the friction limit does no work. Rounding of coordinates against a path of 1e-7 m; observed 3e-15."""
     block = pair()[1]
     reach = 0.5 * MU * FORCE / STIFFNESS
     work = sum(move(block, (d, 0, 0), 50) for d in (reach, -2 * reach, reach))
@@ -89,10 +89,10 @@ def elastic_cycle():
 
 @case
 def slip_cycle():
-    """Hysteresis of spring and slider: 4 mu N (S - mu N / K_s) a cycle, once the first quarter is past.
+    """Hysteresis of spring and slider: work 4 mu N (S - mu N / K_s) per cycle, after the first quarter.
 
-    The corners of the loop fall inside a step, where the trapezoid errs by up to K_s ds^2 / 2: order 2, seen 1.6e-6 at 1600
-    steps.
+    The corners of the loop are inside a step, where the trapezoidal rule errs by up to K_s ds^2 / 2: order 2. Observed: 1.6e-6 with
+    1600 steps.
     """
     limit = MU * FORCE / STIFFNESS
     reach = 3 * limit
@@ -115,22 +115,22 @@ def slip_cycle():
 
 @case
 def slip_circle():
-    """The block led on a circle of radius R: the sliders follow on one of radius sqrt(R^2 - l^2), l = mu N / K_s, and take mu N 2
-    pi sqrt(R^2 - l^2) a turn.
+    """Block on a circle of radius R: the sliders move on a circle of radius sqrt(R^2 - l^2), l = mu N / K_s, and dissipate
+    mu N 2 pi sqrt(R^2 - l^2) per revolution.
 
-    Radial return at the end of each step is first order in the step's angle; seen 9e-4 at 2000 steps.
+    Radial return at the end of each step is of first order in the angle of a step. Observed: 9e-4 with 2000 steps.
     """
     limit = MU * FORCE / STIFFNESS
     reach = 2 * limit
 
     def work(count):
-        block, turn = pair()[1], np.linspace(0, 2 * np.pi, count + 1)
-        path = reach * np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+        block, angle = pair()[1], np.linspace(0, 2 * np.pi, count + 1)
+        path = reach * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
         move(block, path[0], 100)
         return [sum(move(block, step, 1) for step in np.diff(path, axis=0)) for _ in range(2)][1]
 
     return by_count(
-        "slip on a circle, a turn: work [J]",
+        "slip on a circle, one revolution: work [J]",
         2 * np.pi * MU * FORCE * np.sqrt(reach**2 - limit**2),
         work,
         (500, 1000, 2000),
@@ -142,18 +142,17 @@ def slip_circle():
 
 @case
 def squeeze_and_shear_cycle():
-    """Shear by s at n1, squeeze to n2, shear back, release, and the other way round: both take (K_s2 - K_s1) s^2 / 2 from whoever
-    moves the block.
+    """Shear by s at n1, compress to n2, shear back, release, and the reverse order: both need the work (K_s2 - K_s1) s^2 / 2.
 
-    A spring that kept its length instead of its force while n grows, or its force while n shrinks, would give energy on one of
-    the two ways. The trapezoid is exact on straight parts; rounding remains.
+    A spring with constant length instead of constant force while n grows, or constant force while n shrinks, would create energy in
+    one of the two orders. The trapezoidal rule is exact on straight parts; rounding remains.
     """
     squeezed, shift = 1.5 * OVERLAP, 0.3 * MU * FORCE / STIFFNESS
     expected = POINTS * (shear_stiffness(CONSTANT, squeezed) - shear_stiffness(CONSTANT, OVERLAP)) * shift**2 / 2
     down, up = np.array(deeper(squeezed)), -np.array(deeper(squeezed))
-    ways = {"shear first": [(shift, 0, 0), down, (-shift, 0, 0), up], "squeeze first": [down, (shift, 0, 0), up, (-shift, 0, 0)]}
+    orders = {"shear first": [(shift, 0, 0), down, (-shift, 0, 0), up], "squeeze first": [down, (shift, 0, 0), up, (-shift, 0, 0)]}
     rows = []
-    for name, parts in ways.items():
+    for name, parts in orders.items():
         block = pair()[1]
         rows.append(
             Row(
@@ -169,8 +168,8 @@ def squeeze_and_shear_cycle():
 
 
 @case
-def no_closed_path_gives_energy():
-    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring: the least
+def closed_paths_create_no_energy():
+    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring: the smallest
     work is not negative.
     """
     random, limit = np.random.default_rng(1), MU * FORCE / STIFFNESS
@@ -185,18 +184,18 @@ def no_closed_path_gives_energy():
     return [
         Row(
             "2",
-            "random closed paths: energy given / stored at the limit [-]",
+            "random closed paths: energy created / stored at the limit [-]",
             0.0,
             max(0.0, -least / scale),
             bound=1e-9,
-            note="rounding; only a gain counts",
+            note="rounding; dissipation is not counted",
         )
     ]
 
 
-def turned_force(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
-    """Sheared pair that turns as a whole by `angle` [rad] in `time` [s]: change of the tangential force in its own frame, share
-    of it.
+def force_change(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
+    """Sheared pair that rotates as a whole by `angle` [rad] in `time` [s]: relative change of the tangential force in the frame of the
+    pair.
     """
     bodies = pair(dt, friction=1e6, offset=offset)
     move(bodies[1], (1e-6, 2e-6, 0), 50)
@@ -212,18 +211,18 @@ def turned_force(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
 
 
 @case
-def turns_with_the_pair():
-    """A quarter turn in 1 s about x, y and z leaves the tangential force as it was, in the pair's frame.
+def rotates_with_the_pair():
+    """A quarter rotation in 1 s about x, y and z does not change the tangential force in the frame of the pair.
 
-    Concentric, and with the centres 1 m apart along the face, as a column on the end of a beam. Both err by second order: in a
-    step a point moves along the chord, not the arc. Seen 1.1e-3 and 2.9e-3 at 1e-4 s.
+    With the centres in line, and 1 m apart along the face (a column at the end of a beam). The errors are of second order: in a step
+    a point moves along the chord instead of the arc. Observed: 1.1e-3 and 2.9e-3 at 1e-4 s.
     """
     rows, dts = [], (4e-4, 2e-4, 1e-4)
     for name, offset, bound in (("centres in line", 0.0, 2e-3), ("centres 1 m apart", 1.0, 5e-3)):
-        got = [max(turned_force(axis, dt, offset) for axis in np.eye(3)) for dt in dts]
+        got = [max(force_change(axis, dt, offset) for axis in np.eye(3)) for dt in dts]
         rows += series(
             "2",
-            f"quarter turn of a sheared pair, {name}: change of force [-]",
+            f"quarter rotation of a sheared pair, {name}: change of force [-]",
             0.0,
             got,
             dts,

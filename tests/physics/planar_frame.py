@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A plane frame of rounded prisms with contacts and joints, written from the equations of the paper alone.
 
-Pure numpy: no YADE, nothing of the package. The frame lies in the plane of x (right) and z (up); angles turn x towards z.
-Corners of parts are (n, 2) arrays; all else in the plane is complex, x + i z: a turn is a product, and the speed is numpy's.
-Every body is a prism across the plane, symmetric about it, and no two neighbours are equally wide: each meeting of a corner
-with a side then stands for two contact points in space, one on either side of the plane (`SIDES`).
+Pure numpy, without YADE and the package. The frame lies in the plane of x (right) and z (up); angles are positive from x to z.
+Corners of parts are (n, 2) arrays; other vectors in the plane are complex, x + i z, so that a rotation is a product.
+Every body is a prism, symmetric about the plane, and no two neighbours have the same width: each contact of a corner with a side
+then represents two contact points in space, one on each side of the plane (`SIDES`).
 """
 import dataclasses
 
@@ -27,7 +27,7 @@ class Part:
 
 @dataclasses.dataclass
 class Tie:
-    """A joint: its spring points (n, 2) in the plane [m], each for two springs of `stiffness` [N/m] in space."""
+    """A joint: its spring points (n, 2) in the plane [m], each of which represents two springs of `stiffness` [N/m] in space."""
 
     first: str
     second: str
@@ -97,10 +97,10 @@ def flat(points):
 
 
 class Frame:
-    """Masses, contact candidates and springs of a frame as arrays; places (n,) complex and angles (n,) are those of its parts.
+    """Masses, contact candidates and springs of a frame as arrays; positions (n,) complex and angles (n,) are those of its parts.
 
-    parts: list of Part, ties: list of Tie, pairs: names of parts that may touch, reach: how far a corner may be from a
-    side at the start to be watched [m].
+    parts: list of Part, ties: list of Tie, pairs: names of parts that may touch, reach: largest initial distance of a corner
+    from a side that makes them a candidate [m].
     """
 
     def __init__(self, parts, ties, pairs, timber=Timber(), reach=0.05):
@@ -114,7 +114,7 @@ class Frame:
         self.free = np.array([not p.fixed for p in parts])
         self.sphere = np.cbrt(3 * volume / (4 * np.pi))
         self._find_candidates(pairs, reach)
-        self._place_springs(ties)
+        self._set_springs(ties)
 
     def _find_candidates(self, pairs, reach):
         radius = [rounding(p) for p in self.parts]
@@ -133,7 +133,7 @@ class Frame:
         self._set_pair_properties()
 
     def _sums(self, parts):
-        """Matrix that adds up what acts on each part."""
+        """Matrix that sums the forces on each part."""
         return (np.arange(len(self.parts))[:, None] == parts[None, :]).astype(float)
 
     def _set_pair_properties(self):
@@ -145,7 +145,7 @@ class Frame:
         inverse = np.where(self.free, 1 / self.mass, 0)
         self.pair_mass = 1 / (inverse[self.of] + inverse[self.on])  # Eq. 43
 
-    def _place_springs(self, ties):
+    def _set_springs(self, ties):
         rows = [(self.index[t.first], self.index[t.second], flat(point), t.stiffness) for t in ties for point in t.points]
         columns = list(zip(*rows)) if rows else [[], [], [], []]
         self.spring_a, self.spring_b = np.array(columns[0], int), np.array(columns[1], int)
@@ -154,13 +154,13 @@ class Frame:
         self.anchor_a, self.anchor_b = points - self.start[self.spring_a], points - self.start[self.spring_b]
         self.spring_k = SIDES * np.array(columns[3], float)
 
-    def overlaps(self, place, angle):
-        """Overlap of every candidate (0 where it does not touch) [m], contact places [m], outward unit normals."""
-        turn = np.exp(1j * angle)
-        turn_on = turn[self.on]
-        x = place[self.of] + turn[self.of] * self.corner
-        normal = turn_on * self.normal
-        gap = normal.conj() * (x - place[self.on] - turn_on * self.edge)  # height + i times the way along the side
+    def overlaps(self, position, angle):
+        """Overlap of every candidate (0 if separate) [m], positions of the contacts [m], outward unit normals."""
+        rotation = np.exp(1j * angle)
+        rotation_on = rotation[self.on]
+        x = position[self.of] + rotation[self.of] * self.corner
+        normal = rotation_on * self.normal
+        gap = normal.conj() * (x - position[self.on] - rotation_on * self.edge)  # height + i times the distance along the side
         overlap = self.touch - gap.real
         near = (overlap > 0) & (gap.real > 0) & (gap.imag >= 0) & (gap.imag <= self.length)
         overlap = np.where(near, overlap, 0.0)
@@ -171,79 +171,79 @@ class Frame:
         root = self.hertz * np.sqrt(overlap)
         return 4 / 3 * root * overlap, 2 * root
 
-    def add_springs(self, place, angle, force, moment):
+    def add_springs(self, position, angle, force, moment):
         """Adds the joints' forces (Eqs. 25-34) to force (n,) complex [N] and moment (n,) [N m]."""
-        turn = np.exp(1j * angle)
-        arm_a, arm_b = turn[self.spring_a] * self.anchor_a, turn[self.spring_b] * self.anchor_b
-        pull = self.spring_k * (place[self.spring_b] + arm_b - place[self.spring_a] - arm_a)
+        rotation = np.exp(1j * angle)
+        arm_a, arm_b = rotation[self.spring_a] * self.anchor_a, rotation[self.spring_b] * self.anchor_b
+        pull = self.spring_k * (position[self.spring_b] + arm_b - position[self.spring_a] - arm_a)
         force += self.sum_spring_a @ pull - self.sum_spring_b @ pull
         moment += self.sum_spring_a @ cross(arm_a, pull) - self.sum_spring_b @ cross(arm_b, pull)
 
-    def add_contacts(self, place, at, push, force, moment):
-        """Adds the forces `push` of one contact point each on the corner's part, for both sides of the plane."""
+    def add_contacts(self, position, at, push, force, moment):
+        """Adds the forces `push` of single contact points on the corner's part, for both sides of the plane."""
         push = SIDES * push
         force += self.sum_of @ push - self.sum_on @ push
-        moment += self.sum_of @ cross(at - place[self.of], push) - self.sum_on @ cross(at - place[self.on], push)
+        moment += self.sum_of @ cross(at - position[self.of], push) - self.sum_on @ cross(at - position[self.on], push)
 
 
 class LinearFrame:
-    """Small motions of a frame about its rest under gravity, contacts sticking; coordinates (x, z, angle) of each free part."""
+    """Small motions of a frame about its equilibrium under gravity, with sticking contacts; coordinates (x, z, angle) of each free part."""
 
     def __init__(self, frame):
         self.frame = frame
         self.bodies = np.flatnonzero(frame.free)
         self.mass = np.stack([frame.mass, frame.mass, frame.inertia], 1)[self.bodies].ravel()
         self.rest = np.zeros(3 * len(self.bodies))
-        self.held = None
+        self.shear_springs = None
         self._find_rest()
         self.stiffness = -self._slope(self.rest)
 
-    def placed(self, q):
-        """Places and angles (n,) of all parts for coordinates q."""
-        place, angle = self.frame.start.copy(), np.zeros(len(self.frame.parts))
-        place[self.bodies] += flat(q.reshape(-1, 3))
+    def configuration(self, q):
+        """Positions and angles (n,) of all parts for coordinates q."""
+        position, angle = self.frame.start.copy(), np.zeros(len(self.frame.parts))
+        position[self.bodies] += flat(q.reshape(-1, 3))
         angle[self.bodies] += q.reshape(-1, 3)[:, 2]
-        return place, angle
+        return position, angle
 
     def force(self, q):
-        """Generalised forces: gravity, joints, normal springs, tangential springs from the last `hold`."""
+        """Generalised forces: gravity, joints, normal springs, tangential springs of the last `stick`."""
         f = self.frame
-        place, angle = self.placed(q)
+        position, angle = self.configuration(q)
         force, moment = -1j * GRAVITY * f.mass, np.zeros(len(f.parts))
-        overlap, at, normal = f.overlaps(place, angle)
+        overlap, at, normal = f.overlaps(position, angle)
         push = f.normal_law(overlap)[0] * normal
-        if self.held is not None:
-            stiffness, on_corner, on_edge = self.held
-            turn = np.exp(1j * angle)
-            moved = place[f.of] + turn[f.of] * on_corner - place[f.on] - turn[f.on] * on_edge
+        if self.shear_springs is not None:
+            stiffness, on_corner, on_edge = self.shear_springs
+            rotation = np.exp(1j * angle)
+            moved = position[f.of] + rotation[f.of] * on_corner - position[f.on] - rotation[f.on] * on_edge
             push = push - stiffness * (moved - dot(normal, moved) * normal)
-        f.add_contacts(place, at, push, force, moment)
-        f.add_springs(place, angle, force, moment)
+        f.add_contacts(position, at, push, force, moment)
+        f.add_springs(position, angle, force, moment)
         return np.stack([force.real, force.imag, moment], 1)[self.bodies].ravel()
 
-    def hold(self, q):
-        """Tangential springs of the present stiffness, unstretched where they were first held."""
+    def stick(self, q):
+        """Set the tangential springs to the present stiffness; they are unstretched at the points of the first call."""
         f = self.frame
-        place, angle = self.placed(q)
-        overlap, at, _ = f.overlaps(place, angle)
+        position, angle = self.configuration(q)
+        overlap, at, _ = f.overlaps(position, angle)
         back = np.exp(-1j * angle)
-        ends = self.held[1:] if self.held else (back[f.of] * (at - place[f.of]), back[f.on] * (at - place[f.on]))
-        self.held = (f.shear_ratio * f.normal_law(overlap)[1], *ends)
+        ends = self.shear_springs[1:] if self.shear_springs else (back[f.of] * (at - position[f.of]), back[f.on] * (at - position[f.on]))
+        self.shear_springs = (f.shear_ratio * f.normal_law(overlap)[1], *ends)
 
     def _slope(self, q, step=1e-9):
-        """Jacobian of `force` by central differences of 1 nm: far below the static overlaps of some um."""
+        """Jacobian of `force` by central differences of 1 nm, far below the static overlaps of some um."""
         return np.array([(self.force(q + e) - self.force(q - e)) / (2 * step) for e in step * np.eye(len(q))]).T
 
     def _find_rest(self):
-        """Newton from a first guess in which everything has sunk straight by some um, so that all touching points overlap."""
+        """Newton iteration from a vertical displacement of some um, at which all touching points overlap."""
         self.rest.reshape(-1, 3)[:, 1] = -5e-6 * (1 + self.frame.start[self.bodies].imag)
         for _ in range(60):
-            self.hold(self.rest)
+            self.stick(self.rest)
             change = np.linalg.solve(self._slope(self.rest), -self.force(self.rest))
             self.rest = self.rest + change * min(1.0, 2e-6 / abs(change).max())
             if abs(change).max() < 1e-13:
                 return
-        raise RuntimeError("no rest found")
+        raise RuntimeError("no equilibrium found")
 
     def deflection(self, load):
         """Displacement for generalised loads (3 per free part)."""

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A plane frame (planar_frame.py) as a scene in YADE: x stays x, z stays z, the prisms extend along y."""
+"""A plane frame (planar_frame.py) as a scene in YADE: same x and z; the prisms extend along y."""
 import numpy as np
 import yade.wrapper as yw
-from yade.minieigenHP import Vector3
-from yade_timber.scene import bodies as elements
-from yade_timber.scene import engines as scene
+import yade_timber as yt
 
 O = yw.Omega()
 UNBREAKABLE = 1e12
@@ -18,22 +16,22 @@ def extruded(part):
 
 def append_parts(parts, timber):
     """Append prisms (list of planar_frame.Part) of one material (planar_frame.Timber)."""
-    material = elements.timber(timber.young, timber.poisson, timber.density, timber.friction)
+    material = yt.timber(timber.young, timber.poisson, timber.density, timber.friction)
     for part in parts:
-        O.bodies.append(elements.polyhedron(extruded(part), material, fixed=part.fixed, name=part.name))
+        O.bodies.append(yt.polyhedron(extruded(part), material, fixed=part.fixed, name=part.name))
 
 
 def build_frame(frame, dt=1e-4, **options):
-    """Empty YADE and build the frame; body ids are the indices of its parts. options: of scene.engines."""
+    """Empty YADE and build the frame; body ids are the indices of its parts. options: of `yade_timber.engines`."""
     O.reset()
     append_parts(frame.parts, frame.timber)
-    O.engines = scene.engines(**options)
+    O.engines = yt.engines(**options)
     O.dt = dt
     for tie in frame.ties:
         a, b = frame.index[tie.first], frame.index[tie.second]
         half = min(frame.parts[a].width, frame.parts[b].width) / 2
         points = [[x, y, z] for y in (-half, half) for x, z in tie.points]
-        scene.connect(a, b, points, stiffness=(tie.stiffness, tie.stiffness), strength=UNBREAKABLE)
+        yt.connect(a, b, points, stiffness=(tie.stiffness, tie.stiffness), strength=UNBREAKABLE)
 
 
 def advance(duration):
@@ -51,15 +49,12 @@ def recorded(duration, every, probe):
     return np.array(rows)
 
 
-def places():
+def positions():
     """Positions (n, 3) of all bodies [m]."""
     return np.array([b.state.pos for b in O.bodies])
 
 
-def start_in_mode(frame, bodies, shape):
-    """Give the free parts the velocities of a mode shape: (x, z, angle) for each, [m/s], [rad/s]."""
-    for k, (x, z, angle) in zip(bodies, shape.reshape(-1, 3)):
-        body = O.bodies[int(k)]
-        body.state.vel = Vector3(x, 0, z)
-        body.state.angVel = Vector3(0, -angle, 0)  # from x to z is minus about y
-        body.state.angMom = scene.angular_momentum(body)
+def start_in_mode(parts, shape):
+    """Give the parts (ids of the free ones) the velocities of a mode shape: (x, z, angle) for each, [m/s], [rad/s]."""
+    for k, (x, z, angle) in zip(parts, shape.reshape(-1, 3)):
+        yt.set_velocity(O.bodies[int(k)], (x, 0, z), (0, -angle, 0))  # angles are positive from x to z: negative about y

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 9: a braced portal frame under a shaken ground, solved without YADE and without the package.
+"""Item 9: a braced portal frame under ground motion, solved without YADE and without the package.
 
 The scheme is the paper's own: Eqs. 1-9 with explicit dashpots and a small step, in the plane (planar_frame.py). Run as a
 script it prints the history of the frame.
@@ -13,19 +13,19 @@ SAMPLE, START, LENGTH = 0.01, 0.3, 0.6
 """Step of the ground motion's samples, its first and its duration. [s]"""
 
 
-def bearing_brace(foot, head, run, rise):
-    """Corners (6, 2) of a brace from the corner `foot` (lower left) to `head` (upper right): each end bears with a level face
-    of length `run` and an upright one of height `rise`. [m]"""
+def cut_brace(foot, head, run, rise):
+    """Corners (6, 2) of a brace from the corner `foot` (lower left) to `head` (upper right); each end is cut by a horizontal face
+    of length `run` and a vertical face of height `rise`. [m]"""
     (x0, z0), (x1, z1) = foot, head
     return np.array([[x0, z0], [x0 + run, z0], [x1, z1 - rise], [x1, z1], [x1 - run, z1], [x0, z0 + rise]])
 
 
 def portal(beam=0.3):
-    """Frame of a fixed plate, two columns, a beam (its depth and width [m]) and a brace that bears on column and plate, and
-    on beam and column."""
+    """Frame of a fixed plate, two columns, a beam (its depth and width [m]) and a brace supported by column and plate, and by
+    beam and column."""
     half = COLUMN / 2
     run, rise = 0.08, 0.11
-    brace = bearing_brace((half, 0), (SPAN - half, HEIGHT), run, rise)
+    brace = cut_brace((half, 0), (SPAN - half, HEIGHT), run, rise)
     parts = [
         Part("plate", rectangle(-4.0, -0.3, SPAN + 4.0, 0), 4.0, True),
         Part("left", rectangle(-half, 0, half, HEIGHT), COLUMN),
@@ -48,13 +48,13 @@ def ground_samples(peak=9.0, frequency=2.5):
     return peak * np.sin(2 * np.pi * frequency * t) * np.sin(np.pi * t / LENGTH) ** 2
 
 
-class Motion:
-    """The frame in time: places at full, velocities at half steps; contact history per candidate."""
+class FrameMotion:
+    """The frame in time: positions at full, velocities at half steps; contact history per candidate."""
 
     def __init__(self, frame, samples, dt):
         self.frame, self.samples, self.dt = frame, samples, dt
         n = len(frame.parts)
-        self.time, self.place, self.angle = 0.0, frame.start.copy(), np.zeros(n)
+        self.time, self.position, self.angle = 0.0, frame.start.copy(), np.zeros(n)
         self.velocity, self.spin = np.zeros(n, complex), np.zeros(n)
         self.shear, self.stiffness = np.zeros(len(frame.of)), np.zeros(len(frame.of))
         self.slid, self.lifted = 0.0, 0.0
@@ -68,35 +68,35 @@ class Motion:
         return (1 - (t - k)) * self.samples[k] + (t - k) * self.samples[k + 1]
 
     def velocity_at(self, at, part, back=0.0):
-        """Velocity of a part's material point that is at `at` now, with its arm of `back` steps ago: velocities belong to half
-        a step ago, and a displacement is right only with the arm of then. [m/s]"""
-        arm = at - self.place[part]
+        """Velocity of a part's material point that is at `at` now, with its arm of `back` steps ago. Velocities are those of half
+        a step ago; a displacement is exact with the arm of the same time. [m/s]"""
+        arm = at - self.position[part]
         return self.velocity[part] + 1j * self.spin[part] * arm * (1 - 1j * back * self.dt * self.spin[part])
 
-    def come_or_go(self, elastic, overlap, way):
-        """Normal forces, those of points that come or go within a step replaced: with F(0) = 0 before and F(n + d) after, the
-        trapezoid sum of the work over the two steps is then the energy 2/5 F n at n + d. [N]"""
-        grazing = (overlap > 0) & (way > overlap)
-        force = self.frame.normal_law(overlap + way)[0]
-        instead = 0.4 * force * (overlap + way) / np.where(grazing, way, 1) - force / 2
+    def touch_or_separate(self, elastic, overlap, displacement):
+        """Normal forces, replaced at points that touch or separate within a step: with F(0) = 0 before and F(n + d) after, the
+        trapezoid sum of the work over the two steps is the energy 2/5 F n at n + d. [N]"""
+        grazing = (overlap > 0) & (displacement > overlap)
+        force = self.frame.normal_law(overlap + displacement)[0]
+        instead = 0.4 * force * (overlap + displacement) / np.where(grazing, displacement, 1) - force / 2
         return np.where(grazing, np.maximum(0, instead), elastic)
 
     def contact_forces(self, at, overlap, normal):
         """Forces of each contact point on its corner's part (Eqs. 15-24, 37-43), friction included. [N]"""
         f = self.frame
         elastic, stiffness = f.normal_law(overlap)
-        moving = (self.velocity_at(at, f.of) - self.velocity_at(at, f.on)) * normal.conj()
-        parting, slip = moving.real, moving.imag
+        relative = (self.velocity_at(at, f.of) - self.velocity_at(at, f.on)) * normal.conj()
+        separation, slip = relative.real, relative.imag
         moved = self.dt * (self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) * normal.conj()
-        way = moved.imag
-        elastic = self.come_or_go(elastic, overlap, np.abs(moved.real))
-        kept = np.divide(stiffness, self.stiffness, out=np.zeros_like(stiffness), where=self.stiffness > 0)
-        shear = np.minimum(1, kept) * self.shear - f.shear_ratio * stiffness * way
+        sliding_distance = moved.imag
+        elastic = self.touch_or_separate(elastic, overlap, np.abs(moved.real))
+        ratio = np.divide(stiffness, self.stiffness, out=np.zeros_like(stiffness), where=self.stiffness > 0)
+        shear = np.minimum(1, ratio) * self.shear - f.shear_ratio * stiffness * sliding_distance
         damping = 2 * np.sqrt(f.pair_mass * stiffness)
-        push = np.maximum(0, elastic - damping * parting)
+        push = np.maximum(0, elastic - damping * separation)
         limit = f.timber.friction * push
         sliding = np.abs(shear) > limit
-        self.slid += np.abs(way[sliding & (limit > 0)]).sum()
+        self.slid += np.abs(sliding_distance[sliding & (limit > 0)]).sum()
         self.shear, self.stiffness = np.maximum(-limit, np.minimum(limit, shear)), stiffness
         drag = np.where(sliding, self.shear, self.shear - np.sqrt(f.shear_ratio) * damping * slip)
         return (push + 1j * np.maximum(-limit, np.minimum(limit, drag))) * normal
@@ -105,31 +105,31 @@ class Motion:
         f = self.frame
         force = -f.mass * (self.ground() + 1j * GRAVITY)
         moment = np.zeros(len(f.parts))
-        f.add_springs(self.place, self.angle, force, moment)
-        overlap, at, normal = f.overlaps(self.place, self.angle)
-        f.add_contacts(self.place, at, self.contact_forces(at, overlap, normal), force, moment)
+        f.add_springs(self.position, self.angle, force, moment)
+        overlap, at, normal = f.overlaps(self.position, self.angle)
+        f.add_contacts(self.position, at, self.contact_forces(at, overlap, normal), force, moment)
         self.velocity += np.where(f.free, self.dt / f.mass, 0) * force
         self.spin += np.where(f.free, self.dt / f.inertia, 0) * moment
-        self.place += self.dt * self.velocity
+        self.position += self.dt * self.velocity
         self.angle += self.dt * self.spin
         self.time += self.dt
 
 
 def history(dt, duration, every):
     """Displacements (m, parts) complex [m] and angles (m, parts) [rad] at multiples of `every` [s], 0 and duration
-    included, and the Motion."""
-    motion = Motion(portal(), ground_samples(), dt)
-    places, angles = [], []
+    included, and the FrameMotion."""
+    motion = FrameMotion(portal(), ground_samples(), dt)
+    displacements, angles = [], []
     for _ in range(round(duration / every) + 1):
-        places.append(motion.place - motion.frame.start)
+        displacements.append(motion.position - motion.frame.start)
         angles.append(motion.angle.copy())
         for _ in range(round(every / dt)):
             motion.step()
-    return np.array(places), np.array(angles), motion
+    return np.array(displacements), np.array(angles), motion
 
 
 if __name__ == "__main__":
-    moved, turned, last = history(2e-5, 1.0, 0.01)
-    for k, (place, angle) in enumerate(zip(moved, turned)):
-        print(f"{0.01 * k:.2f} s: beam {place[3]: .6e} m, left column {angle[1]: .6e} rad, right foot up {place[2].imag: .6e} m")
-    print(f"slid {last.slid:.3e} m in all")
+    displacements, angles, last = history(2e-5, 1.0, 0.01)
+    for k, (moved, angle) in enumerate(zip(displacements, angles)):
+        print(f"{0.01 * k:.2f} s: beam {moved[3]: .6e} m, left column {angle[1]: .6e} rad, right foot up {moved[2].imag: .6e} m")
+    print(f"total sliding distance {last.slid:.3e} m")

@@ -1,31 +1,30 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 3: a slender block that rocks on a base.
 
-Rounding leaves an effective half-width a = b/2 - r and half-height c = h/2 - r between the centre of mass and the centre of the
-rounded edge, which rolls on the base. Tilted by theta, from the point of contact to the centre of mass:
+With rounded edges the distances of the centre of mass from the centre of the rounded edge, which rolls on the base, are
+a = b/2 - r and c = h/2 - r. Vector from the contact point to the centre of mass at a tilt theta:
     across X = a cos - c sin,   up Y = r + c cos + a sin,
     potential energy m g Y,   kinetic energy (I + m (X^2 + Y^2)) theta'^2 / 2.
 """
 import numpy as np
 import yade_timber as yt
-from cases import DENSITY, G, O, hertz_constant, run_until, scene, steps, turned
+from cases import DENSITY, G, hertz_constant, run_until, scene, steps, turned
 from rows import Registry, Row
 from scipy.integrate import quad
-from scipy.optimize import brentq
 from yade.minieigenHP import Vector3
 
 case = Registry()
 WIDTH, DEPTH, HEIGHT = 0.2, 0.3, 1.6
-"""h/b = 8; it rocks about y. [m]"""
+"""Extents of the block, h/b = 8; it rocks about y. [m]"""
 PLATE = (2.0, 2.0, 0.2)
 R = 0.1 * WIDTH
 A, C = WIDTH / 2 - R, HEIGHT / 2 - R
 MASS = DENSITY * WIDTH * DEPTH * HEIGHT
 INERTIA = MASS * (WIDTH**2 + HEIGHT**2) / 12
 TOPPLE = np.arctan2(A, C)
-"""Tilt beyond which the block falls: X = 0. [rad]"""
-PRESSED = (MASS * G / 2 / hertz_constant(WIDTH * DEPTH * HEIGHT, np.prod(PLATE))) ** (2 / 3)
-"""Overlap of each of the two points that carry the tilted block. [m]"""
+"""Tilt at which the block topples: X = 0. [rad]"""
+OVERLAP = (MASS * G / 2 / hertz_constant(WIDTH * DEPTH * HEIGHT, np.prod(PLATE))) ** (2 / 3)
+"""Overlap of each of the two points that support the tilted block. [m]"""
 
 
 def across(tilt):
@@ -37,20 +36,20 @@ def up(tilt):
 
 
 def tilted_block(tilt, dt, **options):
-    """Block at rest on its right edge, tilted by `tilt` [rad], in equilibrium with the two points that carry it."""
+    """Block at rest on its right edge, tilted by `tilt` [rad], with the static overlap of its two contact points."""
     base = yt.box(PLATE, (0, 0, -PLATE[2] / 2), fixed=True)
     block = yt.box((WIDTH, DEPTH, HEIGHT), (0, 0, 0), None)
     start = block.state.ori
-    block.state.pos = Vector3(-across(tilt), 0, up(tilt) - PRESSED)
+    block.state.pos = Vector3(-across(tilt), 0, up(tilt) - OVERLAP)
     block.state.ori = turned((0, 1, 0), tilt) * start
     scene((base, block), dt, **options)
     return block, start
 
 
 def tilt_of(block, start):
-    """[rad]"""
-    turn = block.state.ori * start.conjugate()
-    return 2 * np.arctan2(turn[1], turn[3])
+    """Rotation of the block about y from the orientation `start`. [rad]"""
+    rotation = block.state.ori * start.conjugate()
+    return 2 * np.arctan2(rotation[1], rotation[3])
 
 
 def quarter_period(tilt):
@@ -72,22 +71,22 @@ def housner(tilt):
 
 
 def rocking_time(tilt, dt):
-    """Time from rest at `tilt` to upright [s]. At rest half a step before the start (leapfrog), interpolated at the end."""
+    """Time from rest at `tilt` to upright [s]; at rest half a step before the start (leapfrog), interpolated at the end."""
     block, start = tilted_block(tilt, dt)
-    now = [tilt, tilt]
+    last = [tilt, tilt]
 
     def upright():
-        now[:] = now[1], tilt_of(block, start)
-        return now[1] <= 0
+        last[:] = last[1], tilt_of(block, start)
+        return last[1] <= 0
 
     count = run_until(upright, int(5 / dt))
-    return (count + 0.5 - now[1] / (now[1] - now[0])) * dt
+    return (count + 0.5 - last[1] / (last[1] - last[0])) * dt
 
 
 @case
 def quarter_period_of_rocking():
-    """Against the quadrature of the rolling block (seen 2e-5 at any dt: the points' compression of 1.4e-5 m beside a = 8 cm), and
-    Housner's formula, whose small angles err by 2e-4 to 8e-3.
+    """Against the quadrature of the rolling block (observed 2e-5 for any dt: compression of the points, 1.4e-5 m against a = 8 cm) and
+    Housner's formula for small angles, which errs by 2e-4 to 8e-3.
     """
     rows = []
     for share in (0.3, 0.6, 0.9):
@@ -111,14 +110,14 @@ def quarter_period_of_rocking():
                 got,
                 bound=1e-2,
                 dt=1e-4,
-                note="Housner's small angles",
+                note="small angles in Housner's formula",
             )
         )
     return rows
 
 
 def topples(tilt, dt=2e-4):
-    """Whether the block falls when it is let go at `tilt` [rad]."""
+    """Whether the block topples when it is released at `tilt` [rad]."""
     block, start = tilted_block(tilt, dt)
     run_until(lambda: not 0.5 * TOPPLE < tilt_of(block, start) < 1.5 * TOPPLE, int(10 / dt))
     return tilt_of(block, start) > TOPPLE
@@ -126,10 +125,9 @@ def topples(tilt, dt=2e-4):
 
 @case
 def topple_angle():
-    """atan(a/c), found by halving the interval of angles from which the block does not and does fall; error = width of the last
-    one, 2.5e-5.
+    """atan(a/c), by bisection; error: width of the last interval, 2.5e-5.
 
-    The ends are not symmetric: let go at alpha itself the block stands on its edge for good.
+    The first interval is not symmetric about alpha: released at alpha the block remains on its edge.
     """
     low, high = 0.985 * TOPPLE, 1.01 * TOPPLE
     assert not topples(low) and topples(high)
@@ -140,7 +138,7 @@ def topple_angle():
 
 
 def standing_block(acceleration, dt=1e-4):
-    """Upright block, settled, whose base is then brought smoothly to a constant acceleration [m/s2] along x in 1 s."""
+    """Upright block at rest; its base is then accelerated along x, smoothly within 1 s to a constant acceleration [m/s2]."""
     rise = (1 - np.cos(np.linspace(0, np.pi, 21))) / 2
     levels = [Vector3(acceleration * f, 0, 0) for f in np.concatenate([rise, np.ones(100)])]
     block, start = tilted_block(0.0, dt, ground_motion=yt.GroundMotionEngine(step=0.05, acceleration=levels, start=0.1))
@@ -149,7 +147,7 @@ def standing_block(acceleration, dt=1e-4):
 
 
 def uplifts(acceleration, dt=2e-4):
-    """Whether the block tilts in 3 s at this acceleration by more than ten times what its elastic base allows (9e-5 rad)."""
+    """Whether the block tilts within 3 s by more than ten times the tilt on its elastic base (9e-5 rad)."""
     block, start = standing_block(acceleration, dt)
     for _ in range(int(3.5 / dt / 500)):
         steps(500)
@@ -160,10 +158,9 @@ def uplifts(acceleration, dt=2e-4):
 
 @case
 def uplift():
-    """g a / (h/2): by halving between 0.98 and 1.02 of it; and the load left on the lifting side at half of it, m g / 4.
+    """g a / (h/2), by bisection between 0.98 and 1.02 of it; and the load on the side that lifts at half of this acceleration, m g / 4.
 
-    The block tilts by 9e-5 rad on its springs before it lifts, which takes 9e-4 of X: that is the error seen, 8e-4 with the last
-    interval 3e-4 wide.
+    The block tilts by 9e-5 rad on its springs before uplift, which reduces X by 9e-4. Observed: 8e-4 with a last interval of 3e-4.
     """
     expected = G * A / (HEIGHT / 2)
     low, high = 0.98 * expected, 1.02 * expected
@@ -188,7 +185,7 @@ def uplift():
     return rows + [
         Row(
             "3",
-            "load on the side that lifts, at half of it [N]",
+            "load on the side that lifts, at half the uplift acceleration [N]",
             MASS * G / 4,
             left,
             bound=1e-3,

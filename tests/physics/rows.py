@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of the accuracy table and the registry of the cases that make them. Pure Python, no YADE.
+"""Rows of the accuracy table, and the registry of the cases that compute them. Needs no YADE.
 
-A file of cases makes a registry and adds functions to it; each returns a list of rows:
+A file of cases creates a registry and adds functions to it; each returns a list of rows:
 
     case = Registry()
 
@@ -10,7 +10,7 @@ A file of cases makes a registry and adds functions to it; each returns a list o
         ...
         return [Row("1", "impact duration [s]", expected=t, got=T, bound=1e-3, dt=1e-5)]
 
-`case.functions` is the list, in the order of the file; tests call a function and pass its rows to `check`.
+`case.functions` lists them in the order of the file; tests call a function and pass its rows to `check`.
 """
 import dataclasses
 import math
@@ -20,17 +20,17 @@ import math
 class Row:
     """One line of the table. `error` is |got - expected| / |expected|, or |got - expected| where expected = 0 or `absolute`."""
 
-    item: str  # of the list in the accuracy issue, "1" ... "9"
-    quantity: str  # what is compared, with its unit: "peak overlap, 1 m/s [m]"
+    item: str  # section of the accuracy page, "1" ... "9"
+    quantity: str  # with its unit: "peak overlap, 1 m/s [m]"
     expected: float  # closed form or independent solution
-    got: float  # the package's
+    got: float  # computed by the package
     error: float = None  # computed when not given
-    bound: float = math.inf  # largest error that passes; inf: shown, not judged
+    bound: float = math.inf  # largest error that passes; inf: for information only
     dt: float = None  # time step [s]; None: static
     order: float = None  # observed order of convergence in dt; None: does not apply
-    note: str = ""  # which error dominates; how `expected` was found
+    note: str = ""  # dominant error; source of `expected`
     absolute: bool = False  # error in the unit of the quantity, not relative
-    least_order: float = None  # smallest order that passes; None: not judged
+    least_order: float = None  # smallest order that passes; None: for information only
 
     def __post_init__(self):
         if self.error is None:
@@ -39,7 +39,7 @@ class Row:
 
     @property
     def passes(self):
-        """Whether the error is within the bound and the order is reached; NaN never is."""
+        """Whether the error is within the bound and the order is reached; False for NaN."""
         return math.isfinite(self.got) and self.error <= self.bound and (
             self.least_order is None or (self.order or math.nan) >= self.least_order
         )
@@ -57,7 +57,7 @@ class Registry:
 
 
 def check(rows):
-    """Raise AssertionError that lists every row out of its bound; an empty list of rows is a failure too."""
+    """Raise AssertionError that lists every row out of its bound, or for an empty list."""
     rows = list(rows)
     assert rows, "no rows: nothing was compared"
     wrong = [row for row in rows if not row.passes]
@@ -69,7 +69,7 @@ def check(rows):
 
 
 def observed_order(steps, errors):
-    """Slope of log(error) over log(dt), least squares over all given runs; NaN when an error is zero or not finite."""
+    """Slope of log(error) over log(dt), least squares over all runs; NaN if an error is zero or not finite."""
     pairs = [(math.log(h), math.log(e)) for h, e in zip(steps, errors) if math.isfinite(e) and e > 0]
     if len(pairs) < max(2, len(steps)):
         return math.nan
@@ -81,7 +81,7 @@ def observed_order(steps, errors):
 def series(item, quantity, expected, gots, dts, bound, least_order=None, **row):
     """Rows of one quantity at several time steps, for the plot of error against dt.
 
-    `bound` and `least_order` judge the row of the smallest step, which also carries the observed order; the others show the way.
+    `bound` and `least_order` apply to the row of the smallest step, which also states the observed order; the others show the convergence.
     """
     rows = [Row(item, quantity, expected, got, dt=dt, **row) for got, dt in zip(gots, dts)]
     finest = min(rows, key=lambda r: r.dt)
@@ -91,6 +91,6 @@ def series(item, quantity, expected, gots, dts, bound, least_order=None, **row):
 
 
 def worst(item, quantity, pairs, bound, **row):
-    """Of (expected, got) pairs the one that is farthest off, as a row."""
+    """The (expected, got) pair with the largest error, as a row."""
     rows = [Row(item, quantity, expected, got, bound=bound, **row) for expected, got in pairs]
     return max(rows, key=lambda r: r.error if r.error == r.error else float("inf"))

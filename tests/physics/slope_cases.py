@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 8: every force is minus the slope of its energy, and every torque, by central differences."""
+"""Item 8: every force and torque is minus the derivative of its energy, by central differences."""
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
@@ -10,13 +10,13 @@ from yade_timber.scene.engines import find_engine
 case = Registry()
 O = yw.Omega()
 DT = 1e-11
-"""A body is moved by hand within a step, so short that forces change no velocity that counts. [s]"""
-WAY = 1e-8
-"""Of the differences [m]: F'' WAY^2 / 6 is 1e-6 of F for overlaps of 5 um; rounding of the energies 1e-16 J / WAY is less. Also [rad]."""
+"""Time step in which a body is moved by a prescribed velocity; too short for forces to change it noticeably. [s]"""
+DIFFERENCE = 1e-8
+"""Displacement or rotation of the differences h [m, rad]: F'' h^2 / 6 is 1e-6 F for overlaps of 5 um; rounding of the energies, 1e-16 J / h, is less."""
 
 
 def load(bodies):
-    """Two bodies, no gravity, no dashpots, and the integrator first: a velocity moves a body and the laws answer at once."""
+    """Two bodies, no gravity, no dashpots; the integrator is first, so that the forces of a step are those after its displacement."""
     O.reset()
     O.bodies.append(bodies)
     chain = yt.engines(gravity=(0, 0, 0), damping_ratio=0, sweeps=0, health_check=0)
@@ -24,10 +24,10 @@ def load(bodies):
     O.dt = DT
 
 
-def move(way, angle=(0, 0, 0)):
-    """Move body 1 by way (3,) [m] and turn it by angle (3,) [rad] within a step; returns its force and torque (6,) afterwards."""
+def move(displacement, angle=(0, 0, 0)):
+    """Move body 1 by displacement (3,) [m] and rotate it by angle (3,) [rad] within a step; returns its force and torque (6,) afterwards."""
     body = O.bodies[1]
-    body.state.vel = Vector3(*way) / DT
+    body.state.vel = Vector3(*displacement) / DT
     body.state.angMom = body.state.ori * Vector3(*[w * i for w, i in zip(body.state.ori.conjugate() * Vector3(*angle) / DT, body.state.inertia)])
     body.state.angVel = Vector3(*angle) / DT
     O.step()
@@ -36,25 +36,25 @@ def move(way, angle=(0, 0, 0)):
 
 
 def slope(energy, direction):
-    """Force or torque along a direction (6,) and minus the slope of energy() along it; body 1 ends where it began."""
-    way, angle = np.array(direction[:3]) * WAY, np.array(direction[3:]) * WAY
-    move(-way, -angle)
+    """Force or torque along a direction (6,) and minus the derivative of energy() along it; body 1 ends at its initial position."""
+    displacement, angle = np.array(direction[:3]) * DIFFERENCE, np.array(direction[3:]) * DIFFERENCE
+    move(-displacement, -angle)
     low = energy()
-    acting = move(way, angle) @ direction
-    move(way, angle)
+    acting = move(displacement, angle) @ direction
+    move(displacement, angle)
     high = energy()
-    move(-way, -angle)
-    return acting, -(high - low) / (2 * WAY)
+    move(-displacement, -angle)
+    return acting, -(high - low) / (2 * DIFFERENCE)
 
 
 def contact_energy():
-    """Of normal and tangential springs at the present place. [J]"""
+    """Energy of the normal and tangential springs. [J]"""
     solver = find_engine(yw.ContactForces)
     return solver.elasticNormal + solver.elasticShear
 
 
 def block_on_plate(friction, depth=5e-6):
-    """A turned block pressed into a plate by `depth` [m]; friction [-]."""
+    """A rotated block pressed into a plate by `depth` [m]; friction [-]."""
     timber = yt.timber(friction=friction)
     plate = yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True, material=timber)
     load([plate, yt.box((0.4, 0.3, 0.2), (0.05, 0.02, 0.1 - depth), Quaternion(Vector3(0, 0, 1), 0.3), timber)])
@@ -62,32 +62,32 @@ def block_on_plate(friction, depth=5e-6):
 
 
 def compared(name, energy, directions, scale, bound):
-    """Rows: force along each direction against minus the slope of the energy."""
+    """Rows: force along each direction against minus the derivative of the energy."""
     rows = []
     for what, direction in directions.items():
         acting, expected = slope(energy, np.array(direction, float))
-        rows.append(Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting, error=abs(acting - expected) / scale, bound=bound, note="minus the slope of the energy"))
+        rows.append(Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting, error=abs(acting - expected) / scale, bound=bound, note="minus the derivative of the energy"))
     return rows
 
 
 @case
 def contact_normal():
-    """Pressing and tilting a block that is tilted by 1e-5, without friction."""
+    """Translation and rotation of a block that is tilted by 1e-5 rad, without friction."""
     block_on_plate(friction=0)
     move((0, 0, 0), (1e-5, -0.5e-5, 0))
     scale = np.linalg.norm(move((0, 0, 0)))
-    # Central differences: (WAY / 5 um)^2 / 16 = 3e-7 for n^1.5; more at the two corners that the tilt lifts.
+    # Central differences: (h / 5 um)^2 / 16 = 3e-7 for n^1.5; more at the two corners that the tilt lifts.
     # Observed: 5e-7.
     return compared("contact", contact_energy, {"pressing": (0, 0, 1, 0, 0, 0), "tilting": (0, 0, 0, 1, 0.5, 0)}, scale, 1e-5)
 
 
 @case
 def contact_tangential():
-    """Sideways and twisted, after the block has been pushed by 0.2 um at constant overlap."""
+    """Horizontal translation and twist, after a displacement of 0.2 um at constant overlap."""
     block_on_plate(friction=50)
     move((2e-7, 1e-7, 0), (0, 0, 3e-7))
     scale = np.linalg.norm(move((0, 0, 0))[:2])
-    # The tangential spring is linear as long as the overlap stays: rounding of the energies. Observed: 4e-13.
+    # The tangential spring is linear at constant overlap: rounding of the energies. Observed: 4e-13.
     return compared("stretched tangential spring", contact_energy, {"east": (1, 0, 0, 0, 0, 0), "north": (0, 1, 0, 0, 0, 0), "twist": (0, 0, 0, 0, 0, 1)}, scale, 1e-9)
 
 
@@ -103,18 +103,18 @@ def joints():
         engine = find_engine(yw.JointEngine)
         scale = np.linalg.norm(move((0, 0, 0)))
         directions = {f"axis {k}": row for k, row in enumerate(np.eye(6))}
-        # Springs are linear, turns are not: WAY^2 = 1e-16; what is left is rounding, 1e-14 J / WAY of 1e4 N. Observed: 6e-9.
+        # Springs are linear, rotations are not: h^2 = 1e-16; the rest is rounding, 1e-14 J / h over 1e4 N. Observed: 6e-9.
         rows += compared(f"joint, {name} stiffnesses, body 2", lambda: engine.elastic, directions, scale, 1e-7)
         rows += first_body(name, engine, scale)
     return rows
 
 
 def first_body(name, engine, scale):
-    """Forces on body 1 from balance: no sum of forces, no moment of the pair about any point."""
+    """Balance of the pair: the sums of forces and of moments vanish."""
     move((0, 0, 0))
     force = [np.array(O.forces.f(k, True)) for k in (0, 1)]
     moment = [np.array(O.forces.t(k, True)) + np.cross(O.bodies[k].state.pos, force[k]) for k in (0, 1)]
-    # Rounding of some 1e4 N m.
+    # Rounding of moments of 1e4 N m.
     return [
         Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0, np.linalg.norm(sum(force)) / scale, bound=1e-12),
         Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0, np.linalg.norm(sum(moment)) / scale, bound=1e-12),

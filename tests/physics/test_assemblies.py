@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 6 of the accuracy list. What is compared, and why each bound is what it is: assembly_cases.py."""
+"""Section 6 of the accuracy page. Quantities and bounds: assembly_cases.py."""
 import pytest
 from assembly_cases import case
 from rows import check

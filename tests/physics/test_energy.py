@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 7 of the accuracy list. What is compared, and why each bound is what it is: energy_cases.py."""
+"""Section 7 of the accuracy page. Quantities and bounds: energy_cases.py."""
 import pytest
 from energy_cases import case
 from rows import check

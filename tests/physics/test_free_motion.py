@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 5 of the accuracy list. What is compared, and why each bound is what it is: motion_cases.py."""
+"""Section 5 of the accuracy page. Quantities and bounds: motion_cases.py."""
 import pytest
 from motion_cases import case
 from rows import check

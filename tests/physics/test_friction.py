@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 2 of the accuracy list. What is compared, and why each bound is what it is: friction_cases.py, path_cases.py."""
+"""Section 2 of the accuracy page. Quantities and bounds: friction_cases.py, path_cases.py."""
 import friction_cases
 import path_cases
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 1 of the accuracy list. What is compared, and why each bound is what it is: impact_cases.py."""
+"""Section 1 of the accuracy page. Quantities and bounds: impact_cases.py."""
 import pytest
 from impact_cases import case
 from rows import check

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 8 of the accuracy list. What is compared, and why each bound is what it is: invariance_cases.py, slope_cases.py."""
+"""Section 8 of the accuracy page. Quantities and bounds: invariance_cases.py, slope_cases.py."""
 import invariance_cases
 import pytest
 import slope_cases

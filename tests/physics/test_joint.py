@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 4 of the accuracy list. What is compared, and why each bound is what it is: joint_cases.py."""
+"""Section 4 of the accuracy page. Quantities and bounds: joint_cases.py."""
 import pytest
 from joint_cases import case
 from rows import check

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 9 of the accuracy list. What is compared, and why each bound is what it is: reference_cases.py."""
+"""Section 9 of the accuracy page. Quantities and bounds: reference_cases.py."""
 import pytest
 from reference_cases import case
 from rows import check

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 3 of the accuracy list. What is compared, and why each bound is what it is: rocking_cases.py."""
+"""Section 3 of the accuracy page. Quantities and bounds: rocking_cases.py."""
 import pytest
 from rocking_cases import case
 from rows import check

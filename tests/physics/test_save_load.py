@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 8 of the accuracy list. What is compared, and why each bound is what it is: saving_cases.py."""
+"""Section 8 of the accuracy page. Quantities and bounds: saving_cases.py."""
 import pytest
 from saving_cases import case
 from rows import check

@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The comparator can fail: a test that cannot is worth nothing."""
+"""The comparator passes and fails where it should."""
 import math
 
 import pytest

@@ -1,43 +1,42 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Random impacts: many far-apart pairs of random convex polyhedra in one scene, and what came of each of them."""
+"""Random impacts: many separate pairs of random convex polyhedra in one scene, and the outcome of each."""
 from dataclasses import dataclass
 
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Matrix3, Quaternion, Vector3
-from yade_timber.scene import engines as scene
 
 O = yw.Omega()
 
 SIZES = (5e-3, 5.0)
-"""Longest semi-axis of a body [m]: 1:1000."""
-FASTEST = 50.0
+"""Range of the longest semi-axis of a body, 1:1000 [m]."""
+LARGEST_SPEED = 50.0
 """[m/s]"""
-HEAVIEST = 1e6
-"""Largest ratio of two masses [-]."""
+LARGEST_MASS_RATIO = 1e6
+"""[-]"""
 STEP_SHARE = 0.1
-"""Time step of a pair over 1/omega of one point on the lighter body. Eight points at arms that quarter the effective mass are
-sqrt(32) = 5.7 times as fast, so that omega dt < 0.6 (stable: 2)."""
+"""Time step of a pair times the angular frequency of one contact point on the lighter body [-]. Eight points whose arms quarter the
+effective mass have sqrt(32) = 5.7 times this frequency: omega dt < 0.6 (stable: 2)."""
 TRAVEL_SHARE = 0.1
-"""Way of the fastest point in a time step over the pair's sum of rounding radii: the thinnest bodies are met before they are passed."""
-TURN_SHARE = 0.02
-"""Turn of the lighter body in a time step [rad]."""
-WAYS = 15
-"""How many sums of rounding radii the slowest pair of a batch travels, but no more steps than MOST_STEPS."""
+"""Displacement of the fastest point in a time step over the sum of rounding radii [-]: no body passes through a thin one in a step."""
+ROTATION = 0.02
+"""Rotation of the lighter body in a time step [rad]."""
+TRAVEL = 15
+"""Displacement of the slowest pair of a batch over its sum of rounding radii [-], in at most MOST_STEPS steps."""
 MOST_STEPS = 1500
 
 
 @dataclass
 class Pair:
-    """Two bodies about to meet, and what they need. Body 2 moves; body 1 may be fixed."""
+    """Two bodies before their impact. Body 2 moves; body 1 may be fixed."""
 
     bodies: list
     velocity: np.ndarray  # (2, 3) [m/s]
     spin: np.ndarray  # (2, 3) [rad/s]
     dt: float  # [s]
-    reach: float  # radius of a ball that holds both at the start [m]
-    speed: float  # at which they approach [m/s]
+    reach: float  # radius of a ball that contains both at the start [m]
+    speed: float  # of approach [m/s]
     kind: str
 
 
@@ -55,7 +54,7 @@ def rotation(random):
 
 
 def corners(random, size):
-    """Corners (n, 3) of a random body around the origin and the name of its kind; size: longest semi-axis [m]."""
+    """Corners (n, 3) of a random body about the origin, and its kind; size: longest semi-axis [m]."""
     kind = random.choice(["lump", "box", "plate", "needle", "sliver"])
     axes = {"plate": [1, random.uniform(0.3, 1), 1e-2], "needle": [1, 1e-2, 1e-2], "sliver": [1, 10 ** random.uniform(-2, 0), 1e-3]}.get(
         kind, 10.0 ** random.uniform([0, -1, -1], 0)
@@ -68,7 +67,7 @@ def corners(random, size):
 
 
 def shape(random, size):
-    """Like `corners`, of a body that the package accepts; slivers are often refused, with good reason."""
+    """Like `corners`, of a body that the package accepts; many slivers are degenerate and refused."""
     while True:
         points, kind = corners(random, size)
         try:
@@ -88,26 +87,26 @@ def outward_normals(body):
 
 
 def feature(random, body):
-    """A random place on the surface: (point, outward direction) in the body frame, of a face, an edge or a corner."""
+    """A random point of the surface on a face, edge or corner: (point, outward direction) in the body frame."""
     normals, faces = outward_normals(body)
     kind, first = random.integers(3), random.integers(len(faces))
     if kind == 0:
-        way = normals[first]
+        outward = normals[first]
     elif kind == 1:
         beside = [k for k, face in enumerate(faces) if len(face & faces[first]) == 2]
         share = random.uniform(0.1, 0.9)
-        way = share * normals[first] + (1 - share) * normals[random.choice(beside)]
+        outward = share * normals[first] + (1 - share) * normals[random.choice(beside)]
     else:
-        way = direction(random)
-    way = way / np.linalg.norm(way)
+        outward = direction(random)
+    outward = outward / np.linalg.norm(outward)
     corners = np.array(body.shape.vertices)
-    heights = corners @ way
+    heights = corners @ outward
     outermost = corners[heights > heights.max() - 1e-6 * np.ptp(heights)]
-    return random.dirichlet(np.ones(len(outermost))) @ outermost, way
+    return random.dirichlet(np.ones(len(outermost))) @ outermost, outward
 
 
-def turn_between(random, a, b):
-    """A rotation matrix that carries the unit vector a to b, with a random turn about b."""
+def rotation_between(random, a, b):
+    """A rotation matrix that maps the unit vector a to b, with a random rotation about b."""
     def frame(z, x):
         x = x - (x @ z) * z
         x /= np.linalg.norm(x)
@@ -117,41 +116,41 @@ def turn_between(random, a, b):
 
 
 def make_pair(random, overlap):
-    """Two bodies, a random feature of the one on its way to one of the other. overlap: what they start with, as a share of what
-    one point would reach at their speed."""
+    """Two bodies, a random feature of one approaching one of the other. overlap: initial overlap over that of one contact point at their
+    speed [-]."""
     sizes = SIZES[0] * (SIZES[1] / SIZES[0]) ** random.random(2)
     (first, kind1), (second, kind2) = shape(random, sizes[0]), shape(random, sizes[1])
     snow, fixed = random.random() < 0.2, random.random() < 0.2
-    bodies = weighed(random, first, second, snow, fixed)
-    (point1, way1), (point2, way2) = (feature(random, body) for body in bodies)
-    turn = turn_between(random, way2, -way1)
+    bodies = with_masses(random, first, second, snow, fixed)
+    (point1, outward1), (point2, outward2) = (feature(random, body) for body in bodies)
+    rotation_2 = rotation_between(random, outward2, -outward1)
     bodies[0].state.ori = bodies[0].state.refOri = Quaternion.Identity
-    bodies[1].state.ori = bodies[1].state.refOri = Quaternion(Matrix3(*turn.flatten()))
+    bodies[1].state.ori = bodies[1].state.refOri = Quaternion(Matrix3(*rotation_2.flatten()))
     radii = sum(b.shape.radius for b in bodies)
-    speed = FASTEST * 10 ** random.uniform(-3, 0)
-    if snow:  # soft springs are for slow contact: a faster body of snow would be run through
+    speed = LARGEST_SPEED * 10 ** random.uniform(-3, 0)
+    if snow:  # the springs of snow are soft: at a higher speed a body would be penetrated
         speed *= min(1.0, radii / impact_scale(bodies, speed, snow)[0])
     light = int(np.argmin([b.state.mass if b.dynamic else np.inf for b in bodies]))
     spin = np.zeros((2, 3))
     spin[light] = direction(random) * speed * random.uniform(0, 1) / reach_of(bodies[light])
-    reached, stiffness = impact_scale(bodies, speed, snow)
-    dt = min(STEP_SHARE / np.sqrt(stiffness * mobility(bodies, reached)), TRAVEL_SHARE * radii / (3 * speed), TURN_SHARE / max(np.linalg.norm(spin[light]), 1e-9))
-    gap = -overlap * reached if overlap else 3 * speed * dt
-    for body, place in zip(bodies, (-point1, gap * way1 - turn @ point2)):
-        body.state.pos = body.state.refPos = Vector3(*place)
-    velocity = np.array([np.zeros(3), -speed * way1 + 0.3 * speed * direction(random)])
+    largest_overlap, stiffness = impact_scale(bodies, speed, snow)
+    dt = min(STEP_SHARE / np.sqrt(stiffness * mobility(bodies, largest_overlap)), TRAVEL_SHARE * radii / (3 * speed), ROTATION / max(np.linalg.norm(spin[light]), 1e-9))
+    gap = -overlap * largest_overlap if overlap else 3 * speed * dt
+    for body, position in zip(bodies, (-point1, gap * outward1 - rotation_2 @ point2)):
+        body.state.pos = body.state.refPos = Vector3(*position)
+    velocity = np.array([np.zeros(3), -speed * outward1 + 0.3 * speed * direction(random)])
     reach = max(body.state.pos.norm() + reach_of(body) for body in bodies)
     return Pair(bodies, velocity, spin, dt, reach, speed, f"{kind1}-{kind2}" + " snow" * snow + " fixed" * fixed)
 
 
-def weighed(random, first, second, snow, fixed):
-    """Two bodies with a ratio of masses of 1 to HEAVIEST, either of them the heavier one."""
-    ratio = HEAVIEST ** random.uniform(-1, 1)
-    trial = [yt.polyhedron(points) for points in (first, second)]
-    density = 340 * np.array([1, ratio * trial[0].state.mass / trial[1].state.mass])
+def with_masses(random, first, second, snow, fixed):
+    """Two bodies with a random mass ratio of up to LARGEST_MASS_RATIO; either is the heavier one."""
+    ratio = LARGEST_MASS_RATIO ** random.uniform(-1, 1)
+    bodies = [yt.polyhedron(points) for points in (first, second)]
+    density = 340 * np.array([1, ratio * bodies[0].state.mass / bodies[1].state.mass])
     density *= 340 / density.min()  # no body is lighter than timber
-    soft = [yt.timber(density=density[0]), yt.snow(density=density[1]) if snow else yt.timber(density=density[1])]
-    return [yt.polyhedron(points, material, fixed=fixed and k == 0) for k, (points, material) in enumerate(zip((first, second), soft))]
+    materials = [yt.timber(density=density[0]), yt.snow(density=density[1]) if snow else yt.timber(density=density[1])]
+    return [yt.polyhedron(points, material, fixed=fixed and k == 0) for k, (points, material) in enumerate(zip((first, second), materials))]
 
 
 def reach_of(body):
@@ -159,18 +158,18 @@ def reach_of(body):
     return max(v.norm() for v in body.shape.vertices)
 
 
-def shift(body, way):
-    body.state.pos = body.state.refPos = body.state.pos + Vector3(*way)
+def shift(body, displacement):
+    body.state.pos = body.state.refPos = body.state.pos + Vector3(*displacement)
 
 
 def mobility(bodies, overlap):
-    """1/m + a^2/I, the largest of the free bodies [1/kg]: I is their least moment of inertia, a half the overlap. Contact points lie in the
-    middle of the overlap, which may be far outside a needle that dips into the rounding of a large body."""
+    """Largest 1/m + a^2/I of the free bodies [1/kg], with their smallest moment of inertia I and half the overlap as arm a. A contact point
+    is at the centre of the overlap, which may be far outside a needle in the rounding of a large body."""
     return max(1 / b.state.mass + (overlap / 2) ** 2 / min(b.state.inertia) for b in bodies if b.dynamic)
 
 
 def impact_scale(bodies, speed, snow):
-    """(overlap [m], stiffness [N/m]) that one point reaches when the lighter body comes at that speed [m/s]."""
+    """(overlap [m], stiffness [N/m]) at the peak of an impact of the lighter body at that speed [m/s] with one contact point."""
     mass = min(b.state.mass for b in bodies if b.dynamic)
     if snow:
         stiffness = bodies[1].material.stiffnessPerMass * bodies[1].state.mass
@@ -183,26 +182,26 @@ def impact_scale(bodies, speed, snow):
 
 # --- a scene of pairs --------------------------------------------------------------------------------------------------
 def steps_for(pairs, dt):
-    """Steps until the slowest pair has met and parted."""
-    way = [WAYS * sum(b.shape.radius for b in pair.bodies) / pair.speed for pair in pairs]
-    return min(MOST_STEPS, round(max(way) / dt))
+    """Number of steps for the impact of the slowest pair."""
+    durations = [TRAVEL * sum(b.shape.radius for b in pair.bodies) / pair.speed for pair in pairs]
+    return min(MOST_STEPS, round(max(durations) / dt))
 
 
 def load(pairs, **options):
-    """Empty YADE and put the pairs on a line, out of each other's reach. Their steps should be alike: the smallest one is taken.
+    """Empty YADE and put the pairs on a line, separate from each other. The smallest of their time steps is used.
     Returns the number of steps."""
     O.reset()
     O.dt = min(pair.dt for pair in pairs)
     steps = steps_for(pairs, O.dt)
-    room = 3 * FASTEST * steps * O.dt
+    margin = 3 * LARGEST_SPEED * steps * O.dt
     x = 0.0
     for pair in pairs:
-        x += pair.reach + room
+        x += pair.reach + margin
         for body, velocity, spin in zip(pair.bodies, pair.velocity, pair.spin):
             shift(body, (x, 0, 0))
             O.bodies.append(body)
             yt.set_velocity(body, velocity, spin)
-        x += pair.reach + room
+        x += pair.reach + margin
     O.engines = yt.engines(gravity=(0, 0, 0), **options)
     return steps
 
@@ -223,8 +222,8 @@ def elastic(first, second):
 
 
 def point_energy(phys, point, force):
-    """W = F n / 2 of a linear and 2/5 F n of a Hertz spring, n from F (a point born deep counts less than its overlap); where F has
-    reached its limit, F times what lies beyond; and the tangential spring [J]."""
+    """W = F n / 2 of a linear and 2/5 F n of a Hertz spring, n from F (the force of a contact with initial overlap belongs to a smaller
+    overlap); beyond the limit of F, F times the additional overlap; and the energy of the tangential spring [J]."""
     normal, shear = force[1], force[2]
     if normal <= 0:
         return 0.0
@@ -237,7 +236,7 @@ def point_energy(phys, point, force):
 
 
 def momenta(bodies):
-    """Linear momentum and angular momentum about the first body's reference place (2, 3) [kg m/s, kg m2/s]."""
+    """Linear momentum, and angular momentum about the first body's reference position (2, 3) [kg m/s, kg m2/s]."""
     about = bodies[0].state.refPos
     linear = sum((b.state.mass * b.state.vel for b in bodies), Vector3.Zero)
     angular = sum((b.state.mass * (b.state.pos - about - O.dt / 2 * b.state.vel).cross(b.state.vel) + b.state.angMom for b in bodies), Vector3.Zero)
@@ -246,72 +245,72 @@ def momenta(bodies):
 
 @dataclass
 class Outcome:
-    """What an impact did. gain: energy after over energy before; momentum: change over what was exchanged at most [-]."""
+    """Outcome of an impact. gain: energy after over energy before; momentum: change over the largest possible exchange [-]."""
 
     kind: str
     energy: float  # before [J]
     gain: float
     momentum: float
     angular: float
-    met: bool
+    touched: bool
     fastest: float  # speed after [m/s]
     finite: bool
 
 
 def outcomes(pairs, **options):
-    """Run a batch to its end: list of Outcome."""
+    """Run a batch: list of Outcome."""
     steps = load(pairs, **options)
     before = [[kinetic(b) for b in pair.bodies] for pair in pairs]
-    moments = [momenta(pair.bodies) for pair in pairs]
+    initial_momenta = [momenta(pair.bodies) for pair in pairs]
     O.step()
     stored = [elastic(2 * k, 2 * k + 1) for k in range(len(pairs))]
     for _ in range(steps):
         O.step()
-    return [judge(k, pair, sum(before[k]) + stored[k], moments[k]) for k, pair in enumerate(pairs)]
+    return [outcome(k, pair, sum(before[k]) + stored[k], initial_momenta[k]) for k, pair in enumerate(pairs)]
 
 
-def judge(k, pair, energy, moments):
+def outcome(k, pair, energy, initial_momenta):
     after = sum(map(kinetic, pair.bodies)) + elastic(2 * k, 2 * k + 1)
-    linear, angular = momenta(pair.bodies) - moments
+    linear, angular = momenta(pair.bodies) - initial_momenta
     free = all(b.dynamic for b in pair.bodies)
     scale = np.sqrt(2 * energy * min(b.state.mass for b in pair.bodies if b.dynamic))
     arm = sum(map(reach_of, pair.bodies))
     states = [b.state for b in pair.bodies]
     finite = all(np.isfinite([*s.pos, *s.vel, *s.angVel]).all() for s in states)
-    met = any(s.vel != Vector3(*v) for s, v in zip(states, pair.velocity))
+    touched = any(s.vel != Vector3(*v) for s, v in zip(states, pair.velocity))
     return Outcome(
         pair.kind,
         energy,
         after / energy,
         np.linalg.norm(linear) / scale if free else 0.0,
         np.linalg.norm(angular) / (scale * arm) if free else 0.0,
-        met,
+        touched,
         max(s.vel.norm() for s in states),
         finite,
     )
 
 
 def impacts(count, seed, batch=100, **options):
-    """Outcomes of that many random impacts, a quarter of them from starting overlaps."""
+    """Outcomes of that many random impacts, a quarter of them with initial overlap."""
     random = np.random.default_rng(seed)
     pairs = [make_pair(random, random.uniform(0, 1) if k % 4 == 0 else 0.0) for k in range(count)]
     pairs.sort(key=lambda pair: pair.dt)
     return [found for k in range(0, count, batch) for found in outcomes(pairs[k : k + batch], **options)]
 
 
-# --- what must hold ----------------------------------------------------------------------------------------------------
+# --- bounds ------------------------------------------------------------------------------------------------------------
 ENERGY_BOUND = 1e-3
-"""Gain of energy over the energy before [-]. Dashpots and friction only take; what may oscillate is the splitting of the free rotation,
-of the order of TURN_SHARE^2 = 4e-4 (seen: 2e-5, for needles that meet nothing; with seeds 1 to 3 one of 30 000, of seed 2, a needle with
-moments of inertia of 5000:1 that meets nothing and turns about its axis much faster than its step was made for: 1 %, 5e-5 at half the step)."""
+"""Gain of energy over the initial energy [-]. Dashpots and friction dissipate; the splitting of the free rotation has an oscillating error
+of the order of ROTATION^2 = 4e-4. Observed: 2e-5, for needles without contact. One of 30 000 impacts (seed 2) exceeds the bound: a needle
+with moments of inertia of 5000:1, without contact, that rotates about its axis much faster than assumed: 1 %, 5e-5 at half the step."""
 MOMENTUM_BOUND = 1e-11
-"""Of what the lighter body could carry with all the energy [-]: rounding of up to 1500 steps, mass ratio 1e6 (seen: 1e-12)."""
+"""Change of momentum over that of the lighter body with the total energy [-]: rounding in 1500 steps, mass ratio 1e6. Observed: 1e-12."""
 ANGULAR_BOUND = 1e-5
-"""The same times the reaches [-]: orbital parts at arms of up to 1e4 reaches on the line of pairs, differences of numbers of that size (seen: 1e-7)."""
+"""The same for angular momentum, with the reach as arm [-]: differences of orbital momenta at distances of up to 1e4 reaches. Observed: 1e-7."""
 
 
 def expect_sound(found):
-    """Raise AssertionError that lists what is not finite, gained energy or momentum."""
+    """Raise AssertionError that lists outcomes that are not finite, gain energy or change the momentum."""
     wrong = [
         o
         for o in found

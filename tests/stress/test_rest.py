@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A quiet minute, every step of it: the undamaged house C and a stack of 20 blocks at rest (item 6 of the accuracy list)."""
+"""One minute at rest without skipped steps: house C and a stack of 20 blocks (section 6 of the accuracy page)."""
 import pathlib
 import sys
 
@@ -7,7 +7,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics
 
 import yade_timber as yt  # noqa: E402
 from assembly_cases import DT, load_on_fixed, stack_at_rest, weight  # noqa: E402
-from planar_scene import advance, places  # noqa: E402
+from planar_scene import advance, positions  # noqa: E402
 from rows import Row, check  # noqa: E402
 from yade_timber.scene import scenario  # noqa: E402
 
@@ -19,12 +19,12 @@ def test_stack():
 def test_house_c(half=30.0):
     scenario.build(scenario.Scenario("rest", "C", dt=DT, options={"skip_rest": False}))
     advance(half)
-    settled = places()
+    settled = positions()
     advance(half)
-    # Braces swing a little in their undamped joints, until the contacts at their ends have taken the energy.
+    # The braces oscillate in their undamped joints until the contacts at their ends have dissipated the energy.
     check(
         [
-            Row("6", "house C: creep from 30 s to 60 s [m]", 0, abs(places() - settled).max(), bound=1e-5, dt=DT),
+            Row("6", "house C: creep from 30 s to 60 s [m]", 0, abs(positions() - settled).max(), bound=1e-5, dt=DT),
             Row("6", "house C: kinetic energy after 60 s [J]", 0, yt.energy()["kinetic"], bound=1e-9, dt=DT),
             Row("6", "house C: load on the foundation [N]", weight(), load_on_fixed(), bound=1e-6, dt=DT),
         ]

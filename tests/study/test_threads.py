@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""10 s on one and two threads (item 8 of the accuracy list)."""
+"""10 s on one and two threads (section 8 of the accuracy page)."""
 import pathlib
 import sys
 

@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same tables on Snakemake: this machine's cores; and a real Slurm, whose daemons the test starts and stops."""
+"""Parameter tables with Snakemake, on the cores of this machine and on a real Slurm whose daemons the test starts and stops."""
 
 import csv
 import os
@@ -15,7 +15,8 @@ from pathlib import Path
 import pytest
 
 WORKFLOW = Path(__file__).resolve().parents[2] / "workflow"
-TABLE = "house description dt duration\nA good 2e-4 0.004\nB wrong 1 0.004\n"
+TABLE = "house description set dt duration\nA good * 2e-4 0.004\nB wrong joint_types.corner_fitting.kn=1e12 2e-4 0.004\n"
+"""The second run fails when its scene is built: its joints are too stiff for the time step."""
 DAEMONS = ("munged", "slurmctld", "slurmd")
 
 os.environ["PATH"] += ":/usr/sbin:/sbin"
@@ -39,7 +40,7 @@ def states(folder):
 
 
 def test_local_cores(tmp_path):
-    """Killed once the first run is done, it goes on; a failure is a result; a new row runs alone, and rows that moved do not run again."""
+    """It continues after a kill; a failed run is a result; a new row runs alone, and moved rows do not run again."""
     (tmp_path / "runs.txt").write_text(TABLE)
     kill_after_first(tmp_path)
     early = ends(tmp_path)
@@ -48,14 +49,14 @@ def test_local_cores(tmp_path):
     before = ends(tmp_path)
     assert early and early.items() <= before.items()
     head, *rows = TABLE.splitlines()
-    (tmp_path / "runs.txt").write_text("\n".join([head, "A new 2e-4 0.002", *rows]) + "\n")
-    said = snakemake(tmp_path, "local")
-    assert said.count("\nrule run:") == 1 and states(tmp_path) == {"new": "done", "good": "done", "wrong": "failed"}
+    (tmp_path / "runs.txt").write_text("\n".join([head, "A new * 2e-4 0.002", *rows]) + "\n")
+    output = snakemake(tmp_path, "local")
+    assert output.count("\nrule run:") == 1 and states(tmp_path) == {"new": "done", "good": "done", "wrong": "failed"}
     assert before.items() <= ends(tmp_path).items()
 
 
 def ends(folder):
-    """{run.json: when it was written}."""
+    """{run.json: time of its last change}."""
     return {path: path.stat().st_mtime_ns for path in folder.rglob("run.json")}
 
 
@@ -109,7 +110,7 @@ PartitionName=test Nodes={host} Default=YES State=UP
 
 @pytest.fixture
 def slurm(tmp_path_factory):
-    """Path of the slurm.conf of a cluster of one node: this machine. Its three daemons run in the foreground, as children of the test, and end with it."""
+    """Path of the slurm.conf of a cluster whose one node is this machine. Its three daemons run in the foreground and end with the test."""
     if missing:
         pytest.skip(f"{', '.join(missing)} not installed (scripts/setup --with-cluster)")
     folder = tmp_path_factory.mktemp("slurm")
@@ -148,32 +149,38 @@ def sinfo(conf):
     return subprocess.run(["sinfo", "--noheader"], capture_output=True, text=True, env={**os.environ, "SLURM_CONF": str(conf)}).stdout
 
 
+def test_tables_are_checked_before_the_first_run(tmp_path):
+    (tmp_path / "runs.txt").write_text("house dt\nA 2e-4\nA 1\n")
+    done = subprocess.run(command("local"), cwd=tmp_path, capture_output=True, text=True, timeout=170)
+    assert done.returncode != 0 and "runs.txt:3, column dt: " in done.stderr + done.stdout and not ends(tmp_path)
+
+
 def test_slurm(tmp_path, slurm):
     (tmp_path / "runs.txt").write_text(TABLE)
-    said = snakemake(tmp_path, "slurm", SLURM_CONF=str(slurm))
-    assert said.count("Submitted job") == 2 and states(tmp_path) == {"good": "done", "wrong": "failed"}
+    output = snakemake(tmp_path, "slurm", SLURM_CONF=str(slurm))
+    assert output.count("Submitted job") == 2 and states(tmp_path) == {"good": "done", "wrong": "failed"}
 
 
-def test_slurm_s_states(slurm):
-    """What Snakemake is told of a job that works, one that fails, and one that nobody knows."""
+def test_job_states(slurm):
+    """Output of status.sh for a job that succeeds, one that fails, a running one, and an unknown one."""
     environment = {**os.environ, "SLURM_CONF": str(slurm)}
 
     def run(*command):
         return subprocess.run(command, capture_output=True, text=True, env=environment).stdout.strip()
 
-    told = {}
+    states = {}
     for task in ("true", "false", "sleep 60"):
         job = run("sbatch", "--parsable", "--mem=10", "--output=/dev/null", f"--wrap={task}")
-        told[task] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if task != "sleep 60" else 0)
+        states[task] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if task != "sleep 60" else 0)
     run("scancel", job)
-    assert told == {"true": "success", "false": "failed", "sleep 60": "running"}
+    assert states == {"true": "success", "false": "failed", "sleep 60": "running"}
     assert wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30) == "failed"
     assert run(str(WORKFLOW / "slurm" / "status.sh"), "999999") == "failed"
 
 
-def wait_while(asked, state, seconds):
-    """The answer once it is not `state` any more, or after that many seconds."""
+def wait_while(probe, state, seconds):
+    """The value of probe() once it differs from `state`, or after that many seconds."""
     end = time.monotonic() + seconds
-    while (answer := asked()) == state and time.monotonic() < end:
+    while (value := probe()) == state and time.monotonic() < end:
         time.sleep(0.2)
-    return answer
+    return value

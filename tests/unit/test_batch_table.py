@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Parameter tables: yade-batch's format, names of runs that follow their content, refusals; one table of results."""
+"""Parameter tables: both formats, names of runs, refused tables, the table of results."""
 
 import csv
 import json
@@ -9,11 +9,12 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
 from yade_timber.study.batch import BatchError, read_table, write_runs  # noqa: E402
 from yade_timber.study.batch.collect import RESULTS  # noqa: E402
-from yade_timber.study.batch.table import check_shell_safe  # noqa: E402
+from yade_timber.study.batch.tasks import task_of  # noqa: E402
+from yade_timber.run.identity import made_from  # noqa: E402
 
 TABLE = """# comment
 house  description!  scale  !THREADS  snow   # of the roof
@@ -34,7 +35,7 @@ def table(tmp_path):
     return write
 
 
-def test_yade_batch_s_format(table):
+def test_format_of_yade_batch(table):
     """Comments, empty lines, quotes, defaults, repetition, yade-batch's own columns."""
     rows = table(TABLE)
     assert [row.line for row in rows] == [4, 5, 6]
@@ -43,7 +44,7 @@ def test_yade_batch_s_format(table):
     assert rows[2].cells == {"house": "A", "scale": "2", "snow": "1.0"} and rows[2].description == "strong"
 
 
-def test_names_follow_content_not_place(table):
+def test_names_follow_content_not_line(table):
     first = [row.name for row in table(TABLE)]
     head, *body = TABLE.split("\n\n")[0], TABLE.split("\n\n")[1]
     moved = table(head + "\n" + "B other 3 1 *\n" + body[0])
@@ -52,7 +53,7 @@ def test_names_follow_content_not_place(table):
     assert table(TABLE.replace("0.5", "0.6"))[0].name != first[0]
 
 
-def test_house_files_lie_beside_the_table_wherever_the_process_runs(table, tmp_path, monkeypatch):
+def test_house_files_are_relative_to_the_table(table, tmp_path, monkeypatch):
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "mine.yaml").write_text("extends: A")
     monkeypatch.chdir(tmp_path / "elsewhere")
@@ -61,7 +62,7 @@ def test_house_files_lie_beside_the_table_wherever_the_process_runs(table, tmp_p
 
 
 def test_names_follow_house_and_record(table, tmp_path):
-    """What is in the files counts: a house that differs in one number, a record that differs in one letter."""
+    """The content of files counts: a house that differs in one number, a record that differs in one letter."""
     base = (Path(__file__).resolve().parents[2] / "py/yade_timber/data/houses/base.yaml").read_text()
     for folder, density, letter in (("a", 340, "x"), ("b", 341, "x"), ("c", 340, "y"), ("d", 340, "x")):
         (tmp_path / folder).mkdir()
@@ -76,7 +77,7 @@ def test_names_follow_house_and_record(table, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text, said",
+    "text, part",
     [
         ("", "empty"),
         ("house scael\nB 1\n", "runs.txt:1: unknown column 'scael', did you mean 'scale'?"),
@@ -86,41 +87,64 @@ def test_names_follow_house_and_record(table, tmp_path):
         ("house scale\n= 1\n", "'=' repeats the line above"),
         ("house scale\n* 1\n", "runs.txt:2, column house: every run needs a house"),
         ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
-        ("house scale\nB 1", "its last line has no line end"),
+        ("house;scale\nB;1\n", "runs.txt:1: "),
+        ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
     ],
 )
-def test_refused_tables(table, text, said):
+def test_refused_tables(table, text, part):
     with pytest.raises(BatchError) as caught:
         table(text)
-    assert said in str(caught.value) and "\n" not in str(caught.value)
+    assert part in str(caught.value) and "\n" not in str(caught.value)
 
 
 def test_refused_values(table):
     row = table("house scale seed resample\nB two 1.5 maybe\n")[0]
-    for column, said in (("scale", "'two' is not a number"), ("seed", "'1.5' is not a whole number"), ("resample", "'maybe' is not yes or no")):
-        with pytest.raises(BatchError, match=f"runs.txt:2, column {column}: {said}"):
+    for column, value in (("scale", "two"), ("seed", "1.5"), ("resample", "maybe")):
+        with pytest.raises(BatchError, match=f"runs.txt:2, column {column}: '{value}'"):
             row.value(column)
 
 
-def test_paths_for_the_shell():
-    check_shell_safe("/a-b/c_d/e=1,2.txt")
-    for path in ("/a b/c.txt", "/a/c;d.txt", "/a/$c.txt", "/a/c'.txt"):
-        with pytest.raises(BatchError, match="yade-batch takes no blanks"):
-            check_shell_safe(path)
+def test_comma_separated_values(table):
+    """CSV as a spreadsheet writes it: byte order mark, quotes, blanks in a value, empty cells for defaults, no line end."""
+    (first, second) = table('\ufeffhouse,description,scale,set,snow\nB,"calm, long",0.5,,\n=,strong,2,a=1;b=2,1')
+    assert (first.cells, first.description) == ({"house": "B", "scale": "0.5"}, "calm, long")
+    assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"} and first.name.startswith("calm_long-")
 
 
-def test_one_row_of_results_a_run(table, tmp_path):
+SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}, "record": None}
+
+
+def result(rows, folder, summary, errors=()):
+    """Rows of runs.csv after the first run has this summary and later ones these errors."""
+    for row, error in zip(rows[1:], errors):
+        (folder / row.name).mkdir()
+        (folder / row.name / "run.json").write_text(json.dumps({"status": "failed", "error": error}))
+    (folder / rows[0].name).mkdir()
+    (folder / rows[0].name / "summary.json").write_text(json.dumps({**summary, "made_from": made_from(task_of(rows[0], folder).options)}))
+    write_runs(rows, folder)
+    with open(folder / "runs.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_one_row_of_results_per_run(table, tmp_path):
     """Done, failed and unfinished runs, in the order of the table."""
-    rows = table(TABLE)
-    for row, status, error in zip(rows, ("done", "failed"), (None, "runs.txt:5: it broke")):
-        (tmp_path / row.name).mkdir()
-        (tmp_path / row.name / "run.json").write_text(json.dumps({"status": status, "error": error}))
-    found = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}, "record": None}
-    (tmp_path / rows[0].name / "summary.json").write_text(json.dumps(found))
-    write_runs(rows, tmp_path)
-    with open(tmp_path / "runs.csv", newline="") as file:
-        done, failed, unfinished = csv.DictReader(file)
+    done, failed, unfinished = result(table(TABLE), tmp_path, SUMMARY, ["it broke"])
     assert [r["status"] for r in (done, failed, unfinished)] == ["done", "failed", "unfinished"]
     assert (done["house"], done["scale"], done["snow"], done["description"]) == ("B", "0.5", "", "calm")
-    assert done["peak_drift"] == "0.25" and (done["collapsed"], done["collapse_time_s"], done["peak_drift_1_ns"], done["peak_drift_1_ew"], done["broken"]) == ("True", "21.5", "0.25", "", "7")
+    assert (done["peak_drift"], done["peak_drift_1_ns"], done["peak_drift_1_ew"]) == ("0.25", "0.25", "")
+    assert (done["collapsed"], done["collapse_time_s"], done["broken"], done["events"]) == ("True", "21.5", "7", "")
     assert failed["error"] == "runs.txt:5: it broke" and not any(failed[column] for column in RESULTS)
+
+
+def test_events_of_a_run(table, tmp_path):
+    events = [{"time_s": 2.3, "kind": "fallen", "what": "carport has fallen"}, {"time_s": 21.5, "kind": "collapse", "what": "collapse"}]
+    (run,) = result(table("house\nB\n"), tmp_path, {**SUMMARY, "events": events})
+    assert run["events"] == "2.30 s carport has fallen; 21.50 s collapse"
+
+
+def test_results_made_from_something_else_do_not_count(table, tmp_path):
+    rows = table("house scale\nB 1\n")
+    assert result(rows, tmp_path, SUMMARY)[0]["status"] == "done"
+    path = tmp_path / rows[0].name / "summary.json"
+    path.write_text(path.read_text().replace("--quake", "--other"))
+    assert write_runs(rows, tmp_path)[0]["status"] == "unfinished"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The claims' checks on made-up summaries: each holds where it should, and fails when one number is wrong."""
+"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Driver and variants."""
 import argparse
 import json
 import runpy
@@ -8,18 +8,17 @@ import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.study import campaign
-from yade_timber.study import claims
-from yade_timber.study import claims_table
-from yade_timber.run import identity as provenance
-from yade_timber.study import variants as readings
 from yade_timber.house import build_house, load_house
+from yade_timber.run import identity
 from yade_timber.run.identity import made_from
-from yade_timber.study.variants import READINGS, Reading, merged, write_house
+from yade_timber.study import claims, comparison, driver, report
+from yade_timber.study.driver import Task, run_missing
+from yade_timber.study.options import run_options
+from yade_timber.study.variants import VARIANTS, Variant, merged, write_house
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
-    """A summary with what claims look at."""
+    """A summary with the entries that claims use."""
     drift = {"ns": sway_ns, "ew": sway_ew}
     place = {"1": {"west": {"column_beam": west[0], "brace_beam": west[1]}}}
     broken = {"springs": springs, "total": springs // 4, "column_beam": 0, "brace_beam": 0, "by_place": place, "by_storey": {}, "by_side": dict.fromkeys(("north", "south", "east", "west"), 0)}
@@ -31,7 +30,7 @@ def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0
     }
 
 
-def as_the_paper_says():
+def paper_results():
     return {
         "modelA_quake": summary("A", collapse=24.0, leans=18.0, direction="ns"),
         "modelB_quake": summary("B", sway_ns=0.05),
@@ -55,13 +54,13 @@ def holds(runs):
 
 
 def test_all_hold_in_the_paper():
-    found = holds(as_the_paper_says())
+    found = holds(paper_results())
     assert len(found) == 14 and all(value is True for value in found.values()), found
-    assert set(claims.RUNS) == set(as_the_paper_says())
+    assert set(claims.RUNS) == set(paper_results())
 
 
 def drift(ns, ew):
-    """Peak or residual drifts of which one storey shows these."""
+    """Peak or residual drifts: these values in storey 1, zero in storey 2."""
     return {"storey1": {"ns": ns, "ew": ew}, "storey2": {"ns": 0.0, "ew": 0.0}}
 
 
@@ -69,24 +68,24 @@ def broken(springs=0, west=(2, 0)):
     return {"broken": summary("", springs=springs, west=west)["broken"]}
 
 
-FELL = {"collapsed": True, "collapse_time_s": 20.0}
-STOOD = {"collapsed": False, "collapse_time_s": None}
-WRONG = [  # claim, run, what is changed in its summary: one condition of the claim no longer holds
-    ("E1", "modelA_quake", STOOD),
+COLLAPSED = {"collapsed": True, "collapse_time_s": 20.0}
+STANDING = {"collapsed": False, "collapse_time_s": None}
+WRONG = [  # claim, run, change of its summary that violates one condition of the claim
+    ("E1", "modelA_quake", STANDING),
     ("E1", "modelA_quake", {"tilt_direction": "ew"}),
-    ("E1", "modelA_quake", {"leans_from_s": 17.4}),  # strong shaking sets in at 18.5 s
+    ("E1", "modelA_quake", {"leans_from_s": 17.4}),  # onset of strong shaking: 18.5 s
     ("E1", "modelA_quake", {"leans_from_s": 21.51}),  # a sample too late
     ("E1", "modelA_quake", {"collapse_time_s": 21.4}),
     ("E1", "modelA_quake", {"collapse_time_s": 27.6}),
-    ("E2", "modelB_quake", FELL),
-    ("E3", "modelC_quake", FELL),
-    ("S1", "modelA_snow", STOOD),
+    ("E2", "modelB_quake", COLLAPSED),
+    ("E3", "modelC_quake", COLLAPSED),
+    ("S1", "modelA_snow", STANDING),
     ("S1", "modelA_snow", {"leans_from_s": 1.1}),
     ("S1", "modelA_snow", {"collapse_time_s": 5.9}),
     ("S1", "modelA_snow", {"collapse_time_s": 18.1}),
     *((claim, run, change) for claim, run in (("S2", "modelB_snow"), ("S3", "modelC_snow"))
-      for change in ({"peak_drift": drift(0.009, 0.0)}, {"peak_drift": drift(0.0, 0.009)}, broken(springs=1), FELL)),
-    ("D1", "modelB1_quake", FELL),
+      for change in ({"peak_drift": drift(0.009, 0.0)}, {"peak_drift": drift(0.0, 0.009)}, broken(springs=1), COLLAPSED)),
+    ("D1", "modelB1_quake", COLLAPSED),
     ("D1", "modelB1_quake", {"peak_drift": drift(0.09, 0.08)}),
     ("D1", "modelB1_quake", {"peak_drift": drift(0.02, 0.033)}),
     ("D1", "modelB1_quake", broken(west=(0, 0))),
@@ -97,21 +96,21 @@ WRONG = [  # claim, run, what is changed in its summary: one condition of the cl
     ("D3", "modelC1_quake", {"peak_drift": drift(0.05, 0.03)}),
     ("D3", "modelC1_quake", {"peak_drift": drift(0.001, 0.008)}),
     ("D3", "modelC1_quake", {"peak_drift": drift(0.001, 0.09)}),
-    ("D4", "modelC2_quake", FELL),
+    ("D4", "modelC2_quake", COLLAPSED),
     ("D4", "modelC2_quake", {"peak_drift": drift(0.034, 0.0)}),
     ("D4", "modelC2_quake", {"peak_drift": drift(0.0, 0.034)}),
-    ("Q1", "modelB1_snow", FELL),
+    ("Q1", "modelB1_snow", COLLAPSED),
     ("Q1", "modelB1_snow", {"columns": {"fallen": 0, "loose": 0}}),
     ("Q1", "modelB1_snow", {"residual_drift": drift(0.0, 0.0)}),
     ("Q1", "modelB1_snow", broken(springs=20)),
     ("Q2", "modelB2_snow", broken(springs=18)),
-    ("Q2", "modelB2_quake", FELL),
+    ("Q2", "modelB2_quake", COLLAPSED),
     ("Q3", "modelC1_snow", broken(springs=4)),
     ("Q3", "modelC1_snow", broken(springs=41)),
     ("Q4", "modelC2_snow", {"residual_drift": drift(0.1, 0.0)}),  # the first storey alone
     ("Q4", "modelC2_snow", broken(springs=30)),
 ]
-STILL_RIGHT = [  # the same up to the edges of what the criteria grant
+STILL_RIGHT = [  # changes up to the limits of the criteria
     ("E1", "modelA_quake", {"leans_from_s": 17.5, "collapse_time_s": 21.5}),
     ("E1", "modelA_quake", {"leans_from_s": 21.5, "collapse_time_s": 27.5}),
     ("E1", "modelA_quake", {"leans_from_s": 21.5 + 3e-11}),  # rounding of the clock
@@ -122,13 +121,13 @@ STILL_RIGHT = [  # the same up to the edges of what the criteria grant
     ("D3", "modelC1_quake", {"peak_drift": drift(0.001, 0.0084)}),
     ("D4", "modelC2_quake", {"peak_drift": drift(0.0333, 0.0333)}),
     ("Q1", "modelB1_snow", {"columns": {"fallen": 0, "loose": 1}}),
-    ("Q2", "modelB2_snow", {**FELL, **broken(springs=1)}),  # a collapse is more damage than none
+    ("Q2", "modelB2_snow", {**COLLAPSED, **broken(springs=1)}),  # a collapse is more damage than none
     ("Q4", "modelC2_snow", {"residual_drift": {**drift(0.0, 0.0), "storey2": {"ns": 0.0, "ew": 0.001}}}),
 ]
 
 
 def changed(run, change):
-    runs = as_the_paper_says()
+    runs = paper_results()
     runs[run] = {**runs[run], **change}
     return runs
 
@@ -139,64 +138,64 @@ def test_one_wrong_number(name, run, change):
 
 
 @pytest.mark.parametrize("name, run, change", STILL_RIGHT)
-def test_up_to_the_edges(name, run, change):
+def test_limits_of_the_criteria(name, run, change):
     assert holds(changed(run, change))[name] is True
 
 
 def test_row_of_a_run():
-    """Every number under its head."""
+    """Each number in its column."""
     run = summary("A", collapse=24.0, leans=18.0, springs=9, direction="ns")
     run["peak_drift"] = {"storey1": {"ns": 1 / 11, "ew": 1 / 12}, "storey2": {"ns": 1 / 13, "ew": None}}
     run["residual_drift"] = {"storey1": {"ns": 0.03, "ew": 0.04}, "storey2": {"ns": 0.0, "ew": 0.01}}
     run["broken"] |= {"total": 3, "column_beam": 2, "brace_beam": 1, "by_storey": {"1": 5, "2": 6}, "by_side": {"north": 7, "south": 8, "east": 10, "west": 11}}
     run |= {"columns": {"total": 90, "fallen": 12, "loose": 13}, "wall_s": 14.4}
-    row = dict(zip(claims_table.RUN_COLUMNS, claims_table.run_row("modelA_quake", run), strict=True))
+    row = dict(zip(report.RUN_COLUMNS, report.run_row("modelA_quake", run), strict=True))
     assert list(row.values()) == ["modelA_quake", "collapsed", "18.0 s", "19.0 s", "24.0 s", "1/11", "1/12", "1/13", "<1/1000", "1/20", "1/100", 9, 3, 2, 1, 5, 6, 7, 8, 10, 11, 12, 13, 14]
     assert (row["peak drift 1 N-S"], row["2 E-W"], row["residual 1"], row["storey 2"], row["south"], row["west"], row["loose"]) == ("1/11", "<1/1000", "1/20", 6, 8, 11, 13)
 
 
 def test_missing_run():
-    runs = as_the_paper_says()
+    runs = paper_results()
     del runs["modelB1_quake"]
     result = next(r for r in claims.judge(runs) if r.name == "D2")
     assert result.holds is None and "modelB1_quake" in result.numbers
 
 
-def test_a_run_that_tells_nothing():
-    """No drift at all, no tilt, no collapse: a house that stood."""
-    runs = {**as_the_paper_says(), "modelA_quake": summary("A", sway_ns=None, sway_ew=None)}
+def test_a_house_without_motion():
+    """No drift, no tilt, no collapse."""
+    runs = {**paper_results(), "modelA_quake": summary("A", sway_ns=None, sway_ew=None)}
     assert holds(runs)["E1"] is False
 
 
 def test_tables(tmp_path):
-    runs = as_the_paper_says()
+    runs = paper_results()
     results = claims.judge(runs)
-    paths = claims_table.write(tmp_path, results, runs)
+    paths = report.write(tmp_path, results, runs)
     assert {path.name for path in paths} == {"claims.md", "claims.csv", "runs.csv", "claims.json"}
     text = (tmp_path / "claims.md").read_text()
     assert "14 of 14 claims hold" in text and all(f"| {name} |" in text for name in [*claims.CLAIMS, *claims.RUNS])
     assert len(json.loads((tmp_path / "claims.json").read_text())) == 14
-    lines = claims_table.compare({"shipped": "as shipped", "again": "once more"}, {"shipped": results, "again": results}).splitlines()
+    lines = comparison.comparison({"shipped": "as shipped", "again": "once more"}, {"shipped": results, "again": results}).splitlines()
     assert any(line.startswith("| shipped |") for line in lines)
     counts = dict(zip([r.name for r in results], [cell.strip() for cell in lines[-1].split("|")][4:-1]))
     assert counts == {r.name: "0/0" if r.holds is None else f"{2 * r.holds}/2" for r in results}
 
 
-@pytest.mark.parametrize("name", READINGS)
-def test_readings_are_valid_house_files(name, tmp_path):
-    """Every reading is accepted by the house files' schema and differs from the shipped house, but for the shipped one."""
-    described = load_house(write_house(READINGS[name], "modelB1_quake", tmp_path))
-    assert described.name == "B1" and readings.differs(READINGS[name]) is (name != "shipped")
+@pytest.mark.parametrize("name", VARIANTS)
+def test_variants_are_valid_house_files(name, tmp_path):
+    """The schema of house files accepts each variant; each except 'shipped' changes one of the shipped houses."""
+    assert load_house(write_house(VARIANTS[name], "modelB1_quake", tmp_path)).name == "B1"
+    assert any(map(VARIANTS[name].changes, "ABC")) is (name != "shipped")
 
 
-def test_a_reading_is_built(tmp_path):
-    """Wider beams, braces turned: the same members and damaged joints as the shipped house."""
-    reading = Reading("", merged(READINGS["beam-0.12"].change, READINGS["braces-turned"].houses["B"]))
-    counts = build_house(load_house(write_house(reading, "modelB1_quake", tmp_path))).counts()
+def test_a_variant_is_built(tmp_path):
+    """Other friction and reversed braces: the same members and damaged joints as the shipped house."""
+    variant = Variant("", merged(VARIANTS["timber-0.3"].change, VARIANTS["braces-turned"].houses["B"]))
+    counts = build_house(load_house(write_house(variant, "modelB1_quake", tmp_path))).counts()
     assert counts["braces"] == 16 and counts["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
 
 def fake_script(folder, body):
-    """A folder of scripts with one, run.py, that is called like a run script."""
+    """A folder of scripts with run.py, called like a run script."""
     (folder / "run.py").write_text(body)
     return folder
 
@@ -205,28 +204,28 @@ WRITES = """import sys, json, pathlib
 from yade_timber.run.identity import made_from
 folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
 words = sys.argv[1:]
-(folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[words.index('--or-anew') + 1:])}))
+(folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[:words.index('--out')])}))
 """
 
 
 def test_only_missing_runs_are_done(tmp_path, monkeypatch):
-    """Options arrive; what has a summary of the same options is left alone; a failed run leaves its words and does not stop the others."""
-    monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
+    """Options reach the script; a run with a summary of the same options is kept; a failed run records its error and does not stop the others."""
+    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
-    tasks = [campaign.Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
+    tasks = [Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
     tasks[2].folder.mkdir()
     old = {"old": 1, "made_from": made_from(())}
     (tasks[2].folder / "summary.json").write_text(json.dumps(old))
     said = []
-    done = campaign.run_missing(tasks, scripts, 2, said.append)
+    done = run_missing(tasks, scripts, 2, said.append)
     assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
-    assert done[tasks[1]] is None and (tmp_path / "b" / "failed.txt").read_text().strip() == "error: no" and "failed: error: no" in said[-1]
-    assert done[tasks[2]] == old and said[0] == "2 of 3 runs to do"
+    assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
+    assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
 
 
 def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
-    """Other options, another house file, another file that it extends, another record, another state of the package."""
-    monkeypatch.setattr(campaign, "command", lambda script: [sys.executable, str(script)])
+    """Other options, another house file, another file that it extends, another record, another version of the package."""
+    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts, said = fake_script(tmp_path, WRITES), []
     house, beside, record = tmp_path / "own.yaml", tmp_path / "beside.yaml", tmp_path / "own.csv"
     house.write_text("extends: beside.yaml\n")
@@ -234,9 +233,9 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     record.write_text("1\n")
 
     def runs_done(seed=1):
-        task = campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
+        task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
         del said[:]
-        assert campaign.run_missing([task], scripts, 1, said.append)[task]["made_from"]["options"][-1] == str(seed)
+        assert run_missing([task], scripts, 1, said.append)[task]["made_from"]["options"][-1] == str(seed)
         return len(said) and "again" in said[-1]
 
     assert runs_done() is False and runs_done() == 0
@@ -244,28 +243,28 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     for file in (house, beside, record):
         file.write_text(file.read_text() + "# changed\n")
         assert runs_done(seed=2) and runs_done(seed=2) == 0
-    monkeypatch.setattr(provenance, "package", lambda: "another")
-    task = campaign.Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2))
-    assert task.summary is None and campaign.run_missing([task], scripts, 1, said.append) == {task: None}
-    assert "made by another yade_timber" in said[-1] and "another" in (task.folder / "failed.txt").read_text()
+    monkeypatch.setattr(identity, "package", lambda: "another")
+    task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2))
+    assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
+    assert task.status == "failed" and "another yade_timber" in task.error and task.error in said[-1]
 
 
-def test_motions_are_handed_only_to_shaken_runs():
+def test_only_runs_with_an_earthquake_get_motion_options():
     given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
-    assert campaign.handed_on(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
-    assert campaign.handed_on(given, earthquake=False) == ("--dt", 1e-4)
+    assert run_options(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
+    assert run_options(given, earthquake=False) == ("--dt", 1e-4)
 
 
-def test_middle_of_summaries():
-    runs = [summary("A", sway_ns=sway, collapse=fall, leans=fall and fall - 4, direction=way) for sway, fall, way in ((0.1, 24.0, "ns"), (0.3, None, None), (0.2, 26.0, "ns"))]
-    found = claims_table.middles([{"modelA_quake": run} for run in runs])["modelA_quake"]
+def test_median_of_summaries():
+    runs = [summary("A", sway_ns=sway, collapse=fall, leans=fall and fall - 4, direction=direction) for sway, fall, direction in ((0.1, 24.0, "ns"), (0.3, None, None), (0.2, 26.0, "ns"))]
+    found = comparison.median_runs([{"modelA_quake": run} for run in runs])["modelA_quake"]
     assert found["collapsed"] is True and found["collapse_time_s"] == 25.0 and found["tilt_direction"] == "ns"
     assert found["peak_drift"]["storey1"]["ns"] == 0.2 and found["model"] == "A"
-    assert claims_table.middles([{"modelA_quake": runs[0]}, {}]) == {}, "a run that a case lacks has no middle"
+    assert comparison.median_runs([{"modelA_quake": runs[0]}, {}]) == {}, "a run that one case lacks has no median"
 
 
-def test_houses_that_a_reading_leaves_alone_are_not_run_again(tmp_path):
-    tasks_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "sensitivity_study.py"))["tasks_of"]
-    tasks = {task.folder.name: task for task in tasks_of("braces-inwards", tmp_path, claims.RUNS, argparse.Namespace())}
+def test_unchanged_houses_share_the_runs_of_the_shipped_case(tmp_path):
+    task_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "sensitivity_study.py"))["task_of"]
+    tasks = {run: task_of("braces-inwards", run, argparse.Namespace(out=tmp_path)) for run in claims.RUNS}
     assert {name for name, task in tasks.items() if task.folder.parent.name == "braces-inwards"} == {name for name in tasks if name.startswith("modelB")}
     assert tasks["modelA_quake"].folder == tmp_path / "shipped" / "modelA_quake"

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Batches: a parameter table (yade-batch's own format), one run a row, one table of results. `run` alone needs YADE.
+"""Batches: a parameter table with one run per row, and one table of results. Needs no YADE.
 
-    table.py    text file -> rows, each with a name that follows from its content
-    run.py      row -> Scenario -> the run's folder, with `run.json` at its end, whether it worked or not
-    collect.py  the runs' folders -> runs.csv
-    local.py    all rows on this machine, through yade-batch
+    table.py    file -> rows, each with a name that follows from its content
+    tasks.py    row -> task of the driver, after all rows have been checked
+    collect.py  results of the runs -> runs.csv
 """
 
-from .collect import collect, write_runs
-from .local import run_table
+from .collect import RUNS, write_runs
 from .table import BatchError, Row, read_table
+from .tasks import check_rows, run_rows
 
-__all__ = ["BatchError", "Row", "collect", "read_table", "run_table", "write_runs"]
+__all__ = ["RUNS", "BatchError", "Row", "check_rows", "read_table", "run_rows", "write_runs"]

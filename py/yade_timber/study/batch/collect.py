@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The results of a table's runs in one CSV file, a row a run, made from what each run left in its own folder."""
-
-import csv
-import io
-import json
+"""Results of a batch in one CSV file, one row per run."""
 
 from ...base.atomic_write import write_text
+from ...base.table import csv_text
+from .tasks import task_of
 
-END, SUMMARY, RUNS = "run.json", "summary.json", "runs.csv"
-STATES = ("done", "failed", "unfinished")
+RUNS = "runs.csv"
 RESULTS = {
     "collapsed": "collapsed",
     "collapse_time_s": "collapse_time_s",
     "tilt_time_s": "tilt_time_s",
     "tilt_direction": "tilt_direction",
-    **{f"peak_drift_{s}_{w}": f"peak_drift.storey{s}.{w}" for s in (1, 2) for w in ("ns", "ew")},
-    **{f"residual_drift_{s}_{w}": f"residual_drift.storey{s}.{w}" for s in (1, 2) for w in ("ns", "ew")},
+    **{f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}" for storey in (1, 2) for direction in ("ns", "ew")},
+    **{f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}" for storey in (1, 2) for direction in ("ns", "ew")},
     "joints": "joints.total",
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
@@ -29,55 +26,39 @@ RESULTS = {
     "wall_s": "wall_s",
     "version": "versions.package",
 }
-"""{column of runs.csv: where it is in summary.json}."""
+"""{column of runs.csv: its path in summary.json}."""
 
 
-def collect(rows, folder):
-    """[{'run', 'line', 'status', 'error', every column of the table, 'peak_drift', every one of RESULTS}] in the order of the table; None: nothing to say."""
+def write_runs(rows, folder):
+    """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for empty cells."""
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
-    return [_collected(row, folder / row.name, columns) for row in rows]
+    found = [_result(row, task_of(row, folder), columns) for row in rows]
+    write_text(folder / RUNS, csv_text(list(found[0]) if found else ["run"], [result.values() for result in found]))
+    return found
 
 
-def _collected(row, folder, columns):
-    end = _json(folder / END) or {"status": "unfinished", "error": None}
-    found = _json(folder / SUMMARY) if end["status"] == "done" else None
+def _result(row, task, columns):
+    summary = task.summary
     return {
         "run": row.name,
         "line": row.line,
         "description": row.description or None,
-        "status": end["status"],
-        "error": end["error"],
+        "status": task.status,
+        "error": task.error and f"{row.table.name}:{row.line}: {task.error}",
         **{column: row.cells.get(column) for column in columns},
-        "peak_drift": _largest(_at(found, "peak_drift")),
-        **{column: _at(found, path) for column, path in RESULTS.items()},
+        "peak_drift": _largest(_at(summary, "peak_drift")),
+        **{column: _at(summary, path) for column, path in RESULTS.items()},
+        "events": "; ".join(f"{event['time_s']:.2f} s {event['what']}" for event in _at(summary, "events") or ()) or None,
     }
 
 
-def _json(path):
-    try:
-        return json.loads(path.read_text())
-    except FileNotFoundError:
-        return None
-
-
 def _largest(drifts):
-    """Largest of {storey: {direction: drift}}, None where there is none."""
-    return max((drift for ways in (drifts or {}).values() for drift in ways.values() if drift is not None), default=None)
+    """Largest of {storey: {direction: drift}}, None if there is none."""
+    return max((drift for storey in (drifts or {}).values() for drift in storey.values() if drift is not None), default=None)
 
 
 def _at(found, path):
-    """Value at 'a.b.c' of nested tables, None where there is none."""
+    """Value at 'a.b.c' of nested tables, None if there is none."""
     for key in path.split("."):
         found = found.get(key) if isinstance(found, dict) else None
-    return found
-
-
-def write_runs(rows, folder):
-    """Write runs.csv for the runs as they are now; returns what `collect` does."""
-    found = collect(rows, folder)
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(found[0]) if found else ["run"], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(found)
-    write_text(folder / RUNS, text.getvalue())
     return found

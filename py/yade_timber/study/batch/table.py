@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Parameter tables in yade-batch's format: a line with the names of the columns, then one line a run, all without blanks inside.
+"""Parameter tables: a line with the names of the columns, then one line per run. Two formats are read.
 
-`#` starts a comment, `*` is the default, `=` the value of the line above; quotes around words are allowed. Columns that
-start with `!` are yade-batch's own (`!THREADS`). Relative paths are taken from the table's folder.
+Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the line above;
+columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty cell is the default.
+Relative paths are relative to the table's folder.
 """
 
+import csv
 import hashlib
 import json
 import re
@@ -19,12 +21,12 @@ from ...motion import MotionRequest, RecordError
 from ...motion.readers import find_files
 
 NO_EARTHQUAKE = "none"
-"""What stands in the column `record` of a run without earthquake."""
+"""Value of the column `record` for a run without an earthquake."""
 
 OWN = {
     "house": (str, "shipped house or house file"),
     "set": (str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"),
-    "braces": (str, "braces added to the house by their names, separated by ;"),
+    "braces": (str, "names of braces to add to the house, separated by ;"),
     "strength": (float, "factor on the strength of all joints (default 1)"),
     "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
     "dt": (float, "time step [s]"),
@@ -32,19 +34,18 @@ OWN = {
 }
 MOTION = {f.name: (f.metadata["kind"], f.metadata["help"]) for f in fields(MotionRequest)}
 COLUMNS = {**OWN, **MOTION}
-"""{column: (type, what it says)}; `description` comes beside these."""
+"""{column: (type, description)}, without the column `description`."""
 
 DESCRIPTION = "description"
-_SHELL_SAFE = re.compile(r"[\w./+=,@-]+")
 
 
 class BatchError(RunError):
-    """A table that cannot be used; the message is one line: table, line, column, what is admissible."""
+    """A table that cannot be run; the message is one line: table, line, column, admissible values."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """One run of a table. cells: {column: text} of what was given, without defaults and without yade-batch's columns."""
+    """One run of a table. cells: {column: text} without defaults and without yade-batch's columns."""
 
     table: Path
     line: int
@@ -56,7 +57,7 @@ class Row:
         return f"{self.table.name}:{self.line}, column {column}"
 
     def value(self, column, default=None):
-        """The typed value of a column, or the default. Raises BatchError for what is no such value."""
+        """The value of a column in its type, or the default. Raises BatchError for text that is no such value."""
         if column not in self.cells:
             return default
         text, kind = self.cells[column], COLUMNS[column][0]
@@ -68,7 +69,7 @@ class Row:
 
     @property
     def house(self):
-        """Shipped house, or path of a house file: beside the table, wherever the process runs."""
+        """Name of a shipped house, or path of a house file; relative paths are relative to the table."""
         given = self.cells["house"]
         beside = self.table.parent / given
         is_path = "/" in given or given.endswith((".yaml", ".yml"))
@@ -82,7 +83,7 @@ class Row:
 
     @property
     def name(self):
-        """Name of the run and its folder: it changes when the row, its house or its record does, not when rows move."""
+        """Name of the run and its folder. It follows from the content of the row, its house and its record, not from its line."""
         label = self.description or Path(self.cells["house"]).stem
         content = json.dumps([sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record)])
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
@@ -93,7 +94,7 @@ _FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0"
 
 @lru_cache(maxsize=256)
 def _house_text(house):
-    """Everything a house file says, with what it extends; an unusable one has its error at run time."""
+    """Content of a house file and the files it extends; None for a house with errors, which the check of the row reports."""
     try:
         return json.dumps(load_house(house).data, sort_keys=True)
     except HouseError:
@@ -124,26 +125,32 @@ def read_table(path):
     rows, above = [], {}
     for number, cells in body:
         if len(cells) != len(heads):
-            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; values hold no blanks")
+            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; values contain no blanks, in CSV files no commas outside quotes")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in zip(heads, cells)}
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
         if "house" not in rows[-1].cells:
             raise BatchError(f"{rows[-1].where('house')}: every run needs a house")
-    _check_twins(rows)
+    _check_repeated(rows)
     return rows
 
 
 def _lines(path):
-    """[(line number, words)] of the lines that say something."""
+    """[(line number, cells)] of the lines that are not empty."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as problem:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as problem:
         raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or 'not UTF-8 text'}") from None
-    if text and not text.endswith("\n"):
-        raise BatchError(f"{path}: its last line has no line end, which makes yade-batch lose a character; add one")
-    words = [(number, re.sub(r"\s*#.*", "", line).split()) for number, line in enumerate(text.splitlines(), 1)]
-    return [(number, cells) for number, cells in words if cells]
+    lines = [(number, re.sub(r"\s*#.*$", "", line)) for number, line in enumerate(text.splitlines(), 1)]
+    lines = [(number, line) for number, line in lines if line.strip()]
+    if lines and ";" in lines[0][1]:
+        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks")
+    separate = _csv_cells if lines and "," in lines[0][1] else str.split
+    return [(number, separate(line)) for number, line in lines]
+
+
+def _csv_cells(line):
+    return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
 
 
 def _check_heads(heads, where):
@@ -162,16 +169,10 @@ def _resolved(cell, above, where):
     return above if cell == "=" else cell.strip("'\"")
 
 
-def _check_twins(rows):
-    """Two rows of one name would share a folder; their content is the same."""
-    seen = {}
+def _check_repeated(rows):
+    """Refuse two rows of one name: their content is the same, and they would share a folder."""
+    lines = {}
     for row in rows:
-        if row.name in seen:
-            raise BatchError(f"{row.table.name}:{row.line}: the same run as in line {seen[row.name]}; remove one")
-        seen[row.name] = row.line
-
-
-def check_shell_safe(path):
-    """yade-batch hands paths to a shell as they are. Raises BatchError for one that would not survive."""
-    if not _SHELL_SAFE.fullmatch(str(path)):
-        raise BatchError(f"{path}: yade-batch takes no blanks or other signs of the shell in a path; use letters, digits and . _ - + = , @ /")
+        if row.name in lines:
+            raise BatchError(f"{row.table.name}:{row.line}: the same run as in line {lines[row.name]}; remove one")
+        lines[row.name] = row.line

@@ -1,37 +1,36 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Measured limits of the time step: scenes disturbed a little, at steps below and above the limit that `yt.stable_dt` predicts."""
+"""Measured stability limits of the time step: slightly disturbed scenes, at time steps below and above the prediction of `yt.stable_dt`."""
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from undamped import undamp
-from yade_timber.scene import scenario
-from yade_timber.scene import engines as scene
+from yade_timber.scene import engines, scenario
 
 O = yw.Omega()
 
 SETTLING = 2000
 """Steps of SETTLING_DT before the disturbance."""
 SETTLING_DT = 2e-5
-NUDGE = 1e-6
-"""Size of the disturbance, small enough for contacts to stay closed [m/s, rad/s]."""
+DISTURBANCE = 1e-6
+"""Standard deviation of the initial velocities, small enough for contacts to remain closed [m/s, rad/s]."""
 STEPS = 400
 GROWTH = 1e3
-"""Kinetic energy over that of the disturbance that counts as unstable: a stable scene only passes energy on between its modes [-]."""
+"""Growth of the kinetic energy that counts as instability; a stable scene exchanges energy between its modes [-]."""
 JOINT_FACTOR = 1000.0
-"""How much stiffer the joints of the stiff house are [-]."""
+"""Factor on the stiffness of the joints in the stiff house [-]."""
 
 
-def hung_block(dt):
-    """A cube on four springs: joints alone."""
+def suspended_block(dt):
+    """A cube on four springs: joints without contacts."""
     O.reset()
-    held = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
+    support = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
     cube = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.3)))
     O.dt, O.engines = dt, yt.engines(gravity=(0, 0, 0))
-    yt.connect(held, cube, [(x, y, 0.2) for x in (-0.1, 0.1) for y in (-0.1, 0.1)], strength=1e12)
+    yt.connect(support, cube, [(x, y, 0.2) for x in (-0.1, 0.1) for y in (-0.1, 0.1)], strength=1e12)
 
 
 def stack(dt):
-    """Three blocks on each other: contacts alone."""
+    """Three blocks on each other: contacts without joints."""
     O.reset()
     O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
     for k in range(3):
@@ -45,15 +44,15 @@ def house(dt):
 
 
 def stiff_house(dt):
-    """House B with the paper's joints JOINT_FACTOR times as stiff and as strong; those of floors and roof are stiff already."""
+    """House B with the paper's joints JOINT_FACTOR times as stiff and strong; those of floors and roof are unchanged."""
     house(dt)
-    for joint in scene.find_engine(yw.JointEngine).joints:
+    for joint in engines.find_engine(yw.JointEngine).joints:
         if joint.kind in ("column_beam", "brace_beam"):
             joint.kn, joint.ks, joint.strength = (JOINT_FACTOR * value for value in (joint.kn, joint.ks, joint.strength))
 
 
 def settled(build):
-    """Build a scene and let it come to rest at a small step; returns the predicted limit [s]."""
+    """Build a scene and run it to rest with a small time step; returns the predicted limit [s]."""
     build(SETTLING_DT)
     for _ in range(SETTLING):
         O.step()
@@ -65,17 +64,17 @@ def disturb(seed=0):
     random = np.random.default_rng(seed)
     for body in O.bodies:
         if body.dynamic:
-            nudge = NUDGE * random.normal(size=6)
-            yt.set_velocity(body, np.array(body.state.vel) + nudge[:3], np.array(body.state.angVel) + nudge[3:])
+            change = DISTURBANCE * random.normal(size=6)
+            yt.set_velocity(body, np.array(body.state.vel) + change[:3], np.array(body.state.angVel) + change[3:])
 
 
 def is_stable(build, dt, damped=True):
-    """Whether the settled, disturbed scene keeps the energy of the disturbance for STEPS steps of dt [s]; not damped: explicit springs
-    without dashpots, which is what `yt.stable_dt` is about."""
+    """Whether the energy of the disturbed scene stays bounded for STEPS steps of dt [s]; damped=False: explicit springs without dashpots,
+    whose limit `yt.stable_dt` predicts."""
     settled(build)
     if not damped:
         undamp()
-        scene.find_engine(yw.ContactForces).sweeps = 0
+        engines.find_engine(yw.ContactForces).sweeps = 0
     disturb()
     before = yt.energy()["kinetic"]
     O.dt = dt
@@ -90,6 +89,6 @@ def is_stable(build, dt, damped=True):
 def measured_limit(build, low, high, tolerance=0.02, damped=True):
     """Largest stable step between a stable `low` and an unstable `high` by bisection, to a relative tolerance [s]."""
     while high > (1 + tolerance) * low:
-        middle = np.sqrt(low * high)
-        low, high = (middle, high) if is_stable(build, middle, damped) else (low, middle)
+        mean = np.sqrt(low * high)
+        low, high = (mean, high) if is_stable(build, mean, damped) else (low, mean)
     return low

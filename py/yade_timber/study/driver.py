@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Starts run scripts, each in a YADE process of its own, several at a time. Needs no YADE itself.
+
+A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts the other
+tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its messages.
+"""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..base.atomic_write import write_text
+from ..base.errors import RunError
+from ..base.lock import held
+from ..run.identity import made_from
+
+END, LOG, SUMMARY = "run.json", "run.log", "summary.json"
+STATES = ("done", "failed", "unfinished")
+POLL = 0.2
+"""Wall time between two checks of the running processes. [s]"""
+SAVE_TIME = 60.0
+"""Longest wait for interrupted runs to save their checkpoints. [s]"""
+RUN_OPTIONS = ("--no-views", "--quiet", "--resume", "--or-anew")
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run: script name without .py, folder of its results, options that decide them, whether frames are recorded."""
+
+    script: str
+    folder: Path
+    options: tuple = ()
+    frames: bool = True
+
+    @property
+    def summary(self):
+        """Content of summary.json, or None if the run is not done or was made from other options, files or another package."""
+        found = _read(self.folder / SUMMARY) or {}
+        return found if found.get("made_from") == made_from(self.options) else None
+
+    @property
+    def error(self):
+        """Error message of a failed run, None for others."""
+        recorded = (_read(self.folder / END) or {}).get("error")
+        return recorded if recorded and self.summary is None else None
+
+    @property
+    def status(self):
+        """One of STATES."""
+        return "failed" if self.error else "done" if self.summary is not None else "unfinished"
+
+    def is_missing(self, retry):
+        """Whether the run is to be started; retry: failed runs, too."""
+        return self.summary is None and (retry or not self.error)
+
+
+def _read(path):
+    return json.loads(path.read_text()) if path.is_file() else None
+
+
+def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
+    """Run the tasks that are not done, `jobs` at a time (default: one per core); returns {task: summary or None}.
+
+    scripts  folder of the run scripts
+    report   called with one line for each run that ends
+    retry    whether failed runs are started again
+
+    Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM, when the
+    started runs have saved their checkpoints.
+    """
+    tasks = list(dict.fromkeys(tasks))
+    missing = [task for task in tasks if task.is_missing(retry)]
+    if missing:
+        report(f"{len(missing)} of {len(tasks)} runs to do")
+        _run_all(missing, scripts, jobs or os.cpu_count(), report)
+    return {task: task.summary for task in tasks}
+
+
+def _run_all(tasks, scripts, jobs, report):
+    waiting, running, ended = deque(tasks), [], 0
+    previous = signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                running.append(_Process(waiting.popleft(), scripts))
+            for process in [process for process in running if process.has_ended()]:
+                running.remove(process)
+                ended += 1
+                report(f"[{ended}/{len(tasks)}] {process.task.folder}: {process.outcome()}")
+            time.sleep(POLL if running else 0)
+    finally:
+        _stop(running)
+        signal.signal(signal.SIGTERM, previous)
+
+
+def _interrupt(*_):
+    raise KeyboardInterrupt
+
+
+def _stop(processes):
+    """Interrupt the runs and wait until they have saved their checkpoints."""
+    for process in processes:
+        process.terminate()
+    deadline = time.monotonic() + SAVE_TIME
+    while any(not process.has_ended() for process in processes) and time.monotonic() < deadline:
+        time.sleep(POLL)
+
+
+class _Process:
+    """The YADE process of a task. None is started while another process computes a run in the task's folder."""
+
+    def __init__(self, task, scripts):
+        self.task, self.child, self.start = task, None, time.monotonic()
+        task.folder.mkdir(parents=True, exist_ok=True)
+        self.outdated = (task.folder / SUMMARY).exists()
+        if held(task.folder):
+            return
+        for name in (END, SUMMARY):
+            (task.folder / name).unlink(missing_ok=True)
+        frames = () if task.frames else ("--no-frames",)
+        arguments = [*command(scripts / f"{task.script}.py"), *map(str, task.options), "--out", str(task.folder), *RUN_OPTIONS, *frames]
+        with open(task.folder / LOG, "w") as log:
+            self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                                          env={**os.environ, "OMP_NUM_THREADS": "1"})  # fmt: skip
+
+    def has_ended(self):
+        return self.child is None or self.child.poll() is not None
+
+    def terminate(self):
+        if not self.has_ended():
+            self.child.terminate()
+
+    def outcome(self):
+        """Record how the run ended; returns one line."""
+        if self.child is None:
+            return "skipped: another process computes this run"
+        status = self.child.returncode
+        if status < 0 or status > 128:
+            return f"stopped by {signal.Signals(-status if status < 0 else status - 128).name}; the next start continues this run"
+        error = self._error()
+        write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
+        if error:
+            return f"failed: {error}"
+        again = " again (other options, files or package)" if self.outdated else ""
+        return f"done{again} in {time.monotonic() - self.start:.0f} s"
+
+    def _error(self):
+        """Error message of the run, or None."""
+        if self.child.returncode:
+            lines = (self.task.folder / LOG).read_text(errors="replace").split("\n")
+            last = next((line for line in reversed(lines) if line.strip()), f"exit status {self.child.returncode}")
+            return last.strip().removeprefix("error: ")
+        if self.task.summary is None:
+            return f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's Python"
+        return None
+
+
+def command(script, threads=1):
+    """Command line that runs a script in YADE. Raises RunError."""
+    yade = shutil.which("yade")
+    if yade is None:
+        raise RunError("no yade on the PATH: install it (scripts/setup)")
+    return [yade, "-n", "-x", f"-j{threads}", str(script)]

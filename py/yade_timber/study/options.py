@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Command lines of studies and benchmarks: one line and exit status 1 for bad input. Needs no YADE."""
+import argparse
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+from ..base.errors import RunError
+from ..base.time_step import DEFAULT_DT
+from ..house import HouseError, load_house
+from ..motion import MotionRequest, RecordError
+
+MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
+"""Options of the run scripts that runs without an earthquake refuse."""
+
+
+class Parser(argparse.ArgumentParser):
+    """ArgumentParser that describes itself by a docstring and reports bad input in one line."""
+
+    def __init__(self, about, **settings):
+        super().__init__(description=about, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
+
+    def error(self, message):
+        self.exit(1, f"error: {' '.join(message.split())} (options: -h)\n")
+
+
+def run_script(main):
+    """Call main() and exit with what it returns; expected errors become one line and exit status 1."""
+    try:
+        sys.exit(main())
+    except (RunError, HouseError, RecordError, OSError) as problem:
+        sys.exit(f"error: {problem}")
+    except KeyboardInterrupt:
+        sys.exit("stopped; the same command continues")
+
+
+# --- types of arguments -----------------------------------------------------------------------------------------------
+
+
+def _number(kind, low, noun):
+    """Type of a number: int or float, from the smallest admissible value on, finite."""
+
+    def read(text):
+        try:
+            value = kind(text) if len(text) <= 30 else math.nan
+        except ValueError:
+            value = math.nan
+        if not low <= value < 1e9:
+            raise argparse.ArgumentTypeError(f"'{text[:40]}': must be {noun}, smaller than 1e9")
+        return value
+
+    return read
+
+
+count = _number(int, 1, "a whole number >= 1")
+seed = _number(int, 0, "a whole number >= 0")
+positive = _number(float, sys.float_info.min, "a number > 0")
+non_negative = _number(float, 0, "a number >= 0")
+
+
+def house(text):
+    """A shipped house, or a house file without errors."""
+    try:
+        load_house(text)
+    except HouseError as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from None
+    return text
+
+
+def record(text):
+    """A recorded ground motion without errors."""
+    try:
+        MotionRequest(record=text).motion(DEFAULT_DT)
+    except RecordError as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from None
+    return text
+
+
+def list_of(kind):
+    """Type of a comma-separated list: 'list_of(positive)' reads '0.5,1'."""
+    return lambda text: [kind(part) for part in text.split(",")]
+
+
+def results_folder(text):
+    """A folder for results, made here; files can be written in it."""
+    if not str(text):
+        raise argparse.ArgumentTypeError("'': must be the name of a folder")
+    try:
+        Path(text).mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=text):
+            return Path(text)
+    except (OSError, ValueError) as problem:
+        raise argparse.ArgumentTypeError(f"'{str(text)[:80]}': no results can be written there: {getattr(problem, 'strerror', None) or problem}") from None
+
+
+# --- options that studies share ---------------------------------------------------------------------------------------
+
+
+def add_driver_options(parser, folder):
+    """Options of every study: folder of the runs and number of processes."""
+    parser.add_argument("--out", type=results_folder, default=folder, metavar="DIR", help="folder that holds a folder for each run (default %(default)s)")
+    parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
+
+
+def add_run_options(parser):
+    """Options that are passed to every run."""
+    parser.add_argument("--record", type=record, metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
+    parser.add_argument("--seed", type=seed, metavar="N", help="synthetic ground motion of another seed")
+    parser.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion")
+    parser.add_argument("--start", type=float, metavar="S", help="start of the ground motion, in the record's time [s]")
+    parser.add_argument("--end", type=float, metavar="S", help="end of the ground motion, in the record's time [s]")
+    parser.add_argument("--dt", type=positive, metavar="S", help="time step of all runs [s]")
+    parser.add_argument("--duration", type=non_negative, metavar="S", help="simulated time of all runs [s]")
+
+
+def run_options(given, earthquake):
+    """Options of a run's command line from parsed ones; runs without an earthquake get none of MOTION_OPTIONS. Raises RecordError."""
+    MotionRequest(**{name: getattr(given, name, None) for name in MOTION_OPTIONS}).check()
+    names = ("dt", "duration", *(MOTION_OPTIONS if earthquake else ()))
+    values = [(name, getattr(given, name, None)) for name in names]
+    return tuple(word for name, value in values if value is not None for word in (f"--{name}", value))
+
+
+def selected(text, known, option):
+    """Names of a comma-separated list; all known names without a list. Raises RunError for an unknown name."""
+    names = text.split(",") if text else list(known)
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise RunError(f"{option}: unknown: {', '.join(unknown)}; known: {', '.join(known)}")
+    return names

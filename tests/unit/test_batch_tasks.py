@@ -1,0 +1,68 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rows of a table as runs of scripts/house.py: options, house files, checks before the first run."""
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
+
+from yade_timber.house import load_house  # noqa: E402
+from yade_timber.study.batch import BatchError, check_rows, read_table  # noqa: E402
+from yade_timber.study.batch.tasks import task_of  # noqa: E402
+
+
+@pytest.fixture
+def row(tmp_path):
+    def make(columns, values):
+        path = tmp_path / "runs.txt"
+        path.write_text(f"{columns}\n{values}\n")
+        return read_table(path)[0]
+
+    return make
+
+
+def test_every_column_becomes_an_option(row, tmp_path):
+    shaken = task_of(row("house snow scale dt duration seed start azimuth resample shortest", "C2 0.4 1.5 5e-5 3 0 14 90 yes no"), tmp_path)
+    assert (shaken.script, shaken.frames) == ("house", False)
+    assert shaken.options[:2] == ("C2", "--quake") and shaken.options.count("--resample") == 1 and "--shortest" not in shaken.options
+    values = {"--snow": "0.4", "--dt": "5e-05", "--duration": "3.0", "--seed": "0", "--start": "14.0", "--azimuth": "90.0", "--scale": "1.5"}
+    assert {option: shaken.options[shaken.options.index(option) + 1] for option in values} == values
+    assert task_of(row("house record snow", "A none 1"), tmp_path).options == ("A", "--snow", "1.0")
+    assert task_of(row("house", "A"), tmp_path).options == ("A", "--quake")
+
+
+def test_paths_are_those_beside_the_table(row, tmp_path):
+    options = task_of(row("house record", "mine.yaml a.csv,b.csv"), tmp_path).options
+    assert options == (str(tmp_path / "mine.yaml"), "--quake", "--record", f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
+
+
+def test_changed_houses_are_written(row, tmp_path):
+    changed = row("house set braces strength", "B plumb.drift=0.002 main.brace1.EW.y0.3-4 0.5")
+    check_rows([changed], tmp_path)
+    house = load_house(task_of(changed, tmp_path).options[0]).data
+    assert house["plumb"]["drift"] == 0.002 and house["joint_types"]["corner_fitting"]["strength"] == 2940
+    assert house["structures"]["main"]["braces"]["lines"][-1]["runs"] == [[3, 4]]
+
+
+@pytest.mark.parametrize(
+    "columns, values, parts",
+    [
+        ("house snow", "A -1", ["runs.txt:2, column snow", "0", "20"]),
+        ("house dt", "A 1e-2", ["runs.txt:2, column dt"]),
+        ("house dt", "A nan", ["runs.txt:2, column dt"]),
+        ("house duration", "A nan", ["runs.txt:2, column duration"]),
+        ("house record scale", "A none 2", ["runs.txt:2, column scale"]),
+        ("house record", "A nowhere", ["runs.txt:2", "nowhere"]),
+        ("house pga", "A -3", ["runs.txt:2, column pga"]),
+        ("house set", "A plumb.drft=1", ["runs.txt:2, column set", "plumb", "drft"]),
+        ("house braces", "A main.brace9.EW.y0.3-4", ["runs.txt:2"]),
+        ("house strength", "A 0", ["runs.txt:2, column strength"]),
+        ("house", "nowhere", ["runs.txt:2", "nowhere"]),
+    ],
+)
+def test_refused_rows(row, tmp_path, columns, values, parts):
+    with pytest.raises(BatchError) as caught:
+        check_rows([row(columns, values)], tmp_path)
+    assert all(part in str(caught.value) for part in parts) and "\n" not in str(caught.value)
