@@ -24,6 +24,8 @@ LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROSE = [page for page in LINKED if page.parent.name not in ("accuracy", "performance")] + [ROOT / "CHANGELOG.md"]  # the others are written by scripts
 LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+SOURCE = re.compile(r"`((?:\w+/)+[\w.*]+\.(?:[ch]pp|py|yaml|\*))(?:: (\w+))?`")
+SOURCE_ROOTS = (".", "pkg", "py/yade_timber")
 BLOCK = re.compile(r"(?:^<!-- (?P<note>[^\n]*) -->\n+)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 WHOLE_REPOSITORY = ("scripts/setup", "ctest --preset default")  # .ci/run executes lines that begin so, on a fresh clone
 OUTPUT = "output.txt"
@@ -141,6 +143,21 @@ def sentences(text):
 
 def longest_sentence(text):
     return max(sentences(text), key=lambda sentence: len(sentence.split()))
+
+
+def unknown_sources(text):
+    """Sources that a text names as `folder/file.py` or `folder/file.py: function` and that do not exist."""
+    unknown = []
+    for path, function in SOURCE.findall(text):
+        files = [file for root in SOURCE_ROOTS for file in (ROOT / root).glob(path)]
+        if not any(re.search(rf"\b{function}\b", file.read_text()) for file in files):
+            unknown.append(f"{path}: {function}" if function else path)
+    return unknown
+
+
+def test_named_sources_exist():
+    assert unknown_sources((ROOT / "CONTRIBUTING.md").read_text()) == []
+    assert unknown_sources("`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `kernel/joint_law.*`") == ["house/joints.py: no_function", "house/no.py"]
 
 
 @pytest.mark.parametrize("page", LINKED, ids=lambda page: str(page.relative_to(ROOT)))
