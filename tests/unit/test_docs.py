@@ -1,12 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every command in README.md and docs/ is run.
+"""Commands in README.md and docs/ run, links resolve, pages keep their limits of length.
 
-A fenced block of language `sh` is a list of commands: each must end with status 0. A comment in front of the block changes that:
-`<!-- test: --duration 0.02 -->` adds these words to each of its commands (to make a run short), `<!-- test: fails -->` wants status 1,
-`<!-- test: skip, REASON -->` does not run it and is listed with its reason. Other blocks with a comment in front: `<!-- file: NAME -->`
-writes the block to that file first, `<!-- test: printed -->` wants each of the block's lines in what the last commands printed.
-A page's blocks run one after the other in a folder of their own that looks like the repository.
+A fenced block of language `sh` is a list of commands; each must exit with status 0. A comment above the block changes this:
+`<!-- test: --duration 0.02 -->` adds these options to each command, `<!-- test: fails -->` requires status 1,
+`<!-- test: skip, REASON -->` skips the block. Two comments apply to other blocks: `<!-- file: NAME -->` writes the block to that
+file, `<!-- test: printed -->` requires each of its lines in the output of the last commands.
+The blocks of a page run in order, in a temporary folder that links to the repository's files.
 """
 import os
 import re
@@ -20,14 +20,20 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
+PROSE = [page for page in LINKED if page.parent.name not in ("accuracy", "performance")] + [ROOT / "CHANGELOG.md"]  # the others are written by scripts
+LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+SOURCE = re.compile(r"`((?:\w+/)+[\w.*]+\.(?:[ch]pp|py|yaml|\*))(?:: (\w+))?`")
+SOURCE_ROOTS = (".", "pkg", "py/yade_timber")
 BLOCK = re.compile(r"(?:^<!-- (?P<note>[^\n]*) -->\n+)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
-WHOLE_REPOSITORY = ("scripts/setup", "ctest --preset default")  # lines that begin so are what .ci/run does on a fresh clone
+WHOLE_REPOSITORY = ("scripts/setup", "ctest --preset default")  # .ci/run executes lines that begin so, on a fresh clone
 OUTPUT = "output.txt"
 
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block of a page; line: where it begins; note: the words of the comment in front of it, as (kind, rest)."""
+    """A fenced block of a page. line: of its start; note: the comment above it, as (kind, rest)."""
 
     page: Path
     line: int
@@ -40,7 +46,7 @@ class Block:
 
 
 def blocks(page, text=None):
-    """Blocks of a page that a test has to do with."""
+    """Blocks of a page that are tested."""
     text = page.read_text() if text is None else text
     found = []
     for match in BLOCK.finditer(text):
@@ -52,14 +58,14 @@ def blocks(page, text=None):
 
 
 def commands(text):
-    """Commands of a block: lines, without comments, continued ones joined."""
+    """Commands of a block: lines without comments, continuation lines joined."""
     lines = [re.sub(r"\s+#.*$", "", line).strip() for line in text.replace("\\\n", " ").splitlines()]
     return [line for line in lines if line and not line.startswith("#")]
 
 
 @pytest.fixture(scope="module")
 def places(tmp_path_factory):
-    """{page: folder that looks like the repository, made when first asked for}."""
+    """Function page -> folder that links to the repository's files."""
     made = {}
 
     def place(page):
@@ -74,7 +80,7 @@ def places(tmp_path_factory):
 
 
 def run(command, folder):
-    """CompletedProcess of a command line, its output collected in the folder."""
+    """CompletedProcess of a command line; its output is appended to OUTPUT in the folder."""
     environment = {**os.environ, "MPLBACKEND": "Agg", "OMP_NUM_THREADS": "1", "PATH": f"{Path(shutil.which('yade') or sys.executable).parent}:{os.environ['PATH']}"}
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=150)
     with open(folder / OUTPUT, "a") as file:
@@ -97,7 +103,7 @@ def test_block(block, places):
 
 
 def do(block, folder, rest):
-    """Run the commands of a block with the extra words or the status that `rest` asks for."""
+    """Run the commands of a block; rest: extra options, or 'fails'."""
     (folder / OUTPUT).unlink(missing_ok=True)
     for command in commands(block.text):
         if command.startswith(WHOLE_REPOSITORY):
@@ -105,6 +111,77 @@ def do(block, folder, rest):
         expected, extra = (1, "") if rest == "fails" else (0, rest)
         done = run(f"{command} {extra}".strip(), folder)
         assert done.returncode == expected, f"{block}: {command}\n{done.stdout}\n{done.stderr}"
+
+
+# --- links and length -------------------------------------------------------------------------------------------------
+
+
+def anchors(page):
+    """Anchors of a page's headings, as GitHub forms them."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def broken_links(page, text):
+    """Links of a text to files or headings that do not exist, relative to the page."""
+    found = []
+    for target in LINK.findall(text):
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        if "://" not in target and not (file.exists() and (not anchor or anchor in anchors(file))):
+            found.append(target)
+    return found
+
+
+def sentences(text):
+    """Sentences of a page's prose. Code, headings, tables, images and formulas end a sentence; so does a list item."""
+    text = re.sub(r"^```.*?^```$", ".", text, flags=re.M | re.S)
+    text = re.sub(r"^(?: *[#|!<]|    ).*$|^\s*$", ".", text, flags=re.M)
+    text = re.sub(r"^ *(?:[-*]|\d+\.) ", ". ", text, flags=re.M)
+    return re.split(r"[.!?:;](?= |$)", " ".join(text.split()))
+
+
+def longest_sentence(text):
+    return max(sentences(text), key=lambda sentence: len(sentence.split()))
+
+
+def unknown_sources(text):
+    """Sources that a text names as `folder/file.py` or `folder/file.py: function` and that do not exist."""
+    unknown = []
+    for path, function in SOURCE.findall(text):
+        files = [file for root in SOURCE_ROOTS for file in (ROOT / root).glob(path)]
+        if not any(re.search(rf"\b{function}\b", file.read_text()) for file in files):
+            unknown.append(f"{path}: {function}" if function else path)
+    return unknown
+
+
+def test_named_sources_exist():
+    assert unknown_sources((ROOT / "CONTRIBUTING.md").read_text()) == []
+    assert unknown_sources("`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `kernel/joint_law.*`") == ["house/joints.py: no_function", "house/no.py"]
+
+
+@pytest.mark.parametrize("page", LINKED, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_resolve(page):
+    assert broken_links(page, page.read_text()) == []
+
+
+@pytest.mark.parametrize("page", PROSE, ids=lambda page: str(page.relative_to(ROOT)))
+def test_sentences_are_short(page):
+    longest = longest_sentence(page.read_text())
+    assert len(longest.split()) <= LONGEST_SENTENCE, longest
+
+
+def test_readme_and_change_list_are_short():
+    assert len((ROOT / "README.md").read_text().split()) <= README_WORDS
+    assert len((ROOT / "CHANGELOG.md").read_text().splitlines()) <= CHANGELOG_LINES
+
+
+def test_links_and_sentences_are_found():
+    page = ROOT / "docs" / "results.md"
+    assert broken_links(page, "[a](limits.md#limits) [b](no.md) [c](limits.md#no) [d](#drift) [e](https://yade-dem.org)") == ["no.md", "limits.md#no"]
+    words = "word " * 41
+    assert all(longest_sentence(text).split() == words.split() for text in (words, f"Short. {words}", f"- {words}", f"1. Short.\n   {words}"))
+    assert longest_sentence(f"```\n{words}\n```\n# {words}\n| {words} |\n\n    {words}\n").strip() == ""
 
 
 # --- the mechanism itself ---------------------------------------------------------------------------------------------
@@ -144,7 +221,7 @@ def test_a_command_that_fails_fails_the_test(tmp_path):
     do(Block(ROOT / "README.md", 1, "sh", "exit 1\n", ("", "")), tmp_path, "fails")
 
 
-def test_what_is_left_to_the_ci_is_done_there():
+def test_ci_runs_the_commands_that_are_skipped_here():
     assert all(word in (ROOT / ".ci/run").read_text() for word in WHOLE_REPOSITORY)
 
 
