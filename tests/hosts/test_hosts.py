@@ -1,0 +1,23 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The README's two commands and the Debian package in fresh roots of the supported releases (opt-in: ctest -L hosts; root and mmdebstrap)."""
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+CHECK = Path(__file__).resolve().parent / "check_host"
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("mmdebstrap"), reason="needs root and mmdebstrap")
+@pytest.mark.parametrize("suite", ["bookworm", "trixie"])
+def test_readme_commands_and_package(suite):
+    done = subprocess.run([CHECK, suite], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_suite_is_required():
+    done = subprocess.run([CHECK], capture_output=True, text=True)
+    assert done.returncode == 1 and "usage" in done.stderr
