@@ -115,7 +115,7 @@ function announce(place, events, { time: now, end }) {
   if (place.textContent === text) return;
   place.textContent = text;
   if (!event) return;
-  const right = event.time > end / 2;
-  place.style.left = right ? "auto" : `${(100 * event.time) / end}%`;
-  place.style.right = right ? `${100 - (100 * event.time) / end}%` : "auto";
+  const share = (100 * event.time) / end;
+  const [before, after] = share > 50 ? ["auto", `${100 - share}%`] : [`${share}%`, "auto"];
+  Object.assign(place.style, { left: before, right: after, maxWidth: `${Math.max(share, 100 - share)}%` });
 }

@@ -56,7 +56,8 @@ def describe(model):
     found = model.counts()
     snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
     columns = " and ".join(f"{count} columns of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
-    return f"{" ".join(model.description.split())}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}"
+    description = " ".join(model.description.split())
+    return f"{description}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}"
 
 
 def density(ax, box, dpi):
@@ -80,7 +81,7 @@ def draw_space(ax, solids, dpi):
 def draw_elevation(ax, view, solids, model, dpi):
     """Front or side view with the heights of floors and ridge."""
     box = box_of(view, solids, [])
-    draw_view(ax, Window(view, box, density(ax, box, dpi)), Snapshot(solids))
+    draw_view(ax, Window(view, box, density(ax, box, dpi)), Snapshot(solids), front_of(solids, view))
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
     heights = sorted({0.0, *(z for levels in model.storey_levels.values() for pair in levels.values() for z in pair), max(e.vertices[:, 2].max() for e in model.elements)})

@@ -28,6 +28,9 @@ REPLACEMENT = "\ufffd"
 SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
 """TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
 
+METADATA = {".png": {"Software": None}, ".pdf": {"CreationDate": None}}
+"""Nothing that differs between two runs of the same program."""
+
 
 def new_figure(width, height, dpi):
     """Empty white figure of a width and height [inch], rounded to whole pixels of a resolution [1/inch]."""
@@ -85,7 +88,7 @@ def save(figure, stem, endings, dpi):
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
     for path in paths:
         with written_whole(path) as part, matplotlib.rc_context(SETTINGS):
-            figure.savefig(part, dpi=dpi, metadata={"Software": None} if path.suffix == ".png" else {"CreationDate": None})
+            figure.savefig(part, dpi=dpi, metadata=METADATA[path.suffix])
     return paths
 
 

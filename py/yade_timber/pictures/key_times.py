@@ -69,7 +69,7 @@ def named(frames):
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
     if frames.breaks is not None and len(frames.breaks["time"]):
-        yield frames.breaks["time"][0], "first spring breaks"
+        yield frames.breaks["time"][0], "first joint damaged"
     if history_of(frames).samples and not found["collapsed"]:
         yield largest_drift(frames), "largest drift"
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from ..recording.sentences import sentence
 from . import key_times
 from .figures import A4, MARGIN, add_panel, drawable, heading, heading_height, new_figure, save
-from .raster import Window
+from .raster import Window, front_of
 from .snapshot import snapshot, solids
-from .views import VIEWS, box_of, draw_ends, draw_view, legend, scale_bar
+from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,8 @@ END_DPI = 130
 """For the picture of the end, made for screens."""
 GAP, FOOT, CAPTION = 0.12, 0.62, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
+PANEL_MARK = 5
+"""Size of the marks of joints in a panel. [pt]"""
 CAPTION_LETTERS = 14
 """Letters per inch in a caption."""
 NARROWEST = 0.6
@@ -86,19 +88,22 @@ def sheet(frames, view, form):
     """Figure with the key times of a run in one view."""
     times = key_times.choose(frames, form.panels)
     start = solids(frames)
-    shots = [snapshot(frames, time.frame, start if time.frame else []) for time in times]
+    shots = [snapshot(frames, time.frame) for time in times]
     box = box_of(view, start, [shot.solids for shot in shots])
     plan = layout(form, len(shots), box, result(frames))
+    front, covered = front_of(start, view), silhouette(start, view, box)
     figure = new_figure(plan.width, plan.height, form.dpi)
     for time, shot, corner in zip(times, shots, plan.corners()):
         ax = add_panel(figure, corner, plan.panel, form.dpi)
-        draw_view(ax, Window(view, box, plan.density), shot, mark_size=5)
+        draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
+        if time.frame:
+            draw_silhouette(ax, covered, box, PANEL_MARK)
         caption = f"{frames.time[time.frame]:.2f} s{': ' if time.reason else ''}{time.reason}"
         ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3)
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
-    legend(figure, start, {mark.state for shot in shots for mark in shot.marks}, 8, columns=int(0.6 * plan.width))
+    legend(figure, start, {mark.state for shot in shots for mark in shot.marks}, 8)
     return figure
 
 
@@ -115,7 +120,7 @@ def write_end(stem, frames):
 def both_views(frames, frame, dpi):
     """Figure with the two views of a frame."""
     start = solids(frames)
-    shot = snapshot(frames, frame, start)
+    shot = snapshot(frames, frame)
     boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
     top = max(box[3] for box in boxes)
     boxes = [(*box[:3], top) for box in boxes]
@@ -127,7 +132,8 @@ def both_views(frames, frame, dpi):
     left = MARGIN
     for view, box, size in zip(VIEWS, boxes, sizes):
         ax = add_panel(figure, (left, END_AXES), size, dpi)
-        draw_view(ax, Window(view, box, density), shot)
+        draw_view(ax, Window(view, box, density), shot, front_of(start, view))
+        draw_silhouette(ax, silhouette(start, view, box), box)
         ax.set_title(view.title, fontsize=12)
         draw_ends(ax, view, 10)
         scale_bar(ax, box, 10)

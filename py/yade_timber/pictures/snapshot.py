@@ -4,9 +4,9 @@ from ..base import colors
 from .views import Mark, Snapshot, Solid
 
 
-def snapshot(frames, frame, start=()):
-    """Snapshot of a frame. start: solids before the first step, for the outline."""
-    return Snapshot(solids(frames, frame), start, marks(frames, frame))
+def snapshot(frames, frame):
+    """Snapshot of a frame."""
+    return Snapshot(solids(frames, frame), marks(frames, frame))
 
 
 def solids(frames, frame=None):

@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..base import colors
-from .raster import Window, front_of, outline, shade
+from .raster import Window, outline, shade
 
 
 @dataclass
@@ -43,10 +43,9 @@ class View:
 
 @dataclass
 class Snapshot:
-    """A house at one time. start: solids before the first step, drawn as a dashed outline; empty: no outline."""
+    """A house at one time."""
 
     solids: list
-    start: list = field(default_factory=list)
     marks: list = field(default_factory=list)
 
 
@@ -76,6 +75,7 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
     "before": (0.75, dict(marker="o", markerfacecolor="white", markeredgecolor="black")),
 }
 MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken", "before": "joint broken before the start"}
+LEGEND_COLUMNS = 6
 LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam, sill", "floor": "floor", "foundation": "foundation"}
 
 
@@ -90,19 +90,25 @@ def box_of(view, starts, later):
     return np.floor(left / GRID) * GRID, np.ceil(right / GRID) * GRID, -DEPTH_BELOW, np.ceil(top / GRID) * GRID
 
 
-def draw_view(ax, window, snapshot, mark_size=MARK_SIZE):
-    """Shaded picture of a Snapshot in a Window with ground line, outline of the house at the start and damaged joints."""
-    view, box = window.view, window.box
-    picture, depth = shade(snapshot.solids, window, front_of(snapshot.start or snapshot.solids, view))
-    ax.imshow(np.rint(255 * picture).astype(np.uint8), extent=box, interpolation="antialiased", aspect="equal")
-    house = [s for s in snapshot.start if s.kind not in ("ground", "snow")]
-    if house:
-        covered = outline(house, Window(view, box, OUTLINE_PIXELS))
-        ax.contour(covered.astype(float), [0.5], extent=box, origin="upper", colors=INK, linewidths=0.1 * mark_size, linestyles="dashed")
+def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
+    """Shaded picture of a Snapshot in a Window with ground line and damaged joints. front: from `front_of` [m]"""
+    box = window.box
+    picture, depth = shade(snapshot.solids, window, front)
+    ax.imshow(np.rint(255 * picture).astype(np.uint8), extent=box, interpolation="none", aspect="equal")
     ax.axhline(0, color="black", linewidth=0.16 * mark_size)
     for mark in snapshot.marks:
         draw_mark(ax, window, depth, mark, mark_size)
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
+
+
+def silhouette(start, view, box):
+    """(rows, columns) whether the house, snow and ground left out, covers a pixel. start: solids before the first step"""
+    return outline([s for s in start if s.kind not in ("ground", "snow")], Window(view, box, OUTLINE_PIXELS))
+
+
+def draw_silhouette(ax, covered, box, mark_size=MARK_SIZE):
+    """Dashed outline of a silhouette."""
+    ax.contour(covered.astype(float), [0.5], extent=box, origin="upper", colors=INK, linewidths=0.1 * mark_size, linestyles="dashed")
 
 
 def draw_mark(ax, window, depth, mark, size):
@@ -140,10 +146,11 @@ def kind_entries(solids):
     return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in LEGEND_KINDS.items() if kind in found]
 
 
-def legend(figure, solids, states, size, columns=6):
+def legend(figure, solids, states, size):
     """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text [pt]"""
     entries = kind_entries(solids)
-    entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
+    name = "house at the start, without snow" if any(s.kind == "snow" for s in solids) else "house at the start"
+    entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label=name))
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
-    rows = -(-len(entries) // columns)
+    rows = -(-len(entries) // LEGEND_COLUMNS)
     figure.legend(handles=entries, loc="lower center", ncols=-(-len(entries) // rows), frameon=False, fontsize=size, handletextpad=0.5, columnspacing=1.6)
