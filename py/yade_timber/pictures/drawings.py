@@ -11,7 +11,7 @@ from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, d
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
 """Of the page [inch], and of its shaded parts [1/inch]."""
-OBLIQUE = View("space", "In space, from the north-east (roof and snow half transparent)", (-0.64, 0.768, 0.0), (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
+OBLIQUE = View("space", "In space, from the north-east (roof half transparent)", (-0.64, 0.768, 0.0), (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
 TRANSPARENT = ("roof", "snow")
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
