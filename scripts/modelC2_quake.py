@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # House C2, earthquake (paper, section 4.3).
-import yade_timber as yt
-from yade_timber.run.runner import main
+import sys
+
+if "yade.wrapper" not in sys.modules:
+    sys.exit(f"error: this script runs in YADE: yade -n -x {sys.argv[0]}")
+
+import yade_timber as yt  # noqa: E402, F401  (for the live session)
+from yade_timber.run.launch import main  # noqa: E402
 
 run = main("C2", earthquake=True)

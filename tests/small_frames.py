@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames of an invented run: two boxes and the ground, three joints, three seconds; the upper box slides to the east and tips."""
+"""Recorded frames of an invented run of three seconds: two boxes and the ground, three joints; the upper box slides to the east and tips."""
 import numpy as np
 from yade_timber.recording.frames import Contacts, Elements, Frames, Joints, Motion
+from yade_timber.recording.history import History
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
@@ -12,7 +13,7 @@ SUMMARY = {
 }
 
 
-def turn_about_y(angle):
+def rotation_about_y(angle):
     """Quaternion w, x, y, z."""
     return np.array([np.cos(angle / 2), 0, np.sin(angle / 2), 0])
 
@@ -37,7 +38,7 @@ def frames(ended=True, shaken=True):
     position = np.tile(e.position, (COUNT, 1, 1)).astype("f4")
     orientation = np.tile(e.orientation, (COUNT, 1, 1)).astype("f4")
     position[:, 2, 0] = slide
-    orientation[:, 2] = [turn_about_y(0.3 * s) for s in slide]
+    orientation[:, 2] = [rotation_about_y(0.3 * s) for s in slide]
     broken = np.zeros((COUNT, 3), "u1")
     broken[:, 0], broken[time >= 1.2, 1], broken[time >= 1.6, 1], broken[time >= 1.6, 2] = 4, 2, 4, 1
     load = np.where(broken < 4, 0.1 * np.arange(3), 0).astype("f4")
@@ -55,10 +56,10 @@ def frames(ended=True, shaken=True):
 
 
 def history(time, slide):
-    """(columns, rows) with every column that the page of curves asks for."""
+    """History with every column of the page of curves."""
     energies = ("kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
     columns = ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]", "broken_joints [-]", "broken_springs [-]", *(f"{name} [J]" for name in energies)]
     rows = np.zeros((len(time), len(columns)))
     rows[:, 0], rows[:, 2] = time, slide / 2
     rows[:, columns.index("ground_motion [J]")] = rows[:, columns.index("friction [J]")] = 100 * slide
-    return columns, rows
+    return History(columns, rows)

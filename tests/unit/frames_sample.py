@@ -2,6 +2,7 @@
 """A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
 import numpy as np
 from yade_timber.recording import frames
+from yade_timber.recording.history import History
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 FALL = 2.0
@@ -57,17 +58,17 @@ def placements(time, start):
 
 
 def history():
-    """(columns, rows) with one storey."""
+    """History of one storey."""
     time = np.arange(0, DURATION + 0.005, 0.01)
     drift = 0.02 * np.sin(2 * np.pi * time) + 1.3 * np.clip(time - FALL, 0, 1) ** 2
-    return ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "broken_joints [-]"], np.column_stack([time, drift, 0.3 * drift, 0 * time])
+    return History(["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "broken_joints [-]"], np.column_stack([time, drift, 0.3 * drift, 0 * time]))
 
 
 def motion():
-    """A second of quiet, then 1 Hz E-W with 20 cm."""
+    """One second at rest, then a sine E-W of 1 Hz and 20 cm."""
     time = np.arange(0, DURATION + 0.005, 0.01)
-    way = 0.2 * np.sin(2 * np.pi * time) * (time > 1)
-    return frames.Motion(0.01, 0.0, np.column_stack([-4 * np.pi**2 * way, 0 * way, 0 * way]), np.column_stack([way, 0 * way, 0 * way]))
+    east = 0.2 * np.sin(2 * np.pi * time) * (time > 1)
+    return frames.Motion(0.01, 0.0, np.column_stack([-4 * np.pi**2 * east, 0 * east, 0 * east]), np.column_stack([east, 0 * east, 0 * east]))
 
 
 def summary(name):

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a checkpoint must agree with: everything that decides a run and nothing else. Files that are damaged: test_cli_errors; whole runs: test_run."""
+"""Identity of a run: everything that decides its results and nothing else. Damaged checkpoints: test_cli_errors; whole runs: test_run."""
 import copy
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from yade_timber.run import checkpoint
+from yade_timber.run import identity as identities
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion
 from yade_timber.scene.scenario import Scenario
@@ -18,8 +20,8 @@ def model():
     return build_house(load_house("A"), snow_depth=0.5)
 
 
-def identity(model, scenario=SCENARIO, version="1"):
-    return checkpoint.identity(scenario, model, version)
+def identity(model, scenario=SCENARIO):
+    return identities.identity(scenario, model)
 
 
 @pytest.mark.parametrize(
@@ -58,6 +60,8 @@ def joint_change(name, value):
     [
         ("elements", move_vertex),
         ("joints", move_spring),
+        ("element values", lambda model: setattr(model.elements[3], "density", 1.0)),
+        ("element values", lambda model: setattr(model.elements[-1], "fixed", not model.elements[-1].fixed)),
         *(("joint values", joint_change(name, value)) for name, value in (("kn", 1.0), ("ks", 1.0), ("strength", 1.0), ("per", "joint"), ("broken", True))),
         ("materials", lambda model: model.materials["timber"].update(density=1.0)),
         ("materials", lambda model: model.friction.append(("timber", "snow", 0.1))),
@@ -72,12 +76,47 @@ def test_another_house(model, key, change):
 
 
 def test_what_may_differ(model, tmp_path):
-    """How long the run is to be, and where the house file lies."""
+    """The duration, and the folder of the house file."""
     assert identity(model) == identity(model, replace(SCENARIO, duration=9.0)) == identity(model, replace(SCENARIO, house=str(tmp_path / "A.yaml")))
 
 
 def test_another_package(model, monkeypatch):
     one = identity(model)
-    assert identity(model, version="2") != one
-    monkeypatch.setattr(checkpoint, "package", lambda: "another")
-    assert identity(model) != one
+    monkeypatch.setattr(identities, "package", lambda: "another")
+    assert [key for key in one if one[key] != identity(model)[key]] == ["package"]
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """A copy of the package's folder."""
+    folder = tmp_path_factory.mktemp("package") / "yade_timber"
+    shutil.copytree(Path(identities.__file__).resolve().parents[1], folder, ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+@pytest.mark.parametrize(
+    "name, decides",
+    [
+        ("base/colors.py", False),
+        ("pictures/raster.py", False),
+        ("pictures/player.py", False),
+        ("data/player/page.css", False),
+        ("study/claims.py", False),
+        ("recording/sentences.py", False),
+        ("scene/engines.py", True),
+        ("scene/scenario.py", True),
+        ("run/runner.py", True),
+        ("run/summary.py", True),
+        ("house/build.py", True),
+        ("motion/readers.py", True),
+        ("recording/drift.py", True),
+        ("base/time_step.py", True),
+        ("data/houses/base.yaml", True),
+    ],
+)
+def test_files_that_decide_results(package, name, decides):
+    """A changed file changes the fingerprint of the package if, and only if, it decides results."""
+    before = identities.of_files(identities.decisive_files(package))
+    with open(package / name, "a") as file:
+        file.write("\n# changed\n")
+    assert (identities.of_files(identities.decisive_files(package)) != before) is decides

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bad input ends a run script with one line on standard error and status 1, before anything is built or written."""
+import os
 from dataclasses import fields
 
 import numpy as np
 import pytest
 from yade_timber.run import cli
 from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
-from yade_timber.run.runner import main
-from yade_timber.scene.scenario import MAX_DT, MIN_DT
+from yade_timber.run.launch import main
 
 
 @pytest.fixture
@@ -46,8 +47,23 @@ def test_numbers_out_of_range(refused, option, value):
     assert option in refused(option, value) and ">= 0" in refused(option, value)
 
 
-def test_not_a_number(refused):
-    assert "--duration" in refused("--duration", "long")
+@pytest.mark.parametrize("option", ["--duration", "--checkpoint"])
+@pytest.mark.parametrize("value", ["1e308", "9" * 30, "9" * 5000, "100001"])
+def test_times_beyond_all_runs(refused, option, value):
+    """Their number of steps would overflow."""
+    assert option in refused(option, value) and f"{MAX_DURATION:g} s" in refused(option, value)
+
+
+@pytest.mark.parametrize("option", ["--duration", "--dt", "--checkpoint"])
+@pytest.mark.parametrize("value", ["long", "", "1e", "0x10", "1,5", "-", "\x00"])
+def test_not_a_number(refused, option, value):
+    assert option in refused(option, value)
+
+
+@pytest.mark.parametrize("option", ["--out", "--export"])
+@pytest.mark.parametrize("value", ["", "  "])
+def test_empty_paths(refused, option, value):
+    assert f"{option} ''" in refused(option, value)
 
 
 def test_unknown_option(refused):
@@ -123,24 +139,47 @@ def test_no_earthquake_to_change(refused, option):
     assert "no earthquake" in refused(option, earthquake=False)
 
 
-def test_unwritable_folder(refused, record):
-    """A folder below a file: not even root can write there."""
-    assert "cannot write" in refused("--duration", 0, out=record / "below")
+@pytest.mark.parametrize("folder", ["/proc/x", "/proc", "/dev/null", "{record}/below", "{record}", "{long}"])
+def test_unwritable_folder(refused, record, folder):
+    """Not even root can write in these."""
+    assert "--out" in refused("--duration", 0, out=folder.format(record=record, long="x" * 300))
 
 
 def test_unwritable_export(refused, tmp_path):
-    assert "--export" in refused("--duration", 0, "--export", tmp_path / "nowhere" / "scene.json")
+    for path in (tmp_path / "nowhere" / "scene.json", tmp_path, "/proc/x", "x" * 300):
+        assert "--export" in refused("--duration", 0, "--export", path)
 
 
 @pytest.mark.parametrize("content", [b"", b"no checkpoint", b"\n{}", b"\x00" * 1000 + b"\n[1]", b'xyz\n{"sha256": "0"}'])
 def test_damaged_checkpoint(refused, tmp_path, content):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "checkpoint.yade").write_bytes(content)
-    assert "damaged" in refused("--resume")
+    assert "checkpoint.yade" in refused("--resume")
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: os.symlink("/dev/zero", path)])
+def test_checkpoint_that_is_no_file(refused, tmp_path, make):
+    """A pipe does not block, a device does not fill the memory."""
+    (tmp_path / "out").mkdir()
+    make(tmp_path / "out" / "checkpoint.yade")
+    assert "checkpoint.yade" in refused("--resume")
+
+
+def test_results_that_cannot_be_removed(refused, tmp_path):
+    (tmp_path / "out" / "history.csv").mkdir(parents=True)
+    assert "history.csv" in refused()
+
+
+def test_a_lock_that_is_a_link(refused, tmp_path):
+    """The linked file keeps its content."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "mine").write_text("mine")
+    (tmp_path / "out" / ".lock").symlink_to(tmp_path / "mine")
+    assert ".lock" in refused() and (tmp_path / "mine").read_text() == "mine"
 
 
 def test_defaults():
-    """Options that are not given come from the motion and the package's constants."""
+    """Defaults of options come from the motion and the package's constants."""
     scenario, output = cli.read("C2", True, True, ["scripts/modelC2_snow.py"])
     assert (scenario.name, scenario.duration, scenario.snow_depth, scenario.scale) == ("modelC2_snow", scenario.motion.duration, 1.0, 1.0)
     assert str(output.folder) == "results/modelC2_snow" and output.views and not output.resume

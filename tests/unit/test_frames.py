@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Recorded frames: what is written is read back, where things are in a frame, which moments are chosen. Needs no YADE."""
+"""Recorded frames: written and read back, damaged files, placements in a frame, choice of key times. Needs no YADE."""
 import dataclasses
+import os
 
 import h5py
 import numpy as np
@@ -65,6 +66,83 @@ def test_another_hdf5_file(tmp_path):
         files.load(tmp_path / "other.h5")
 
 
+def damaged(path, change):
+    """Save the sample's frames, change the HDF5 file in place."""
+    files.save(path, frames())
+    with h5py.File(path, "r+") as file:
+        change(file)
+
+
+def replace(name, data):
+    def change(file):
+        del file[name]
+        file[name] = data
+
+    return change
+
+
+def declare(name, shape):
+    """A table of that shape of which nothing is stored."""
+
+    def change(file):
+        del file[name]
+        file.create_dataset(name, shape=shape, dtype="f4", chunks=(1,) * len(shape))
+
+    return change
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda file: file.pop("joints"),
+        lambda file: file["elements"].pop("kind"),
+        lambda file: file.attrs.pop("ended"),
+        lambda file: file.attrs.update(summary="{"),
+        lambda file: file.attrs.update(summary="[]"),
+        lambda file: file.attrs.update(summary='{"model": "A"}'),
+        lambda file: file["motion"].attrs.update(dt="fast"),
+        replace("frames/position", np.zeros((2, 3, 3), "f4")),
+        replace("frames/load", np.zeros(61, "f4")),
+        replace("elements/storey", np.zeros(2, int)),
+        replace("elements/faces", np.full(36, 99)),
+        replace("elements/faces", b"text"),
+        replace("elements/kind", np.zeros(3)),
+        replace("joints/a", np.array([0, 1, 99])),
+        replace("contacts/pair", np.full((2, 2), -1)),
+        replace("history/columns", np.zeros(7)),
+        replace("history/rows", np.zeros(7)),
+        declare("frames/position", (10**6, 10**5, 3)),
+        declare("history/rows", (10**9, 16)),
+    ],
+)
+def test_damaged_or_hostile_tables(tmp_path, change):
+    """One line; tables that only declare a size take no memory."""
+    damaged(tmp_path / "frames.h5", change)
+    with pytest.raises(RunError, match="frames.h5: ") as raised:
+        files.load(tmp_path / "frames.h5")
+    assert "\n" not in str(raised.value)
+
+
+def test_truncated_file(tmp_path):
+    files.save(tmp_path / "frames.h5", frames())
+    content = (tmp_path / "frames.h5").read_bytes()
+    for share in (0.1, 0.5, 0.9):
+        (tmp_path / "frames.h5").write_bytes(content[: int(share * len(content))])
+        with pytest.raises(RunError, match="frames.h5: "):
+            files.load(tmp_path / "frames.h5")
+
+
+def test_pipe(tmp_path):
+    os.mkfifo(tmp_path / "frames.h5")
+    with pytest.raises(RunError, match="frames.h5: "):
+        files.load(tmp_path / "frames.h5")
+
+
+def test_repr_is_short():
+    made = frames()
+    assert all(len(repr(part)) < 300 and "\n" not in repr(part) for part in (made, *(getattr(made, name) for name in ("elements", "joints", "contacts", "motion", "history"))))
+
+
 def test_corners_move_and_turn():
     """The upper box at the end: 1 m to the east, tipped by 0.3 rad towards the east."""
     made, c, s = frames(), np.cos(0.3), np.sin(0.3)
@@ -84,7 +162,7 @@ def test_joint_states():
         ["before", "whole", "whole"], ["before", "partly", "whole"], ["before", "broken", "partly"]]
 
 
-# --- moments ----------------------------------------------------------------------------------------------------------
+# --- key times -------------------------------------------------------------------------------------------------------
 
 
 def test_moments_that_have_a_name():

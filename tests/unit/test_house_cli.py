@@ -2,7 +2,7 @@
 """scripts/house.py: what its options make of a house file, and the line that bad input gets."""
 import pytest
 from yade_timber.run import cli
-from yade_timber.run.runner import main_house
+from yade_timber.run.launch import main_house
 
 SNOWY = "extends: storehouse\nname: mine\nsnow: {depth: 0.7}\n"
 

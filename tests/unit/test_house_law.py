@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a house file says about the laws arrives in the engines."""
+"""The entry `law` of a house file decides the engines."""
 import pytest
 from yade import O
-from yade_timber.run import checkpoint
-from yade_timber.scene import scenario
-from yade_timber.scene import engines as scene
+from yade_timber.run.identity import identity
+from yade_timber.scene import engines, scenario
 
 
 def built(tmp_path, law):
@@ -13,10 +12,10 @@ def built(tmp_path, law):
     path.write_text(f"extends: storehouse\nname: mine\nlaw: {law}\n")
     built = scenario.Scenario("law", str(path))
     model = scenario.build(built)
-    loop = scene.interaction_loop()
+    loop = engines.interaction_loop()
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
-    return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, checkpoint.identity(built, model, "")
+    return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, identity(built, model)
 
 
 def test_defaults(tmp_path):
@@ -26,11 +25,11 @@ def test_defaults(tmp_path):
 
 @pytest.mark.parametrize("entry, attribute", [("flush_supports: false", "flushSupports"), ("vertex_edge_contacts: true", "vertexEdge")])
 def test_contact_patterns(tmp_path, entry, attribute):
-    """A checkpoint of one reading is refused by a run with the other."""
-    plain, _, _, identity = built(tmp_path, "{}")
-    other, _, _, other_identity = built(tmp_path, f"{{{entry}}}")
+    """The identity differs, so a checkpoint of one variant is refused by a run of the other."""
+    plain, _, _, one = built(tmp_path, "{}")
+    other, _, _, two = built(tmp_path, f"{{{entry}}}")
     assert getattr(other, attribute) is not getattr(plain, attribute)
-    assert {key for key in identity if identity[key] != other_identity[key]} == {"law"}
+    assert {key for key in one if one[key] != two[key]} == {"law"}
 
 
 def test_flush_members_have_fewer_supports_without_them(tmp_path):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What people do to the scene of a live run: load another one or an earlier state, take members out. At a terminal: test_run."""
+"""Changes to the scene of a live run: another scene or an earlier state loaded, members removed. At a terminal: test_run."""
 import time
 from contextlib import ExitStack
 
@@ -8,17 +8,17 @@ import pytest
 from yade import O
 from yade_timber.recording import frames
 from yade_timber.base import lock
-from yade_timber.run import runner
-from yade_timber.scene import scenario
+from yade_timber.run import live
 from yade_timber.run.cli import Output
+from yade_timber.scene import scenario
 
 
 def begin(folder, steps=4000):
     """A live run of house A under snow, going on in the background."""
-    run = runner.Run(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
-    hold = ExitStack()
-    assert hold.enter_context(lock.locked(folder))
-    run.start(hold)
+    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
+    folder_lock = ExitStack()
+    assert folder_lock.enter_context(lock.locked(folder))
+    run.start(folder_lock)
     return run
 
 
@@ -36,7 +36,7 @@ def step_to(iteration):
 
 
 def test_another_scene(tmp_path, capfd):
-    """The run ends without results, and lets its folder go."""
+    """The run ends without results and releases its folder."""
     begin(tmp_path)
     step_to(100)
     O.reset()
@@ -45,7 +45,7 @@ def test_another_scene(tmp_path, capfd):
 
 
 def test_an_earlier_state(tmp_path):
-    """Frames go back with it."""
+    """Later frames are dropped."""
     run = begin(tmp_path, 1500)
     step_to(600)
     saved = O.iter
@@ -60,7 +60,7 @@ def test_an_earlier_state(tmp_path):
     assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary["steps"] == 1500
 
 
-def test_a_member_taken_out(tmp_path):
+def test_removed_members(tmp_path):
     run = begin(tmp_path, 1000)
     step_to(100)
     column, beam = (next(k for k, e in enumerate(run.model.elements) if e.kind == kind) for kind in ("column", "beam"))
@@ -75,4 +75,4 @@ def test_a_member_taken_out(tmp_path):
 def no_live_run():
     yield
     O.pause()
-    runner.live = None
+    live.live = None

@@ -88,6 +88,8 @@ def test_a_long_run_stays_below_8_megabytes(tmp_path):
     run, times, count = frames_sample.run(), 801, 191
     for name in ("name", "kind", "group", "material", "vertices", "faces"):
         setattr(run.elements, name, (getattr(run.elements, name) * 28)[:count])
+    for name in ("storey", "fixed", "position", "orientation"):
+        setattr(run.elements, name, np.concatenate([getattr(run.elements, name)] * 28)[:count])
     for name in ("name", "kind", "storey", "side"):
         setattr(run.joints, name, (getattr(run.joints, name) * 37)[:294])
     for name in ("a", "b", "anchor", "springs", "damaged", "strength"):

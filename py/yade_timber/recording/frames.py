@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The recorded frames of a run, frames.h5: all that pictures, player and exports are made from. Needs no YADE.
+"""The recorded frames of a run, frames.h5: the source of pictures, player and exports. Needs no YADE.
 
 Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
 
-attributes   format, title (what was done to which house), scenario, model, version (of the package), ended (bool); of an ended
-             run also summary: the text of summary.json
+attributes   format, title (house and loads), scenario, model, version (of the package), run (fingerprint of the run's identity), ended (bool);
+             of an ended run also summary: the text of summary.json
 /elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the first; fixed (N,) bool;
-             position (N, 3) [m], orientation (N, 4) w, x, y, z: where each stands before the first step;
+             position (N, 3) [m], orientation (N, 4) w, x, y, z: before the first step;
              vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] : vertex_start[k + 1];
              faces (C,): vertex numbers within the element, counter-clockwise from outside, those of face m in face_start[m] : face_start[m + 1];
              the faces of element k are element_start[k] : element_start[k + 1]
@@ -21,23 +21,29 @@ attributes   format, title (what was done to which house), scenario, model, vers
 /history     of an ended run: columns (names with units), rows; the table of history.csv
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
-Frames come FRAMES_PER_SECOND times in a simulated second from t = 0 on, and at the last step. A run that is not over (or was killed)
-has those up to its last checkpoint.
+Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. The file of an unfinished or killed run
+holds those up to its last checkpoint.
 """
 import json
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 
 import h5py
 import numpy as np
 
-from ..base.errors import RunError
 from ..base.atomic_write import written_whole
+from ..base.errors import RunError
+from ..base.regular_file import require_regular
+from .history import History
+from .sentences import sentence
 
 NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
+STRINGS = {*(f"elements/{name}" for name in ("name", "kind", "group", "material")), *(f"joints/{name}" for name in ("name", "kind", "storey", "side"))}
+ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
 def steps_between(dt):
@@ -45,8 +51,16 @@ def steps_between(dt):
     return max(1, round(1 / (FRAMES_PER_SECOND * dt)))
 
 
-@dataclass
-class Elements:
+class _ShortRepr:
+    """Prints sizes instead of contents."""
+
+    def __repr__(self):
+        sizes = (f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}" for name, value in vars(self).items())
+        return f"{type(self).__name__}({', '.join(sizes)})"
+
+
+@dataclass(repr=False)
+class Elements(_ShortRepr):
     """Names and shapes, as in /elements; vertices and faces: a list per element."""
 
     name: list
@@ -61,8 +75,8 @@ class Elements:
     faces: list
 
 
-@dataclass
-class Joints:
+@dataclass(repr=False)
+class Joints(_ShortRepr):
     """As in /joints."""
 
     name: list
@@ -77,8 +91,8 @@ class Joints:
     strength: np.ndarray
 
 
-@dataclass
-class Contacts:
+@dataclass(repr=False)
+class Contacts(_ShortRepr):
     """As in /contacts; pair, position, force: a list with an array per time."""
 
     time: list = field(default_factory=list)
@@ -87,8 +101,8 @@ class Contacts:
     force: list = field(default_factory=list)
 
 
-@dataclass
-class Motion:
+@dataclass(repr=False)
+class Motion(_ShortRepr):
     """As in /motion."""
 
     dt: float
@@ -101,11 +115,11 @@ class Motion:
         return self.start + self.dt * np.arange(len(self.acceleration))
 
 
-@dataclass
+@dataclass(repr=False)
 class Frames:
-    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame while a run goes on.
+    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a run.
 
-    history: (columns, rows) and breaks: dictionary of lists; None before the run's end, as is summary (a dictionary).
+    summary: dictionary; history: History; breaks: dictionary of lists. All three are None before the end of the run.
     """
 
     title: str
@@ -122,8 +136,13 @@ class Frames:
     contacts: Contacts = field(default_factory=Contacts)
     motion: Motion = None
     summary: dict = None
-    history: tuple = None
+    history: History = None
     breaks: dict = None
+    run: str = ""
+
+    def __repr__(self):
+        until = f"up to {self.time[-1]:g} s" if len(self.time) else "empty"
+        return f"<Frames: {self.title}, {len(self.elements.name)} elements, {len(self.joints.name)} joints, {len(self.time)} frames, {until}, {'ended' if self.summary else 'not ended'}>"
 
     def corners(self, frame, element):
         """(n, 3) corners of an element in a frame, world frame [m]."""
@@ -135,7 +154,7 @@ class Frames:
         return placed(e.vertices[element], e.position[element], e.orientation[element])
 
     def joint_places(self, frame):
-        """(J, 3) where the joints sit on their first elements, world frame [m]."""
+        """(J, 3) positions of the joints on their first elements, world frame [m]."""
         a = self.joints.a
         return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
 
@@ -156,7 +175,7 @@ class Frames:
 
 
 def rotated(q, v):
-    """Vectors (..., 3) turned by unit quaternions (..., 4) w, x, y, z."""
+    """Vectors (..., 3) rotated by unit quaternions (..., 4) w, x, y, z."""
     q, v = np.asarray(q, float), np.asarray(v, float)
     u = q[..., 1:]
     t = 2 * np.cross(u, v)
@@ -172,7 +191,7 @@ def placed(vertices, position, orientation):
 
 
 def save(path, frames):
-    """Write the file beside its place, then rename: a kill at any moment leaves the file of before or the new one. Raises OSError."""
+    """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
     with written_whole(path) as part, h5py.File(part, "w") as file:
         _save_attributes(file, frames)
         _save_elements(file.create_group("elements"), frames.elements)
@@ -183,14 +202,14 @@ def save(path, frames):
             group = file.create_group("motion")
             group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
             _save_group(group, {"acceleration": frames.motion.acceleration, "displacement": frames.motion.displacement})
-        if frames.history:
-            _save_group(file.create_group("history"), dict(zip(("columns", "rows"), frames.history)))
+        if frames.history is not None:
+            _save_group(file.create_group("history"), frames.history._asdict())
         if frames.breaks is not None:
             _save_group(file.create_group("breaks"), frames.breaks)
 
 
 def _save_attributes(file, frames):
-    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ("title", "scenario", "model", "version")}, "ended": frames.summary is not None}
+    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES}, "ended": frames.summary is not None}
     if frames.summary is not None:
         known["summary"] = json.dumps(frames.summary)
     file.attrs.update(known)
@@ -203,7 +222,7 @@ def _save_group(group, values):
 
 
 def _series(frames):
-    """The frames as arrays of the file's types; frameless files keep the numbers of elements and joints."""
+    """The frames as arrays of the file's types; without frames, too, their shapes hold the numbers of elements and joints."""
     count, n, j = len(frames.time), len(frames.elements.name), len(frames.joints.name)
     shapes = {"time": ("f8", ()), "position": ("f4", (n, 3)), "orientation": ("f4", (n, 4)), "load": ("f4", (j,)), "broken": ("u1", (j,))}
     return {name: np.asarray(getattr(frames, name), kind).reshape(count, *shape) for name, (kind, shape) in shapes.items()}
@@ -232,21 +251,55 @@ def _save_contacts(group, contacts):
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
-def load(path):
-    """Frames of a file. Raises RunError when it cannot be read or is no such file."""
+def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
+    """Frames of a file. Raises RunError when it cannot be read or holds something else. missing: remedy in the message when there is no file."""
+    require_regular(path, missing)
     try:
         with h5py.File(path, "r") as file:
             if file.attrs.get("format") != FORMAT:
-                raise RunError(f"{path}: these are no recorded frames ({FORMAT})")
-            return _load(file)
-    except FileNotFoundError:
-        raise RunError(f"{path}: no such file; frames are recorded unless a run has --no-frames, and not in batches") from None
-    except (OSError, KeyError) as problem:
-        raise RunError(f"{path}: cannot read the frames: {problem}") from None
+                raise RunError(f"{path}: no recorded frames ({FORMAT})")
+            _check_size(file, path)
+            loaded = _load(file)
+        _check_shapes(loaded)
+    except RunError:
+        raise
+    except (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as problem:  # of h5py, numpy or json
+        raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}") from None
+    return loaded
+
+
+def _check_size(file, path):
+    """Refuse tables that declare more data than the file holds (ours are not compressed), before memory is taken for them."""
+    declared = []
+    file.visititems(lambda _, item: declared.append(item.nbytes) if isinstance(item, h5py.Dataset) else None)
+    if sum(declared) > Path(path).stat().st_size:
+        raise RunError(f"{path}: its tables declare {sum(declared)} bytes, more than the file holds")
+
+
+def _check_shapes(frames):
+    """Raise ValueError when tables do not fit each other or numbers name elements that do not exist."""
+    e, j, n, count = frames.elements, frames.joints, len(frames.elements.name), len(frames.joints.name)
+    lengths = [(f"elements/{name}", values, n) for name, values in vars(e).items()] + [(f"joints/{name}", values, count) for name, values in vars(j).items()]
+    for name, values, length in lengths:
+        if len(values) != length:
+            raise ValueError(f"{name}: {len(values)} entries instead of {length}")
+        if name in STRINGS and not isinstance(values, list):
+            raise ValueError(f"{name}: no strings")
+    shapes = {"position": (n, 3), "orientation": (n, 4), "load": (count,), "broken": (count,)}
+    for name, shape in shapes.items():
+        if getattr(frames, name).shape != (len(frames.time), *shape):
+            raise ValueError(f"frames/{name}: shape {getattr(frames, name).shape} instead of {(len(frames.time), *shape)}")
+    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n), *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
+    numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices) for face in faces]
+    for name, values, limit in numbers:
+        if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
+            raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
+    if frames.summary is not None:
+        sentence(frames.summary)
 
 
 def _load(file):
-    attributes = {name: file.attrs[name] for name in ("title", "scenario", "model", "version")}
+    attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
     loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])), **series)
     loaded.contacts = _load_contacts(file["contacts"])
@@ -254,7 +307,7 @@ def _load(file):
         loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"]))
     if file.attrs["ended"]:
         loaded.summary = json.loads(file.attrs["summary"])
-        loaded.history = tuple(_values(file["history"])[name] for name in ("columns", "rows"))
+        loaded.history = History(**_values(file["history"]))
         loaded.breaks = _values(file["breaks"])
     return loaded
 

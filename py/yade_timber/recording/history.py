@@ -36,6 +36,9 @@ class History(namedtuple("Table", "columns rows")):
         columns = tuple(columns)
         return super().__new__(cls, columns, np.asarray(rows, float).reshape(-1, len(columns)))
 
+    def __repr__(self):
+        return f"<History: {self.samples} samples{f', up to {self.time[-1]:g} s' if self.samples else ''}, {len(self.columns)} columns>"
+
     @classmethod
     def read(cls, path):
         """History of a history.csv. Raises RunError with file and line when it is none."""

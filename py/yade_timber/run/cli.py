@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command line of the run scripts -> Scenario and where its results go. What YADE itself understands (-n, -x, -j2) stands before the script's name."""
+"""Command line of the run scripts -> (Scenario, Output). YADE's own options (-n, -x, -j2) stand before the script's name."""
 import argparse
-import math
 import sys
 import tempfile
 import warnings
@@ -9,9 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..base.errors import RunError
+from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import load_house, shipped_houses
 from ..motion import add_motion_options, motion_request
-from ..scene.scenario import DEFAULT_DT, MAX_DT, MIN_DT, Scenario
+from ..scene.scenario import Scenario
 
 SNOW_DEPTH = 1.0
 """Snow on the roof of the snow runs. [m] (paper, section 3.4)"""
@@ -23,17 +23,17 @@ CHECKPOINT_INTERVAL = 2.0
 
 @dataclass
 class Output:
-    """Where results go and what is made of them."""
+    """Folder and kinds of the results of a run."""
 
     folder: Path
     resume: bool = False
-    or_anew: bool = False  # where the checkpoint does not fit
-    views: bool = True
-    frames: bool = True  # no views without them
+    or_anew: bool = False  # with resume: start anew when the checkpoint cannot be used
+    views: bool = True  # pictures and player, made from the frames
+    frames: bool = True
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
-    options: tuple = ()  # words of the command line that decide the result
+    options: tuple = ()  # words of the command line that decide the results
 
 
 class _Parser(argparse.ArgumentParser):
@@ -44,17 +44,17 @@ class _Parser(argparse.ArgumentParser):
 def parser(script):
     """ArgumentParser of the run script of that name."""
     made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description="Results go to results/<script name>/ unless --out says otherwise.")
-    made.add_argument("--duration", type=float, metavar="S", help=f"simulated time [s] (default: the motion's; without an earthquake {QUIET_DURATION:g})")
-    made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], at most {MAX_DT:g} (default {DEFAULT_DT:g})")
+    made.add_argument("--duration", type=float, metavar="S", help=f"simulated time [s] (default: duration of the motion; without an earthquake {QUIET_DURATION:g})")
+    made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], {MIN_DT:g} to {MAX_DT:g} (default {DEFAULT_DT:g})")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
-    made.add_argument("--resume", action="store_true", help="go on from the last checkpoint in the folder of the results, if there is one")
-    made.add_argument("--or-anew", action="store_true", help="with --resume: start anew where the checkpoint is damaged or of another run, instead of refusing it")
+    made.add_argument("--resume", action="store_true", help="continue from the last checkpoint in the folder of the results, if there is one")
+    made.add_argument("--or-anew", action="store_true", help="with --resume: start anew when the checkpoint is damaged or of another run, instead of ending with an error")
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
-    made.add_argument("--no-views", action="store_true", help="make no pictures; scripts/show/show_run.py makes them later from the recorded frames")
-    made.add_argument("--no-frames", action="store_true", help="record no frames, and make no pictures")
-    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing but that)")
-    made.add_argument("--every-step", action="store_true", help="compute rest, too: by default the time in which the house rests and the ground is quiet is skipped")
-    made.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    made.add_argument("--no-views", action="store_true", help="make no pictures (scripts/show/show_run.py makes them later from the recorded frames)")
+    made.add_argument("--no-frames", action="store_true", help="record no frames and make no pictures")
+    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
+    made.add_argument("--every-step", action="store_true", help="compute every step (default: steps are skipped while house and ground are at rest)")
+    made.add_argument("--quiet", action="store_true", help="print errors only")
     add_motion_options(made)
     return made
 
@@ -64,18 +64,18 @@ def house_parser():
     made = parser("house")
     made.description = "Results go to results/<name of the house file>/ unless --out says otherwise."
     made.add_argument("file", metavar="HOUSE", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
-    made.add_argument("--quake", action="store_true", help="shake the house with the default motion; --record does so with a recorded one")
+    made.add_argument("--quake", action="store_true", help="with the default earthquake; --record gives a recorded one")
     made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs [m] (default: the house file's)")
     return made
 
 
 OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "--or-anew": 0, "--no-views": 0, "--no-frames": 0, "--quiet": 0}
-"""Options that change nothing in a run, and how many values each has."""
+"""Options that do not decide the results, with the number of their values."""
 
 
 def decisive(words):
-    """Words of a command line that decide the result: all but OUTPUT_OPTIONS and their values."""
-    kept, skip = [], 0
+    """Words of a command line that decide the results: all but OUTPUT_OPTIONS and their values."""
+    found, skip = [], 0
     for word in words:
         option, given, _ = word.partition("=")
         if skip:
@@ -83,41 +83,67 @@ def decisive(words):
         elif option in OUTPUT_OPTIONS:
             skip = 0 if given else OUTPUT_OPTIONS[option]
         else:
-            kept.append(word)
-    return tuple(kept)
+            found.append(word)
+    return tuple(found)
 
 
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     given = parser(script).parse_args(_joined(argv[1:]))
-    return _run(given, script, house, earthquake, SNOW_DEPTH if snow else 0.0, "take a script of a run that has one", argv[1:])
+    return _run(given, argv[1:], Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
 
 
 def read_house(argv):
     """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
     given = house_parser().parse_args(_joined(argv[1:]))
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
-    return _run(given, Path(given.file).stem, given.file, given.quake or given.record is not None or given.seed is not None, depth, "add --quake or --record FILE", argv[1:])
+    shaken = given.quake or given.record is not None or given.seed is not None
+    return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE"))
 
 
-def _run(given, name, house, earthquake, depth, remedy, words):
-    """(Scenario, Output) of a run called `name`. remedy: what to do when there is no earthquake to scale; words: of the command line."""
+@dataclass(frozen=True)
+class Request:
+    """Parts of a run that the script decides, or the arguments of scripts/house.py. remedy: for options of an earthquake in a run without one."""
+
+    name: str
+    house: str
+    earthquake: bool
+    snow_depth: float  # [m]
+    remedy: str
+
+
+def _run(given, words, asked):
+    """(Scenario, Output). given: parsed options; words: of the command line; asked: Request."""
     _check_numbers(given)
     request = motion_request(given)
-    motion = _motion(request, earthquake, given.dt, remedy)
+    motion = _motion(request, asked, given.dt)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
     scale = 1.0 if request.scale is None else request.scale
-    scenario = Scenario(name, house, motion, depth, scale=scale, dt=given.dt, duration=duration, options={"skip_rest": 0} if given.every_step else {})
-    folder = Path(given.out) if given.out else Path("results") / name
-    export = Path(given.export) if given.export else None
+    options = {"skip_rest": 0} if given.every_step else {}
+    scenario = Scenario(asked.name, asked.house, motion, asked.snow_depth, scale=scale, dt=given.dt, duration=duration, options=options)
     return scenario, Output(
-        folder, given.resume, given.or_anew, not (given.no_views or given.no_frames), not given.no_frames, export, given.quiet, given.checkpoint, decisive(words)
+        folder=_path("--out", given.out) or Path("results") / asked.name,
+        resume=given.resume,
+        or_anew=given.or_anew,
+        views=not (given.no_views or given.no_frames),
+        frames=not given.no_frames,
+        export=_path("--export", given.export),
+        quiet=given.quiet,
+        checkpoint_interval=given.checkpoint,
+        options=decisive(words),
     )
 
 
+def _path(option, value):
+    """Path of an option, None without a value. Raises RunError for an empty one."""
+    if value is not None and not value.strip():
+        raise RunError(f"{option} '': a path must not be empty")
+    return None if value is None else Path(value)
+
+
 def _joined(words):
-    """Words of a command line with numbers joined to their options by '=': argparse takes -1e-4 for an option."""
+    """Words of a command line with numbers joined to their options by '=', since argparse reads -1e-4 as an option."""
     joined = []
     for word in words:
         if _is_number(word) and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
@@ -138,17 +164,17 @@ def _is_number(word):
 def _check_numbers(given):
     """Ranges of all numbers; NaN is in none of them."""
     if not MIN_DT <= given.dt <= MAX_DT:
-        raise RunError(f"--dt {given.dt:g}: the time step must be between {MIN_DT:g} s and {MAX_DT:g} s, beyond which joints of floors and roofs are unstable")
-    for option, value, noun in (("--duration", given.duration, "simulated time [s]"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints [s]")):
-        if value is not None and not 0 <= value < math.inf:
-            raise RunError(f"{option} {value:g}: the {noun} must be finite and >= 0")
+        raise RunError(f"--dt {given.dt:g}: the time step must be between {MIN_DT:g} s and {MAX_DT:g} s; joints of floors and roofs are unstable beyond")
+    for option, value, noun in (("--duration", given.duration, "simulated time"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints")):
+        if value is not None and not 0 <= value <= MAX_DURATION:
+            raise RunError(f"{option} {value:g}: the {noun} must be >= 0 and at most {MAX_DURATION:g} s")
 
 
-def _motion(request, earthquake, dt, remedy):
-    """GroundMotion or None. What a reader has to warn of becomes a line on standard error."""
-    if not earthquake:
+def _motion(request, asked, dt):
+    """GroundMotion or None. Warnings of a reader become lines on standard error."""
+    if not asked.earthquake:
         for option in request.given():
-            raise RunError(f"--{option}: this run has no earthquake; {remedy}")
+            raise RunError(f"--{option}: this run has no earthquake; {asked.remedy}")
         return None
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")
@@ -159,10 +185,10 @@ def _motion(request, earthquake, dt, remedy):
 
 
 def prepare_folder(folder):
-    """Make the folder and see that files can be written in it. Raises RunError."""
+    """Create the folder and check that files can be written in it. Raises RunError."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as problem:
-        raise RunError(f"{folder}: cannot write results there: {problem.strerror}; choose another folder with --out") from None
+        raise RunError(f"--out {folder}: results cannot be written there: {problem.strerror}; choose another folder") from None

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run was made from: its options, the files they name, this package. Results made from something else are done again. Needs no YADE."""
+"""The identity of a run: everything that decides its results, and nothing else. Needs no YADE.
+
+`identity`   of a built run: the values of its scenario, fingerprints of the house as built and of the package. Checkpoint and frames carry it.
+`made_from`  the same from the command line, before anything is built: options, fingerprints of the files they name and of the package.
+             summary.json carries it; a study repeats a run whose `made_from` has changed.
+"""
+import json
 import sys
 from functools import cache
 from hashlib import sha256
@@ -10,30 +16,78 @@ from ..house.reading import house_files
 from ..motion import RecordError
 from ..motion.readers import find_files
 
-PARTS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv", "data/houses/*")
-"""Files of the package that may decide a result, besides its module."""
+ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv", "data/houses/*")
+"""Files of the package that decide results, besides its compiled module."""
+DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/sentences.py")
+"""Files in these rooms that change only what is shown."""
+
+
+def identity(scenario, model):
+    """{property: value as JSON returns it} of a scenario and its HouseModel. The duration is left out: a run can be lengthened."""
+    motion = scenario.motion and [scenario.motion.name, scenario.motion.dt, of_arrays([scenario.motion.acceleration])]
+    joints = [[j.a, j.b, j.kn, j.ks, j.strength, j.per, j.broken, j.kind, j.name] for j in model.joints]
+    elements = [[e.name, e.kind, e.group, e.material, e.density, e.fixed, e.storey] for e in model.elements]
+    known = {
+        "name": scenario.name,
+        "house": Path(scenario.house).stem,  # a house file may be moved: its content counts as built
+        "motion": motion,
+        "snow_depth": scenario.snow_depth,
+        "scale": scenario.scale,
+        "dt": scenario.dt,
+        "options": {key: str(value) for key, value in scenario.options.items()},
+        "elements": of_arrays(e.vertices for e in model.elements),
+        "element values": of_values(elements),
+        "joints": of_arrays(part for j in model.joints for part in (j.points, j.normal)),
+        "joint values": of_values(joints),
+        "materials": of_values([model.materials, model.friction]),
+        "law": of_values(model.law),
+        "package": package(),
+    }
+    return json.loads(json.dumps(known))
 
 
 def made_from(options):
-    """Content of `made_from` in summary.json: the words of the command line that decide the result, and fingerprints of the files they name and of the package."""
+    """Content of `made_from` in summary.json. options: words of the command line that decide the results (cli.decisive)."""
     words = [str(word) for word in options]
     try:
-        files = fingerprint(_named_files(words))
+        files = of_files(_named_files(words))
     except (HouseError, RecordError, OSError):
-        files = None  # the run will say what is wrong with them
+        files = None  # the run itself reports the fault
     return {"options": words, "files": files, "package": package()}
 
 
 @cache
 def package():
-    """Fingerprint of this package: module, Python files, shipped data."""
-    folder = Path(__file__).resolve().parents[1]
+    """Fingerprint of the package: compiled module, Python files that decide results, shipped data."""
     module = Path(sys.modules[__package__.partition(".")[0]].__path__[0]) / "_yade_timber.so"
-    return fingerprint([*filter(Path.is_file, [module]), *(path for pattern in PARTS for path in sorted(folder.glob(pattern)))])
+    return of_files([*filter(Path.is_file, [module]), *decisive_files(Path(__file__).resolve().parents[1])])
 
 
-def fingerprint(paths):
-    """Hexadecimal fingerprint of what is in these files, in this order."""
+def decisive_files(folder):
+    """Files of the package in `folder` that decide results."""
+    found = (path for pattern in ROOMS for path in sorted(folder.glob(pattern)))
+    return [path for path in found if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
+
+
+# --- fingerprints: 16 hexadecimal digits ------------------------------------------------------------------------------
+
+
+def of_arrays(arrays):
+    """Of numpy arrays: types, shapes and bits."""
+    total = sha256()
+    for array in arrays:
+        total.update(f"{array.shape}{array.dtype}".encode())
+        total.update(array.tobytes())
+    return total.hexdigest()[:16]
+
+
+def of_values(values):
+    """Of anything that JSON can write."""
+    return sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def of_files(paths):
+    """Of the content of files, in this order. Raises OSError."""
     total = sha256()
     for path in paths:
         total.update(sha256(Path(path).read_bytes()).digest())
@@ -41,7 +95,7 @@ def fingerprint(paths):
 
 
 def _named_files(words):
-    """House files, with what they extend, and records."""
+    """House files, with those they extend, and records that a command line names."""
     files = []
     for before, word in zip(["", *words], words):
         option, _, value = word.partition("=") if word.startswith("--") else (before, "", word)

@@ -17,12 +17,14 @@ import yaml
 from ...run import checkpoint
 from ...run import runner
 from ...run.cli import QUIET_DURATION, Output, prepare_folder
+from ...run.launch import leave
 from ...base.errors import RunError
 from ...base.atomic_write import write_text
 from ...house import HouseError, changed_house, load_house
 from ...base.lock import locked
 from ...motion import MotionRequest, RecordError
-from ...scene.scenario import DEFAULT_DT, MAX_DT, MIN_DT, Scenario
+from ...base.time_step import DEFAULT_DT, MAX_DT, MIN_DT
+from ...scene.scenario import Scenario
 from .collect import END
 from .table import MOTION, NO_EARTHQUAKE, BatchError, read_table
 
@@ -83,7 +85,7 @@ def main(argv):
         with locked(folder) as free:
             status = finish(row, folder) if free else 75
     except RunError as problem:
-        runner.leave(f"error: {problem}", 1)
+        leave(f"error: {problem}", 1)
     if status == 75:
         print(f"{row.name}: another process is computing it", file=sys.stderr)
     sys.exit(status)

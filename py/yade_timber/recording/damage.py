@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no YADE.
+
+A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are counted apart, never as broken.
+A column is lost when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
+"""
+import math
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .frames import Elements, Joints, rotated
+
+SIDES = ("north", "south", "east", "west", "inside")
+FALLEN_ANGLE = math.radians(45)
+"""Inclination beyond which a column has fallen. [rad]"""
+LEANING_DRIFT = 1 / 10
+"""Storey drift beyond which a structure leans. [-]"""
+SNOW_DROP = 1.0
+"""Snow has fallen when its centre is lower by this than its place on the roof. [m]"""
+
+
+@dataclass(frozen=True)
+class Level:
+    """Top of a storey. structure: name; marks: numbers of the elements that lie at this level; height of the storey [m]."""
+
+    structure: str
+    marks: list
+    height: float
+
+
+@dataclass(frozen=True)
+class State:
+    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for an element that was removed; broken (J,): broken springs of each joint."""
+
+    position: np.ndarray
+    orientation: np.ndarray
+    broken: np.ndarray
+
+
+@dataclass
+class DamageSurvey:
+    """What is damaged in any state of a house. levels: of each structure from below, the main structure first."""
+
+    elements: Elements
+    joints: Joints
+    levels: list
+
+    # --- joints -------------------------------------------------------------------------------------------------------
+
+    def count_joints(self, chosen=None):
+        """{'total', 'column_beam', 'brace_beam', other kinds that occur}: numbers of joints; chosen: (J,) bool, default all."""
+        kinds = [kind for kind, counts in zip(self.joints.kind, np.ones(len(self.joints.kind), bool) if chosen is None else chosen) if counts]
+        return {"total": len(kinds), "column_beam": 0, "brace_beam": 0, **Counter(kinds)}
+
+    def count_broken(self, state, springs):
+        """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
+        damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
+        whole = ~damaged & (state.broken >= self.joints.springs)
+        partly = ~damaged & ~whole & (state.broken > 0)
+        on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
+        in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
+        return {
+            **self.count_joints(whole),
+            "by_side": {side: int((whole & there).sum()) for side, there in on_side.items()},
+            "by_storey": {name: int((whole & there).sum()) for name, there in in_storey.items()},
+            "by_place": {name: {side: self.count_joints(whole & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()},
+            "partly_broken": int(partly.sum()),
+            "springs": springs,
+            "damaged_at_start": self.count_joints(damaged),
+        }
+
+    # --- columns ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _columns(self):
+        return np.array([k for k, kind in enumerate(self.elements.kind) if kind == "column"], int)
+
+    def fallen_columns(self, state):
+        """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
+        cosine = (_vertical(state.orientation[self._columns]) * _vertical(self.elements.orientation[self._columns])).sum(1)
+        return cosine < math.cos(FALLEN_ANGLE)
+
+    def loose_columns(self, state):
+        """(C,) bool for each column: not fallen, without a joint that has a spring left."""
+        intact = np.asarray(state.broken < self.joints.springs)
+        joined = np.union1d(self.joints.a[intact], self.joints.b[intact])
+        return self._present(state) & ~self.fallen_columns(state) & ~np.isin(self._columns, joined)
+
+    def _present(self, state):
+        return ~np.isnan(state.position[self._columns, 0])
+
+    def count_columns(self, state):
+        """The part `columns` of the summary: {'total', 'fallen', 'loose'}."""
+        masks = {"total": self._present(state), "fallen": self.fallen_columns(state), "loose": self.loose_columns(state)}
+        return {name: int(mask.sum()) for name, mask in masks.items()}
+
+    @cached_property
+    def loose_at_start(self):
+        """Number of columns whose joints are all broken before the start."""
+        e, j = self.elements, self.joints
+        return int(self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0))).sum())
+
+    # --- structures and snow ------------------------------------------------------------------------------------------
+
+    @cached_property
+    def structures(self):
+        """Names of the structures, the main one first."""
+        return list(dict.fromkeys(level.structure for level in self.levels))
+
+    def _moves(self, state, structure):
+        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements left are skipped."""
+        moves = []
+        for level in self.levels:
+            marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
+            if level.structure == structure and marks:
+                moves.append(((state.position[marks] - self.elements.position[marks]).mean(0), level.height))
+        return moves
+
+    def fallen_structures(self, state):
+        """Names of the structures of which a level has come down by half its storey."""
+        return [name for name in self.structures if any(-move[2] > height / 2 for move, height in self._moves(state, name))]
+
+    def drift(self, state, structure):
+        """Largest storey drift of a structure, resultant of N-S and E-W. [-]"""
+        moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
+        return max((float(np.hypot(*(above - below)[:2]) / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
+
+    def leaning_structures(self, state):
+        """Names of the structures, the main one excepted, that have not fallen and have a drift above LEANING_DRIFT."""
+        fallen = self.fallen_structures(state)
+        return [name for name in self.structures[1:] if name not in fallen and self.drift(state, name) > LEANING_DRIFT]
+
+    @cached_property
+    def _snow(self):
+        """[(snow element, roof element below it, (3,) centre of the snow in the roof's body frame at the start [m])]"""
+        e = self.elements
+        found = []
+        for k in (k for k, kind in enumerate(e.kind) if kind == "snow"):
+            roofs = [j for j, kind in enumerate(e.kind) if kind == "roof" and e.group[j] == e.group[k]]
+            if roofs:
+                roof = min(roofs, key=lambda j: np.linalg.norm(e.position[j] - e.position[k]))
+                found.append((k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof])))
+        return found
+
+    def fallen_snow(self, state):
+        """Names of the roof elements that have lost their snow (SNOW_DROP)."""
+        z, vertical = state.position[:, 2], _vertical(state.orientation)
+        return [self.elements.name[roof] for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
+
+
+def _vertical(q):
+    """(..., 3) the world's vertical in the body frame of unit quaternions (..., 4) w, x, y, z."""
+    w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
+    return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], -1)

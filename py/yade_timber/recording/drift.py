@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Drifts of a run from its History: the residual drift, the amplitude of the motion that is left, the time when a lean begins. Needs no YADE."""
+import numpy as np
+
+from .history import DIRECTIONS
+
+SHORT_WINDOW = 1.0
+"""Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
+WINDOWS = (2.0, 4.0, 8.0, 16.0)
+"""Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
+HYSTERESIS = 0.25
+"""A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
+RECENT = 1.2
+"""The last whole period must end at most this many periods before the end of the run. [-]"""
+MOVING_AMPLITUDE = 1e-3
+"""A house whose drift oscillates by more at the end is still moving. [-]"""
+
+
+def residual(history):
+    """([residual drift], [amplitude at the end]), each ns1, ew1, ns2, ew2, ... [-]; empty lists without samples.
+
+    Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at the end; without a
+    whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the same part of the run.
+    """
+    if not history.samples:
+        return [], []
+    parts = [values[last_periods(history.time, values)] for _, _, values in history.drifts()]
+    return [float(abs(part.mean())) for part in parts], [float(np.ptp(part) / 2) for part in parts]
+
+
+def last_periods(time, values):
+    """Slice of the samples of the last whole periods; of the last SHORT_WINDOW when none is found."""
+    for window in WINDOWS:
+        first = start_of(time, window)
+        crossings = [first + k for k in upward_crossings(values[first:])]
+        if len(crossings) > 1 and time[-1] - time[crossings[-1]] < RECENT * np.diff(time[crossings]).max():
+            return slice(crossings[0], crossings[-1])
+        if first == 0:
+            break
+    return slice(start_of(time, SHORT_WINDOW), None)
+
+
+def start_of(time, window):
+    """Index of the first sample less than `window` [s] before the last one."""
+    return int(np.searchsorted(time, time[-1] - window, side="right"))
+
+
+def upward_crossings(values):
+    """Indices of the samples at which the values pass their mean upwards, after an excursion below it by HYSTERESIS of half their range."""
+    centred = values - values.mean()
+    threshold = HYSTERESIS * np.ptp(values) / 2
+    crossings, last, below = [], None, False
+    for k, value in enumerate(centred.tolist()):
+        if value < -threshold:
+            below = True
+        if value < 0:
+            last = None
+        elif below and last is None:
+            last = k
+        if below and last is not None and value > threshold:
+            crossings.append(last)
+            below = False
+    return crossings
+
+
+def still_moving(amplitudes):
+    """Whether any amplitude at the end [-] exceeds MOVING_AMPLITUDE."""
+    return any(amplitude > MOVING_AMPLITUDE for amplitude in amplitudes)
+
+
+def by_storey(values):
+    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ew2, ...]; at least two storeys, None where there is no value."""
+    values = [float(value) if np.isfinite(value) else None for value in values]
+    pairs = list(zip(values[::2], values[1::2])) + [(None, None)] * (2 - len(values) // 2)
+    return {f"storey{k}": dict(zip(DIRECTIONS, pair)) for k, pair in enumerate(pairs, 1)}
+
+
+def lean_start(history, tilt_time, direction):
+    """When the lean began that passed 1/10 at `tilt_time` [s] in `direction`: the last earlier sample at which that drift had another sign, or 0; None without a tilt. [s]"""
+    if tilt_time is None:
+        return None
+    last = int(np.searchsorted(history.time, tilt_time, side="right"))
+    drift = max((history.drift(storey, direction)[:last] for storey in history.storeys), key=lambda values: abs(values[-1]))
+    opposite = np.flatnonzero(drift * drift[-1] <= 0)
+    return float(history.time[opposite[-1]]) if len(opposite) else 0.0

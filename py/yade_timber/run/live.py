@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A run in a live session: it goes on in the background while the user has the prompt, and writes its results at its last step."""
+import sys
+import threading
+import time
+import uuid
+
+import yade.wrapper as yw
+
+from ..base.errors import RunError
+from ..scene import viewer
+from .runner import Run
+
+TAG = "yade-timber run"
+"""Tag of the scene: the run that it belongs to."""
+
+O = yw.Omega()
+live = None
+"""The LiveRun of this session that records frames."""
+
+
+class LiveRun(Run):
+    """A run that can be paused, saved, loaded and changed by the user. folder_lock: ExitStack with the lock of the results, closed when they are written."""
+
+    def start(self, folder_lock):
+        """Run in the background, in the viewer where there is a display. The results follow at the last step, however often the run is paused."""
+        self._folder_lock = folder_lock
+        if O.iter >= self.steps:
+            self._end()
+            return
+        O.tags[TAG] = self.tag = uuid.uuid4().hex
+        viewer.show()
+        self._since = time.perf_counter()
+        self._record_frames()
+        O.run(self.steps - O.iter)
+        threading.Thread(target=self._watch, daemon=True).start()
+
+    def _record_frames(self):
+        """Append an engine that calls `record_frame` in the step that leads to each frame, behind RestSkipper, whose step may lead to one."""
+        global live
+        live = self
+        before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
+        command = f"import {__name__}; {__name__}.record_frame()"
+        O.engines = O.engines + [yw.PyRunner(command=command, iterPeriod=self.chunk, iterLast=before, nDone=1)]
+
+    def _watch(self):
+        while self.is_loaded() and O.iter < self.steps:
+            time.sleep(0.5)
+        O.wait()
+        self.wall_s += time.perf_counter() - self._since
+        self._end()
+
+    def is_loaded(self):
+        """Whether the scene in YADE is this run's, also after it was saved and loaded again."""
+        return self.is_tagged() or time.sleep(1) or self.is_tagged()  # while YADE loads a scene, no scene has tags
+
+    def is_tagged(self):
+        """The same without waiting."""
+        return TAG in O.tags.keys() and O.tags[TAG] == self.tag
+
+    def _end(self):
+        with self._folder_lock:
+            try:
+                if self.steps > 0 and not self.is_loaded():
+                    raise RunError(f"{self.output.folder}: another scene was loaded before the end of the run; it has no results")
+                self.write()
+            except RunError as problem:
+                print(f"error: {problem}", file=sys.stderr)
+
+    def __repr__(self):
+        state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
+        return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
+
+
+def record_frame():
+    """Record the state that the present step of the live run leads to; its bodies have moved already."""
+    if live and live.is_tagged() and O.iter + 1 < live.steps:
+        live.take(O.time + O.dt)

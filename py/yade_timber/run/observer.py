@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The scene in YADE -> descriptions and states of the recording's types. Element k of the HouseModel is body k, joint k is joint k of the JointEngine."""
+import math
+
+import numpy as np
+import yade.wrapper as yw
+
+from .. import _plugin
+from ..motion import GroundMotion, displacement
+from ..recording import frames
+from ..recording.damage import SIDES, DamageSurvey, Level, State
+from ..recording.events import EventLog
+from ..recording.sentences import direction_name, joint_place
+from ..scene import engines as scene
+from ..scene.scenario import level_marks
+
+BREAKS = ("time", "joint", "spring", "cause", "force")
+"""Attributes of a JointBreak."""
+
+O = yw.Omega()
+
+
+# --- descriptions, fixed during a run ---------------------------------------------------------------------------------
+
+
+def describe_elements(model):
+    """frames.Elements of the scene."""
+    bodies, elements = list(O.bodies), model.elements
+    return frames.Elements(
+        name=[e.name for e in elements],
+        kind=[e.kind for e in elements],
+        group=[e.group for e in elements],
+        material=[e.material for e in elements],
+        storey=np.array([e.storey for e in elements]),
+        fixed=np.array([e.fixed for e in elements]),
+        position=np.array([b.state.refPos for b in bodies]),
+        orientation=np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)]),
+        vertices=[np.array(b.shape.vertices) for b in bodies],
+        faces=[b.shape.faces() for b in bodies],
+    )
+
+
+def describe_joints(model):
+    """frames.Joints of the scene."""
+    number = element_numbers(model)
+    specs, joints = model.joints, list(scene.find_engine(yw.JointEngine).joints)
+    return frames.Joints(
+        name=[s.name for s in specs],
+        kind=[s.kind for s in specs],
+        storey=[storey_of(s, model) for s in specs],
+        side=["+".join(sides_of(s)) for s in specs],
+        a=np.array([number[s.a] for s in specs], "i4"),
+        b=np.array([number[s.b] for s in specs], "i4"),
+        anchor=np.array([np.mean(j.anchors1, axis=0) for j in joints]).reshape(-1, 3),
+        springs=np.array([len(j.anchors1) for j in joints], "i4"),
+        damaged=np.array([s.broken for s in specs], bool),
+        strength=np.array([s.strength for s in specs], float),
+    )
+
+
+def describe_levels(model):
+    """List of damage.Level, the main structure first."""
+    number, levels = element_numbers(model), []
+    for structure, storeys in model.storey_levels.items():
+        marks = level_marks(model, structure)
+        for storey, (foot, head) in sorted(storeys.items()):
+            levels.append(Level(structure, [number[e.name] for e, level in marks if level == storey], head - foot))
+    return levels
+
+
+def describe_motion():
+    """frames.Motion of the scene's ground motion, or None."""
+    engine = scene.find_engine(yw.GroundMotionEngine)
+    if engine is None:
+        return None
+    applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
+    return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
+
+
+def describe_breaks():
+    """Columns of frames.h5's /breaks."""
+    entries = list(scene.find_engine(yw.JointEngine).breaks)
+    return {name: [getattr(entry, name) for entry in entries] for name in BREAKS}
+
+
+def element_numbers(model):
+    """{name of an element: its number}."""
+    return {element.name: k for k, element in enumerate(model.elements)}
+
+
+def storey_of(joint, model):
+    """Place of a joint: '1', '2', ... in the main structure, else the name of its structure ('entrance')."""
+    return str(joint.storey) if joint.group == next(iter(model.storey_levels)) else joint.group
+
+
+def sides_of(joint):
+    """Walls of a joint, in the order of SIDES (two for a corner column), or ['inside']."""
+    return [side for side in SIDES if side in joint.side] or ["inside"]
+
+
+def break_row(entry, model):
+    """Values of a JointBreak in the order of breaks.csv."""
+    joint = model.joints[entry.joint]
+    return entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, entry.cause, entry.force
+
+
+# --- states -----------------------------------------------------------------------------------------------------------
+
+
+def placements():
+    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a body that was removed."""
+    position, orientation = _plugin.packed_placements()
+    return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
+
+
+def joint_loads():
+    """((J,) load over strength, float32; (J,) number of broken springs, uint8)."""
+    load, broken = _plugin.packed_joints(scene.find_engine(yw.JointEngine))
+    return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
+
+
+def contact_points():
+    """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
+    pair, position, force = _plugin.packed_contacts()
+    return np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(force, "f4").reshape(-1, 3)
+
+
+class Observer:
+    """Notes the events of the run that is loaded in YADE. events: those known already, as from a checkpoint."""
+
+    def __init__(self, model, events=()):
+        self.model = model
+        self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
+        self.log = EventLog(self.survey, events)
+
+    def state(self):
+        """damage.State of the scene; bodies and joints that the user has added are left out."""
+        elements, joints = len(self.model.elements), len(self.model.joints)
+        position, orientation = placements()
+        return State(position[:elements], orientation[:elements], joint_loads()[1][:joints])
+
+    def observe(self, time):
+        """Note what has happened up to a time [s], that of the scene's state."""
+        self.log.drop_after(time)
+        monitor, first = scene.find_engine(yw.HouseMonitor), next(iter(scene.find_engine(yw.JointEngine).breaks), None)
+        if first:
+            _, name, kind, storey, side, _, cause, force = break_row(first, self.model)
+            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN (joint {name})")
+        if math.isfinite(monitor.tiltTime):
+            self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
+        if math.isfinite(monitor.collapseTime):
+            self.log.add(monitor.collapseTime, "collapse", "collapse: a floor has come down by half a storey")
+        self.log.observe(time, self.state())

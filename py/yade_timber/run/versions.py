@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Versions of YADE and of the package."""
+import json
+
+from .. import _plugin
+from .. import host
+
+
+def versions():
+    """{'yade': version of the running YADE, 'package': version with which the module was built}."""
+    build = json.loads(_plugin.build_record()[len(host.RECORD_MARK):])
+    return {"yade": host.host_facts()["yade"], "package": build["package"]}

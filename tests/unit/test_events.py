@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""Events, damage and sentences of invented runs. Needs no YADE."""
+import copy
+
+import frames_sample
+import numpy as np
+import pytest
+from yade_timber.recording.damage import DamageSurvey, Level, State
+from yade_timber.recording.events import EventLog
+from yade_timber.recording.sentences import sentence
+
+ROOF = list(frames_sample.PARTS).index("roof")
+
+
+def survey(run):
+    """The sample's house: one storey of 2.7 m; its roof is the level of a structure beside the main one."""
+    return DamageSurvey(run.elements, run.joints, [Level("main", [1], 2.7), Level("carport", [ROOF], 2.7)])
+
+
+def states(run):
+    return [(time, State(position, orientation, broken)) for time, position, orientation, broken in zip(run.time, run.position, run.orientation, run.broken)]
+
+
+def events(run, log=None):
+    log = log or EventLog(survey(run))
+    for time, state in states(run):
+        log.observe(float(time), state)
+    return log.records()
+
+
+def test_a_fall():
+    """With all joints intact: the columns pass 45 degrees at 2.79 s, the roof is down by half a storey at 60 degrees, 2.91 s."""
+    run = frames_sample.run()
+    run.broken[:] = 0
+    found = events(run)
+    assert [(event["kind"], event["time_s"], event["number"]) for event in found] == [("columns_lost", 2.8, 4), ("structure_fallen", 2.95, 1)]
+    assert "carport" in found[1]["what"] and "4 of 4" in found[0]["what"]
+
+
+def test_columns_are_counted_in_doublings():
+    """Of columns lost one after the other, the first, second and fourth are events."""
+    run = frames_sample.run(until=1.0)
+    log, calm = EventLog(survey(run)), states(run)[0][1]
+    for k in range(5):
+        broken = calm.broken.copy()
+        broken[[joint for joint in range(8) if joint % 4 < k]] = 4
+        log.observe(float(k), State(calm.position, calm.orientation, broken))
+    assert [(event["time_s"], event["number"]) for event in log.records()] == [(1, 1), (2, 2), (4, 4)]
+
+
+def test_columns_loose_from_the_start_are_no_event():
+    run = frames_sample.run(until=1.0)
+    run.joints.damaged[[0, 4]] = True
+    run.broken[:, [0, 4]] = 4
+    assert events(run) == [] and survey(run).count_columns(states(run)[0][1]) == {"total": 4, "fallen": 0, "loose": 1}
+
+
+def test_a_resumed_log_repeats_nothing():
+    """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
+    run = frames_sample.run()
+    once = events(run)
+    log = EventLog(survey(run), once)
+    assert events(run, log) == once
+    log.drop_after(2.42)
+    assert log.records() == once[:1] and once[0]["time_s"] < 2.42 < once[1]["time_s"]
+
+
+def snowy_house(drop, slide, tilt=0.0):
+    """(survey, state) of a roof that leans by `tilt` [rad] about the east axis, with snow 0.6 m above its centre that has moved north and down in the roof's frame. [m]"""
+    run = frames_sample.run(until=0.0)
+    e = run.elements
+    for values, value in ((e.name, "snow"), (e.kind, "snow"), (e.group, "main"), (e.material, "snow")):
+        values.append(value)
+    e.position, e.orientation = np.vstack([e.position, e.position[ROOF] + (0, 0, 0.6)]), np.vstack([e.orientation, [1, 0, 0, 0]])
+    position, orientation = e.position.copy(), e.orientation.copy()
+    orientation[ROOF] = [np.cos(tilt / 2), np.sin(tilt / 2), 0, 0]
+    north, up = np.array([0, np.cos(tilt), np.sin(tilt)]), np.array([0, -np.sin(tilt), np.cos(tilt)])
+    position[-1] = position[ROOF] + slide * north + (0.6 - drop) * up
+    return survey(run), State(position, orientation, run.broken[0])
+
+
+@pytest.mark.parametrize("drop, slide, tilt, fallen", [(0, 0, 0, []), (0.9, 3.0, 0, []), (1.1, 3.0, 0, ["roof"]), (0, 0, 1.5, []), (0, 5.0, -1.5, ["roof"])])
+def test_fallen_snow(drop, slide, tilt, fallen):
+    """Snow that a leaning roof carries along has not fallen."""
+    found, state = snowy_house(drop, slide, tilt)
+    assert found.fallen_snow(state) == fallen
+
+
+def test_removed_elements_are_no_damage():
+    run = frames_sample.run(until=0.0)
+    position = run.position[0].copy()
+    position[[2, ROOF]] = np.nan
+    state = State(position, np.where(np.isnan(position[:, :1]), np.nan, run.orientation[0]), run.broken[0])
+    found = survey(run)
+    assert found.count_columns(state) == {"total": 3, "fallen": 0, "loose": 0} and found.fallen_structures(state) == []
+
+
+# --- sentences ----------------------------------------------------------------------------------------------------------
+
+STANDING = {
+    "model": "B", "collapsed": False, "collapse_time_s": None, "tilt_time_s": None, "tilt_direction": None, "snow": False, "joints": {"total": 206},
+    "broken": {"total": 0, "partly_broken": 0, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 0, "loose": 0},
+    "peak_drift": {"storey1": {"ns": 0.001, "ew": 0.002}, "storey2": {"ns": 0.001, "ew": 0.0}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": 1e-5}},
+    "final_amplitude": {"storey1": {"ns": 0.0, "ew": 0.0}}, "still_moving": False, "fallen_structures": [], "leaning_structures": [], "events": [],
+}
+
+
+def drifts(peak, residual):
+    return {"peak_drift": {"storey1": {"ns": 0.0, "ew": peak}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": residual}}}
+
+
+@pytest.mark.parametrize(
+    "changes, expected, absent",
+    [
+        ({}, ["House B stands: ", "peak storey drift 1/500 E-W in storey 1", "0 of 206"], ["residual", "damage", "leans"]),
+        ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"}, ["stands after", "1/8 E-W", "1/30: heavy damage", "residual drift below 1/1000;"], ["leans", "House B stands:"]),
+        (drifts(1 / 13, 0.01), ["stands after", "1/13", "heavy damage", "residual drift 1/100"], ["House B stands:", "leans"]),
+        (drifts(1 / 80, 0.0), ["stands after", "1/120: damage begins"], ["heavy"]),
+        (drifts(0.3, 0.25), ["leans at the end", "1/3 E-W", "residual drift 1/4"], ["stands"]),
+        ({"collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns", "fallen_structures": ["main", "entrance"],
+          "broken": {"total": 5, "partly_broken": 79, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 42, "loose": 3}},
+         ["collapses at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly", "42 fallen and 3 loose of 90 columns", "entrance fallen"], ["stands", "main"]),
+        ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}}, ["still moving by ±1/100 E-W"], []),
+        ({"fallen_structures": ["carport"], "leaning_structures": ["entrance"]}, ["carport fallen", "entrance leaning"], []),
+        ({"snow": True, "snow_mass_kg": 5600.0, "events": [{"time_s": 20.2, "kind": "snow_fallen", "what": "", "number": 1}]}, ["snow 5.6 t, falling from 20.2 s"], []),
+        ({"record": {"onset_s": 18.8}, "duration_s": 2.0}, ["before strong shaking sets in (18.8 s)"], []),
+    ],
+)
+def test_sentence(changes, expected, absent):
+    """Peak and residual drift are told apart, partly broken joints are counted."""
+    text = sentence({**copy.deepcopy(STANDING), **changes})
+    assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
