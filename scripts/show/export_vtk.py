@@ -29,10 +29,11 @@ def arguments():
 def main():
     options = arguments()
     file = frames_path(options.run)
-    with errors_in_a_line(RunError):
+    out = options.out or file.parent / "vtk"
+    with errors_in_a_line(out, RunError):
         from yade_timber.pictures import vtk
 
-        written = vtk.export(options.out or file.parent / "vtk", frames.load(file), options.every)
+        written = vtk.export(out, frames.load(file), options.every)
     print("written: " + ", ".join(map(str, written)))
 
 

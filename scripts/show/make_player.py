@@ -28,7 +28,7 @@ def main():
     files = [frames_path(run) for run in (options.run, options.other) if run]
     name = PLAYER if len(files) == 1 else f"compare_with_{files[1].resolve().parent.name}.html"
     page = options.out or files[0].parent / name
-    with errors_in_a_line(RunError):
+    with errors_in_a_line(page, RunError):
         player.make([(file, frames.load(file)) for file in files], page)
     print(f"{page}: {page.stat().st_size / 1e6:.1f} MB")
 

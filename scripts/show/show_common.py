@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Shared by the show scripts: path of the package, path options, errors in one line."""
 import argparse
+import re
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +23,11 @@ def path(text):
     return Path(text)
 
 
+def file_name(name):
+    """Path in this folder made from a name of any characters."""
+    return Path(re.sub(r"[^\w. -]", "_", name)[:80] or "_")
+
+
 def frames_path(run):
     """The frames of a run, given as its folder or as the file."""
     from yade_timber.recording import frames
@@ -30,14 +36,14 @@ def frames_path(run):
 
 
 @contextmanager
-def errors_in_a_line(*expected):
-    """Ends the script with one line and status 1 on an expected exception or an OSError."""
+def errors_in_a_line(output, *expected):
+    """Ends the script with one line and status 1 on an expected exception, or on an OSError while the output is written."""
     try:
         yield
     except expected as problem:
         sys.exit(f"error: {_line(problem)}")
     except OSError as problem:
-        sys.exit(f"error: {problem.filename or ''}: {problem.strerror or _line(problem)}")
+        sys.exit(f"error: {output}: cannot be written: {problem.strerror or _line(problem)}")
 
 
 def _line(problem):

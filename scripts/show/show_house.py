@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Print the counts of a house and draw it: show_house.py C2 [--snow 1.0] [--out house.png]. Needs no YADE."""
 import json
-import re
 
-from show_common import Parser, errors_in_a_line, path
+from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber.house import HouseError, build_house, load_house
 from yade_timber.pictures import drawings
@@ -19,17 +18,12 @@ def arguments():
     return parser.parse_args()
 
 
-def default_stem(name):
-    """File name of a house's drawings in this folder, whatever characters its name has."""
-    return path("house_" + re.sub(r"[^\w. -]", "_", name)[:80])
-
-
 def main():
     options = arguments()
-    with errors_in_a_line(HouseError):
+    with errors_in_a_line(options.out or "the picture", HouseError):
         model = build_house(load_house(options.house), options.snow)
         print(json.dumps(model.counts(), indent=2))
-        written = drawings.write(stem_of(options.out) if options.out else default_stem(model.name), model)
+        written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)
     print("written: " + ", ".join(map(str, written)))
 
 

@@ -7,9 +7,8 @@
 Takes the options of the run scripts and shows the motion that they would apply; without a record the synthetic motion of the
 package. Needs no YADE.
 """
-import re
 
-from show_common import Parser, errors_in_a_line, path
+from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber import motion as gm
 from yade_timber.pictures import motion_sheet
@@ -53,11 +52,11 @@ def arguments():
 def main():
     options = arguments()
     corner = options.corner or None
-    with errors_in_a_line(gm.RecordError):
+    with errors_in_a_line(options.out or "the picture", gm.RecordError):
         request = gm.motion_request(options)
         motion = gm.scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
-        stem = stem_of(options.out) if options.out else path(re.sub(r"[^\w. -]", "_", motion.name)[:80] or "record")
+        stem = stem_of(options.out) if options.out else file_name(motion.name)
         written = motion_sheet.write(stem, motion, corner)
     print("written: " + ", ".join(map(str, written)))
 

@@ -23,7 +23,7 @@ def main():
         sys.exit("error: --out: two runs have folders of the same name; show them one by one")
     for folder in options.folder:
         out = folder if options.out is None else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
-        with errors_in_a_line(RunError):
+        with errors_in_a_line(out, RunError):
             if out != folder:
                 out.mkdir(parents=True, exist_ok=True)
             written = all_pictures.write(out, folder)

@@ -13,13 +13,13 @@ def write(folder, results=None):
 
     Raises RunError when the frames cannot be read, OSError when a picture cannot be written.
     """
-    from . import curves, key_times, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import curves, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
     written = sheets.write_end(folder / END, recorded)
     for view in views.VIEWS:
         written += sheets.write_sheet(folder / view.name, recorded, view)
-    if key_times.history_of(recorded).samples:
+    if recorded.history and recorded.history.samples:
         written += curves.write(folder / CURVES, recorded)
     return written + [player.make([(path, recorded)], folder / PLAYER)]

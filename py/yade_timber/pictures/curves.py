@@ -7,7 +7,7 @@ import numpy as np
 from ..base import colors
 from ..recording.sentences import DRIFT_LINES
 from .figures import A4, drawable, heading, heading_height, new_figure, save
-from .key_times import history_of, onset
+from .key_times import onset
 from .sheets import result
 
 DPI = 200
@@ -37,7 +37,7 @@ def write(stem, frames):
 
 def page(frames, dpi):
     """Figure with the curves of an ended run."""
-    history, shaken = history_of(frames), frames.motion is not None
+    history, shaken = frames.history, frames.motion is not None
     figure = new_figure(*A4, dpi)
     axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
     head = heading_height(A4[0], result(frames)) + 0.2
@@ -66,8 +66,7 @@ def first_shown(frames):
     if frames.motion is None:
         return 0.0
     start = min(onset(frames.motion), frames.time[-1]) - LEAD
-    history = history_of(frames)
-    moving = history.time[history.largest_drift() > AT_REST]
+    moving = frames.history.time[frames.history.largest_drift() > AT_REST]
     first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
     return float(start) if 0 < start < first else 0.0
 

@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..recording.history import History
-
 PANELS = 6
 CLOSE = 0.25
 """Two key times are at least this far apart. [s]"""
@@ -70,7 +68,7 @@ def named(frames):
         yield strongest_shaking(frames), "strongest shaking"
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first joint damaged"
-    if history_of(frames).samples and not found["collapsed"]:
+    if frames.history and frames.history.samples and not found["collapsed"]:
         yield largest_drift(frames), "largest drift"
 
 
@@ -89,10 +87,4 @@ def strongest_shaking(frames):
 
 def largest_drift(frames):
     """Time of the largest storey drift. [s]"""
-    history = history_of(frames)
-    return history.time[np.argmax(history.largest_drift())]
-
-
-def history_of(frames):
-    """History of a run; without samples before the run's end."""
-    return History(*frames.history) if frames.history else History(("time [s]",), [])
+    return frames.history.time[np.argmax(frames.history.largest_drift())]

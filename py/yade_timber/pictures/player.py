@@ -19,8 +19,8 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..recording import frames
-from ..recording.sentences import DRIFT_LINES, direction_name, sentence
-from .key_times import history_of, onset, strongest_shaking
+from ..recording.sentences import DRIFT_LINES, sentence
+from .key_times import onset, strongest_shaking
 from .packing import pack
 
 ASSETS = Path(__file__).resolve().parents[1] / "data" / "player"
@@ -91,7 +91,7 @@ def info(run):
         "joints": len(run.joints.name),
         "kinds": kinds({plain(kind) for kind in run.elements.kind}),
         "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
-        "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in history_of(run).drifts()],
+        "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in drifts(run)],
         "levels": [{"value": value, "text": text.split()[0]} for value, text in DRIFT_LINES],
         "events": events(run),
         "collapse": (run.summary or {}).get("collapse_time_s"),
@@ -111,7 +111,8 @@ def css(color):
 
 def events(run):
     """[{time [s], text}] of the events within the run, in the order of time."""
-    found = [*shaking(run), *passed_levels(run), *recorded_events(run)]
+    recorded = ((event["time_s"], event["what"]) for event in (run.summary or {}).get("events", []))
+    found = [*shaking(run), *passed_levels(run), *recorded]
     return [{"time": float(time), "text": plain(text)} for time, text in sorted(found) if 0 <= time <= run.time[-1]]
 
 
@@ -123,35 +124,14 @@ def shaking(run):
             yield strongest_shaking(run), "strongest shaking"
 
 
-def recorded_events(run):
-    """(time, text) of the events that the run has recorded, or of the main ones in its summary."""
-    summary = run.summary or {}
-    if "events" in summary:
-        yield from ((event["time_s"], event["what"]) for event in summary["events"])
-        return
-    if run.breaks is not None and len(run.breaks["time"]):
-        yield run.breaks["time"][0], f"first spring breaks: {place_of(run.joints, run.breaks['joint'][0])}"
-    if summary.get("tilt_time_s") is not None:
-        yield summary["tilt_time_s"], f"the house leans {direction_name(summary['tilt_direction'])}: drift passes 1/10"
-    if summary.get("collapse_time_s") is not None:
-        yield summary["collapse_time_s"], "collapse: a floor is down by half a storey"
-
-
 def passed_levels(run):
     """(time, text) when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
-    history = history_of(run)
-    if not history.storeys:
+    if not drifts(run):
         return
-    largest = history.largest_drift()
+    largest = run.history.largest_drift()
     for value, text in DRIFT_LINES[:-1]:
         if (largest > value).any():
-            yield history.time[np.argmax(largest > value)], f"drift passes {text.replace(' ', ': ', 1)}"
-
-
-def place_of(joints, number):
-    """Kind, storey and side of a joint."""
-    storey = joints.storey[number]
-    return f"{joints.kind[number].replace('_', '-')}, {'storey ' + storey if storey.isdigit() else storey}, {joints.side[number]}"
+            yield run.history.time[np.argmax(largest > value)], f"drift passes {text.replace(' ', ': ', 1)}"
 
 
 # --- numbers ----------------------------------------------------------------------------------------------------------
@@ -200,9 +180,14 @@ def continuous(orientation):
     return orientation * signs[..., None]
 
 
+def drifts(run):
+    """[(storey, direction, (F,) drift)] of a run with a history, else empty."""
+    return run.history.drifts() if run.history and run.history.samples else []
+
+
 def curves(run):
-    history = history_of(run)
-    drifts = history.drifts()
-    values = np.array([values for _, _, values in drifts]).reshape(len(drifts), history.samples).T
+    found = drifts(run)
+    time = run.history.time if found else np.empty(0)
+    values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
     motion = {"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)} if run.motion else {}
-    return {"history_time": (history.time, 1e-6), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}
+    return {"history_time": (time, 1e-6), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}
