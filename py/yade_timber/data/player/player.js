@@ -1,6 +1,6 @@
-/*! yade-timber player, GPL-2.0-or-later; made from player/, see its README; do not edit.
-sources sha256 846a49744c71c5f624adc0f0ad92dce7a9db529790ebc1434bf7d8460b4524a5
-Holds parts of three.js 0.187.0:
+/*! yade-timber player, GPL-2.0-or-later; built from player/, see its README; do not edit.
+sources sha256 f6f992fcdde96f52af52d659d07ce6eddb2a48d26453a496e07dd610d06c42c2
+Contains parts of three.js 0.187.0:
 The MIT License
 
 Copyright © 2010-2026 three.js authors
