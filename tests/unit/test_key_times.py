@@ -8,17 +8,20 @@ from yade_timber.pictures import key_times
 
 
 def test_named_times():
-    """The box moves between 1 s and 2 s: the strongest shaking at 1.2 s, the tilt at 1.5 s and the collapse at 2 s look different."""
+    """The box moves between 1 s and 2 s. The collapse at 2 s looks like the end; the strongest shaking at 1.2 s is CLOSE to a tilt at 1.6 s."""
     made = frames()
+    made.summary = {**made.summary, "tilt_time_s": 1.75}
     found = {chosen.reason: made.time[chosen.frame] for chosen in key_times.choose(made)}
-    assert {"start", "leans by 1/10", "strongest shaking", "end"} <= set(found)
-    assert (found["start"], found["strongest shaking"], found["leans by 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.5, 3))
-    assert "collapse: half a storey down" not in found  # the same picture as the end
+    assert {"start", "storey drift passes 1/10", "strongest shaking", "end"} <= set(found)
+    assert (found["start"], found["strongest shaking"], found["storey drift passes 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.75, 3))
+    assert "collapse: half a storey down" not in found
+    made.summary["tilt_time_s"] = 1.6
+    assert "strongest shaking" not in [chosen.reason for chosen in key_times.choose(made)]
 
 
 def test_recorded_events_are_named():
     made = frames()
-    made.summary = {**made.summary, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": "porch has fallen", "number": 1}]}
+    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": "porch has fallen", "number": 1}]}
     assert 1.8 in [made.time[chosen.frame] for chosen in key_times.choose(made) if chosen.reason == "porch has fallen"]
 
 
@@ -26,7 +29,7 @@ def test_frames_chosen_by_their_motion():
     """Without names: all times but the ends lie in the second of motion, apart in time and in position."""
     made = frames(ended=False, shaken=False)
     times = [made.time[chosen.frame] for chosen in key_times.choose(made)]
-    assert (times[0], times[-1]) == (0, 3) and len(times) >= 4 and all(1 < t < 2 for t in times[1:-1])
+    assert (times[0], times[-1]) == (0, 3) and len(times) >= 3 and all(1 < t < 2 for t in times[1:-1])
     assert np.diff(times).min() >= key_times.CLOSE
 
 

@@ -72,8 +72,8 @@ def first_shown(frames):
 
 
 def draw_events(axes, found):
-    """Lines through all axes where the house leans by 1/10 and where it collapses, with labels above."""
-    for key, text, side in (("tilt_time_s", "leans by 1/10", "right"), ("collapse_time_s", "collapses", "left")):
+    """Lines through all axes where a storey drift passes 1/10 and where the house collapses, with labels above."""
+    for key, text, side in (("tilt_time_s", "drift 1/10", "right"), ("collapse_time_s", "collapses", "left")):
         if found[key] is not None:
             for axis in axes:
                 axis.axvline(found[key], color="black", lw=0.7, ls="--")

@@ -18,10 +18,10 @@ MARGIN = 0.35
 """Left and right of the headings. [inch]"""
 TITLE_HEIGHT, LINE_HEIGHT = 0.58, 0.17
 """Height of the title, and of each line of the subtitle. [inch]"""
-TITLE_SIZE, SUBTITLE_SIZE = 14, 10
+TITLE_SIZE, SMALLEST_TITLE, SUBTITLE_SIZE = 14, 9, 10
 """Font sizes. [pt]"""
-TITLE_LETTERS, SUBTITLE_LETTERS = 8.0, 13.5
-"""Letters per inch at these sizes."""
+TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
+"""Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
 LONGEST_TEXT = 300
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
@@ -65,10 +65,12 @@ def _letters():
 
 
 def heading(figure, title, subtitle=""):
-    """Title, cut to the width of the figure, and a wrapped subtitle at the top of a figure."""
+    """Title, made smaller and at last cut to fit the width, and a wrapped subtitle at the top of a figure."""
     width, height = figure.get_size_inches()
-    title = drawable(title, int(TITLE_LETTERS * (width - 2 * MARGIN)))
-    figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=TITLE_SIZE, fontweight="bold", va="center")
+    room = TITLE_LETTERS * (width - 2 * MARGIN)  # letters at TITLE_SIZE
+    title = drawable(title, int(room * TITLE_SIZE / SMALLEST_TITLE))
+    size = TITLE_SIZE * min(1, room / max(len(title), 1))
+    figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=size, fontweight="bold", va="center")
     figure.text(MARGIN / width, 1 - 0.46 / height, _wrapped(subtitle, width), fontsize=SUBTITLE_SIZE, va="top")
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 PANELS = 6
-CLOSE = 0.25
+CLOSE = 0.5
 """Two key times are at least this far apart. [s]"""
 DIFFERENT = 0.05
 """Two pictures differ visibly beyond this mean displacement of the elements. [m]"""
@@ -60,12 +60,11 @@ def named(frames):
     if found.get("collapse_time_s") is not None:
         yield found["collapse_time_s"], "collapse: half a storey down"
     if found.get("tilt_time_s") is not None:
-        yield found["tilt_time_s"], "leans by 1/10"
-    for event in found.get("events", []):
-        if event["kind"] in ("structure_fallen", "snow_fallen"):
-            yield event["time_s"], event["what"]
+        yield found["tilt_time_s"], "storey drift passes 1/10"
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
+    for kind in ("structure_fallen", "snow_fallen"):
+        yield from [(event["time_s"], event["what"]) for event in found.get("events", []) if event["kind"] == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first joint damaged"
     if frames.history and frames.history.samples and not found["collapsed"]:

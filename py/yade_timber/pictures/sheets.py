@@ -30,7 +30,7 @@ GAP, FOOT, CAPTION = 0.12, 0.62, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
-CAPTION_LETTERS = 14
+CAPTION_LETTERS = 15.5
 """Letters per inch in a caption."""
 NARROWEST = 0.6
 """Smallest width of a sheet as a part of its format's: titles need it. [-]"""

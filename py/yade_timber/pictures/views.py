@@ -147,10 +147,14 @@ def kind_entries(solids):
 
 
 def legend(figure, solids, states, size):
-    """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text [pt]"""
+    """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
-    name = "house at the start, without snow" if any(s.kind == "snow" for s in solids) else "house at the start"
-    entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label=name))
+    entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
-    figure.legend(handles=entries, loc="lower center", ncols=-(-len(entries) // rows), frameon=False, fontsize=size, handletextpad=0.5, columnspacing=1.6)
+    style = dict(handles=entries, loc="lower center", ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5, columnspacing=1.6)
+    drawn = figure.legend(**style, fontsize=size)
+    fit = 0.98 * figure.bbox.width / drawn.get_window_extent().width
+    if fit < 1:
+        drawn.remove()
+        figure.legend(**style, fontsize=fit * size)
