@@ -66,6 +66,15 @@ def density(ax, box, dpi):
     return int(dpi * min(cell.width * WIDTH / (box[1] - box[0]), cell.height * HEIGHT / (box[3] - box[2]))) // 2 * 2
 
 
+def fit(ax, window, dpi):
+    """Resize axes about their centre to the whole pixels of a Window."""
+    cell, (left, right, bottom, top) = ax.get_position(), window.box
+    width, height = (right - left) * window.density / dpi / WIDTH, (top - bottom) * window.density / dpi / HEIGHT
+    x, y = ((cell.x0 + cell.x1 - width) / 2, (cell.y0 + cell.y1 - height) / 2)
+    x, y = round(x * WIDTH * dpi) / (WIDTH * dpi), round(y * HEIGHT * dpi) / (HEIGHT * dpi)
+    ax.set_position([x, y, width, height])
+
+
 def draw_space(ax, solids, dpi):
     """All elements in an oblique parallel view, roof and snow half transparent."""
     shown = np.vstack([s.vertices for s in solids if s.kind != "ground"])
@@ -81,7 +90,9 @@ def draw_space(ax, solids, dpi):
 def draw_elevation(ax, view, solids, model, dpi):
     """Front or side view with the heights of floors and ridge."""
     box = box_of(view, solids, [])
-    draw_view(ax, Window(view, box, density(ax, box, dpi)), Snapshot(solids), front_of(solids, view))
+    window = Window(view, box, density(ax, box, dpi))
+    fit(ax, window, dpi)
+    draw_view(ax, window, Snapshot(solids), front_of(solids, view))
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
     heights = sorted({0.0, *(z for levels in model.storey_levels.values() for pair in levels.values() for z in pair), max(e.vertices[:, 2].max() for e in model.elements)})
