@@ -9,6 +9,7 @@ from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from yade_timber.motion import GroundMotion, default_motion, onset
 from yade_timber.run import observer
+from yade_timber.run.progress import Progress
 from yade_timber.run.summary import record
 from yade_timber.scene import engines, scenario
 
@@ -49,6 +50,18 @@ def test_broken_joints_agree_with_the_engine(house):
 def test_lost_columns_are_an_event(house):
     house.observe(O.time)
     assert [(event["kind"], event["number"]) for event in house.log.records()] == [("columns_lost", 2)]
+
+
+def test_events_are_printed_once(house, capsys):
+    """A line for each event of the log, unless the run is quiet; events known from a checkpoint are not repeated."""
+    case = scenario.Scenario("case", "A")
+    house.log.add(0.5, "tilt", "known")
+    with Progress(case, house.log) as shown, Progress(case, house.log, quiet=True) as quiet:
+        house.log.add(1.25, "collapse", "new")
+        for progress in (shown, shown, quiet):
+            progress.update()
+    lines = [line for line in capsys.readouterr().err.replace("\r", "\n").splitlines() if "new" in line or "known" in line]
+    assert lines == ["   1.25 s  new"]
 
 
 def test_motion_as_applied():

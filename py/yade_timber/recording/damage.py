@@ -33,7 +33,7 @@ class Level:
 
 @dataclass(frozen=True)
 class State:
-    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for an element that was removed; broken (J,): broken springs of each joint."""
+    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for a removed one; broken (J,): broken springs of each joint."""
 
     position: np.ndarray
     orientation: np.ndarray
@@ -42,7 +42,7 @@ class State:
 
 @dataclass
 class DamageSurvey:
-    """What is damaged in any state of a house. levels: of each structure from below, the main structure first."""
+    """Damage of a house in any state. levels: of each structure from below, the main structure first."""
 
     elements: Elements
     joints: Joints
@@ -58,15 +58,17 @@ class DamageSurvey:
     def count_broken(self, state, springs):
         """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
-        whole = ~damaged & (state.broken >= self.joints.springs)
-        partly = ~damaged & ~whole & (state.broken > 0)
+        broken = ~damaged & (state.broken >= self.joints.springs)
+        partly = ~damaged & ~broken & (state.broken > 0)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         return {
-            **self.count_joints(whole),
-            "by_side": {side: int((whole & there).sum()) for side, there in on_side.items()},
-            "by_storey": {name: int((whole & there).sum()) for name, there in in_storey.items()},
-            "by_place": {name: {side: self.count_joints(whole & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()},
+            **self.count_joints(broken),
+            "by_side": {side: int((broken & there).sum()) for side, there in on_side.items()},
+            "by_storey": {name: int((broken & there).sum()) for name, there in in_storey.items()},
+            "by_place": {
+                name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()
+            },
             "partly_broken": int(partly.sum()),
             "springs": springs,
             "damaged_at_start": self.count_joints(damaged),
@@ -78,24 +80,25 @@ class DamageSurvey:
     def _columns(self):
         return np.array([k for k, kind in enumerate(self.elements.kind) if kind == "column"], int)
 
+    @cached_property
+    def _vertical_at_start(self):
+        return _vertical(self.elements.orientation[self._columns])
+
     def fallen_columns(self, state):
         """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
-        cosine = (_vertical(state.orientation[self._columns]) * _vertical(self.elements.orientation[self._columns])).sum(1)
-        return cosine < math.cos(FALLEN_ANGLE)
+        return (_vertical(state.orientation[self._columns]) * self._vertical_at_start).sum(1) < math.cos(FALLEN_ANGLE)
 
     def loose_columns(self, state):
-        """(C,) bool for each column: not fallen, without a joint that has a spring left."""
-        intact = np.asarray(state.broken < self.joints.springs)
-        joined = np.union1d(self.joints.a[intact], self.joints.b[intact])
-        return self._present(state) & ~self.fallen_columns(state) & ~np.isin(self._columns, joined)
-
-    def _present(self, state):
-        return ~np.isnan(state.position[self._columns, 0])
+        """(C,) bool for each column: no joint of it has a spring left."""
+        intact, joined = state.broken < self.joints.springs, np.zeros(len(self.elements.name), bool)
+        joined[self.joints.a[intact]] = joined[self.joints.b[intact]] = True
+        return ~joined[self._columns]
 
     def count_columns(self, state):
-        """The part `columns` of the summary: {'total', 'fallen', 'loose'}."""
-        masks = {"total": self._present(state), "fallen": self.fallen_columns(state), "loose": self.loose_columns(state)}
-        return {name: int(mask.sum()) for name, mask in masks.items()}
+        """The part `columns` of the summary: {'total', 'fallen', 'loose' (and not fallen)}."""
+        present, fallen = ~np.isnan(state.position[self._columns, 0]), self.fallen_columns(state)
+        loose = present & ~fallen & self.loose_columns(state)
+        return {"total": int(present.sum()), "fallen": int(fallen.sum()), "loose": int(loose.sum())}
 
     @cached_property
     def loose_at_start(self):
@@ -111,12 +114,12 @@ class DamageSurvey:
         return list(dict.fromkeys(level.structure for level in self.levels))
 
     def _moves(self, state, structure):
-        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements left are skipped."""
+        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements are skipped."""
         moves = []
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
             if level.structure == structure and marks:
-                moves.append(((state.position[marks] - self.elements.position[marks]).mean(0), level.height))
+                moves.append(((state.position[marks] - self.elements.position[marks]).sum(0) / len(marks), level.height))
         return moves
 
     def fallen_structures(self, state):
@@ -147,11 +150,13 @@ class DamageSurvey:
 
     def fallen_snow(self, state):
         """Names of the roof elements that have lost their snow (SNOW_DROP)."""
+        if not self._snow:
+            return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
         return [self.elements.name[roof] for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
 
 
 def _vertical(q):
-    """(..., 3) the world's vertical in the body frame of unit quaternions (..., 4) w, x, y, z."""
-    w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
-    return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], -1)
+    """(n, 3) the world's vertical in the body frames of unit quaternions (n, 4) w, x, y, z."""
+    w, x, y, z = q.T
+    return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]).T

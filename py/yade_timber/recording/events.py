@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Events of a run with their times: what happens to joints, columns, structures and snow. Needs no YADE.
+"""Events of a run with their times: to joints, columns, structures and snow. Needs no YADE.
 
 Kinds: first_break, tilt (a storey drift passes 1/10), collapse (an upper floor comes down by half a storey): at the time they happen;
 structure_fallen (another structure than the main one), columns_lost, snow_fallen: at the end of the frame interval in which they happen.

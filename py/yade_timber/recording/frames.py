@@ -14,7 +14,7 @@ attributes   format, title (house and loads), scenario, model, version (of the p
              a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a; springs (J,): their number;
              damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
 /frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32: largest spring
-             force by strength (of a joint that acts as a whole: the sum); broken (F, J) uint8: number of broken springs
+             force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of broken springs
 /contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are start[k] : start[k + 1];
              pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second element, float32
 /motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement (M, 3) [m] of the ground
@@ -42,7 +42,7 @@ NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
-STRINGS = {*(f"elements/{name}" for name in ("name", "kind", "group", "material")), *(f"joints/{name}" for name in ("name", "kind", "storey", "side"))}
+STRINGS = {"elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind", "joints/storey", "joints/side"}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
@@ -142,7 +142,8 @@ class Frames:
 
     def __repr__(self):
         until = f"up to {self.time[-1]:g} s" if len(self.time) else "empty"
-        return f"<Frames: {self.title}, {len(self.elements.name)} elements, {len(self.joints.name)} joints, {len(self.time)} frames, {until}, {'ended' if self.summary else 'not ended'}>"
+        sizes = f"{len(self.elements.name)} elements, {len(self.joints.name)} joints, {len(self.time)} frames"
+        return f"<Frames: {self.title}, {sizes}, {until}, {'ended' if self.summary else 'not ended'}>"
 
     def corners(self, frame, element):
         """(n, 3) corners of an element in a frame, world frame [m]."""
@@ -279,7 +280,8 @@ def _check_size(file, path):
 def _check_shapes(frames):
     """Raise ValueError when tables do not fit each other or numbers name elements that do not exist."""
     e, j, n, count = frames.elements, frames.joints, len(frames.elements.name), len(frames.joints.name)
-    lengths = [(f"elements/{name}", values, n) for name, values in vars(e).items()] + [(f"joints/{name}", values, count) for name, values in vars(j).items()]
+    lengths = [(f"elements/{name}", values, n) for name, values in vars(e).items()]
+    lengths += [(f"joints/{name}", values, count) for name, values in vars(j).items()]
     for name, values, length in lengths:
         if len(values) != length:
             raise ValueError(f"{name}: {len(values)} entries instead of {length}")

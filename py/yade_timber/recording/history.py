@@ -11,7 +11,8 @@
     history.broken_joints                 # (F,) [-]
     history.column("drop1")               # any column, with or without its unit
 
-Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-]; one column [J] for each term of `yade_timber.energy()`.
+Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-]; one column [J] for each term
+of `yade_timber.energy()`.
 """
 import csv
 from collections import namedtuple

@@ -8,8 +8,12 @@ SMALL = 1e-3
 
 
 def largest_drift(found, key="peak_drift"):
-    """(drift, storey, 'ns' | 'ew') of the largest drift under a key of a summary: 'peak_drift', 'residual_drift' or 'final_amplitude'; zero where none is known."""
-    known = [(value, storey, direction) for storey, drifts in found.get(key, {}).items() for direction, value in drifts.items() if value is not None]
+    """(drift, storey, 'ns' | 'ew') of the largest drift under a key of a summary; zero where none is known.
+
+    key: 'peak_drift', 'residual_drift' or 'final_amplitude'
+    """
+    drifts = found.get(key, {}).items()
+    known = [(value, storey, direction) for storey, pair in drifts for direction, value in pair.items() if value is not None]
     return max(known, default=(0.0, "storey1", "ns"))
 
 
@@ -25,8 +29,8 @@ def outcome(found):
     """Whether the house stands at the end, with its peak storey drift."""
     drift, storey, direction = largest_drift(found)
     if found["collapsed"]:
-        tilt = found["tilt_time_s"]
-        return f"collapses at {found['collapse_time_s']:.1f} s" + ("" if tilt is None else f", after a storey drift of 1/10 {direction_name(found['tilt_direction'])} at {tilt:.1f} s")
+        tilt, end = found["tilt_time_s"], f"collapses at {found['collapse_time_s']:.1f} s"
+        return end if tilt is None else f"{end}, after a storey drift of 1/10 {direction_name(found['tilt_direction'])} at {tilt:.1f} s"
     peak = f"{directed(drift, direction)} in storey {storey[len('storey'):]}" if drift >= SMALL else ratio(drift)
     if largest_drift(found, "residual_drift")[0] >= DRIFT_LINES[-1][0]:
         return f"leans at the end: peak storey drift {peak}"
@@ -38,7 +42,7 @@ def outcome(found):
 
 
 def residual(found):
-    """Residual drift and the motion that is left at the end; empty where neither is worth a word."""
+    """Residual drift after a peak beyond 1/120, amplitude of the motion that remains."""
     parts = []
     drift, _, direction = largest_drift(found, "residual_drift")
     if not found["collapsed"] and largest_drift(found)[0] >= DRIFT_LINES[0][0]:

@@ -20,7 +20,10 @@ O = yw.Omega()
 
 
 def save(path, identity, progress):
-    """Save the scene in YADE. identity: see identity.py; progress: dictionary that `load` returns. A kill at any moment leaves a complete file. Raises OSError."""
+    """Save the scene in YADE. identity: see identity.py; progress: dictionary that `load` returns. Raises OSError.
+
+    A kill at any moment leaves a complete file, the earlier or the new one.
+    """
     with written_whole(path) as part:
         O.save(str(part), quiet=True)
         seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(part.read_bytes()).hexdigest()}
@@ -54,4 +57,5 @@ def _require_same(path, saved, wanted):
     for key in sorted(saved.keys() | wanted.keys()):
         there, here = saved.get(key), wanted.get(key)
         if there != here:
-            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same options, another --out, or no --resume")
+            difference = f"{key} is {there} there and {here} here"
+            raise RunError(f"{path}: checkpoint of another run: {difference}; use the same options, another --out, or no --resume")

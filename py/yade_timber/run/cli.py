@@ -33,7 +33,7 @@ class Output:
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
-    options: tuple = ()  # words of the command line that decide the results
+    options: tuple = ()  # arguments of the command line that decide the results
 
 
 class _Parser(argparse.ArgumentParser):
@@ -43,16 +43,21 @@ class _Parser(argparse.ArgumentParser):
 
 def parser(script):
     """ArgumentParser of the run script of that name."""
-    made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description="Results go to results/<script name>/ unless --out says otherwise.")
-    made.add_argument("--duration", type=float, metavar="S", help=f"simulated time [s] (default: duration of the motion; without an earthquake {QUIET_DURATION:g})")
+    about = "Results go to results/<script name>/, or to the folder of --out."
+    made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description=about)
+    made.add_argument("--duration", type=float, metavar="S",
+                      help=f"simulated time [s] (default: duration of the motion; without an earthquake {QUIET_DURATION:g})")
     made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], {MIN_DT:g} to {MAX_DT:g} (default {DEFAULT_DT:g})")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true", help="continue from the last checkpoint in the folder of the results, if there is one")
-    made.add_argument("--or-anew", action="store_true", help="with --resume: start anew when the checkpoint is damaged or of another run, instead of ending with an error")
-    made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S", help="simulated time between checkpoints [s], 0: none (default %(default)g)")
+    made.add_argument("--or-anew", action="store_true",
+                      help="with --resume: start anew when the checkpoint is damaged or of another run, instead of ending with an error")
+    made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S",
+                      help="simulated time between checkpoints [s], 0: none (default %(default)g)")
     made.add_argument("--no-views", action="store_true", help="make no pictures (scripts/show/show_run.py makes them later from the recorded frames)")
     made.add_argument("--no-frames", action="store_true", help="record no frames and make no pictures")
-    made.add_argument("--export", metavar="FILE", help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
+    made.add_argument("--export", metavar="FILE",
+                      help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
     made.add_argument("--every-step", action="store_true", help="compute every step (default: steps are skipped while house and ground are at rest)")
     made.add_argument("--quiet", action="store_true", help="print errors only")
     add_motion_options(made)
@@ -62,7 +67,7 @@ def parser(script):
 def house_parser():
     """ArgumentParser of scripts/house.py, which runs any house."""
     made = parser("house")
-    made.description = "Results go to results/<name of the house file>/ unless --out says otherwise."
+    made.description = "Results go to results/<name of the house file>/, or to the folder of --out."
     made.add_argument("file", metavar="HOUSE", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
     made.add_argument("--quake", action="store_true", help="with the default earthquake; --record gives a recorded one")
     made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs [m] (default: the house file's)")
@@ -73,17 +78,17 @@ OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "
 """Options that do not decide the results, with the number of their values."""
 
 
-def decisive(words):
-    """Words of a command line that decide the results: all but OUTPUT_OPTIONS and their values."""
+def decisive(arguments):
+    """Arguments of a command line that decide the results: all but OUTPUT_OPTIONS and their values."""
     found, skip = [], 0
-    for word in words:
-        option, given, _ = word.partition("=")
+    for argument in arguments:
+        option, given, _ = argument.partition("=")
         if skip:
             skip -= 1
         elif option in OUTPUT_OPTIONS:
             skip = 0 if given else OUTPUT_OPTIONS[option]
         else:
-            found.append(word)
+            found.append(argument)
     return tuple(found)
 
 
@@ -113,17 +118,17 @@ class Request:
     remedy: str
 
 
-def _run(given, words, asked):
-    """(Scenario, Output). given: parsed options; words: of the command line; asked: Request."""
+def _run(given, arguments, request):
+    """(Scenario, Output). given: parsed options; arguments: of the command line; request: Request."""
     _check_numbers(given)
-    request = motion_request(given)
-    motion = _motion(request, asked, given.dt)
+    shaking = motion_request(given)
+    motion = _motion(shaking, request, given.dt)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
-    scale = 1.0 if request.scale is None else request.scale
+    scale = 1.0 if shaking.scale is None else shaking.scale
     options = {"skip_rest": 0} if given.every_step else {}
-    scenario = Scenario(asked.name, asked.house, motion, asked.snow_depth, scale=scale, dt=given.dt, duration=duration, options=options)
+    scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, dt=given.dt, duration=duration, options=options)
     return scenario, Output(
-        folder=_path("--out", given.out) or Path("results") / asked.name,
+        folder=_path("--out", given.out) or Path("results") / request.name,
         resume=given.resume,
         or_anew=given.or_anew,
         views=not (given.no_views or given.no_frames),
@@ -131,7 +136,7 @@ def _run(given, words, asked):
         export=_path("--export", given.export),
         quiet=given.quiet,
         checkpoint_interval=given.checkpoint,
-        options=decisive(words),
+        options=decisive(arguments),
     )
 
 
@@ -142,20 +147,20 @@ def _path(option, value):
     return None if value is None else Path(value)
 
 
-def _joined(words):
-    """Words of a command line with numbers joined to their options by '=', since argparse reads -1e-4 as an option."""
+def _joined(arguments):
+    """Arguments of a command line with numbers joined to their options by '=', since argparse reads -1e-4 as an option."""
     joined = []
-    for word in words:
-        if _is_number(word) and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
-            joined[-1] += f"={word}"
+    for argument in arguments:
+        if _is_number(argument) and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
+            joined[-1] += f"={argument}"
         else:
-            joined.append(word)
+            joined.append(argument)
     return joined
 
 
-def _is_number(word):
+def _is_number(argument):
     try:
-        float(word)
+        float(argument)
     except ValueError:
         return False
     return True
@@ -164,21 +169,23 @@ def _is_number(word):
 def _check_numbers(given):
     """Ranges of all numbers; NaN is in none of them."""
     if not MIN_DT <= given.dt <= MAX_DT:
-        raise RunError(f"--dt {given.dt:g}: the time step must be between {MIN_DT:g} s and {MAX_DT:g} s; joints of floors and roofs are unstable beyond")
-    for option, value, noun in (("--duration", given.duration, "simulated time"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints")):
+        limits = f"between {MIN_DT:g} s and {MAX_DT:g} s"
+        raise RunError(f"--dt {given.dt:g}: the time step must be {limits}; joints of floors and roofs are unstable beyond")
+    times = (("--duration", given.duration, "simulated time"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints"))
+    for option, value, noun in times:
         if value is not None and not 0 <= value <= MAX_DURATION:
             raise RunError(f"{option} {value:g}: the {noun} must be >= 0 and at most {MAX_DURATION:g} s")
 
 
-def _motion(request, asked, dt):
-    """GroundMotion or None. Warnings of a reader become lines on standard error."""
-    if not asked.earthquake:
-        for option in request.given():
-            raise RunError(f"--{option}: this run has no earthquake; {asked.remedy}")
+def _motion(shaking, request, dt):
+    """GroundMotion or None. shaking: MotionRequest. Warnings of a reader become lines on standard error."""
+    if not request.earthquake:
+        for option in shaking.given():
+            raise RunError(f"--{option}: this run has no earthquake; {request.remedy}")
         return None
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")
-        motion = request.motion(dt)
+        motion = shaking.motion(dt)
     for note in notes:
         print(f"note: {note.message}", file=sys.stderr)
     return motion

@@ -19,7 +19,7 @@ from ..motion.readers import find_files
 ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv", "data/houses/*")
 """Files of the package that decide results, besides its compiled module."""
 DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/sentences.py")
-"""Files in these rooms that change only what is shown."""
+"""Files in these rooms that change only the display."""
 
 
 def identity(scenario, model):
@@ -47,13 +47,13 @@ def identity(scenario, model):
 
 
 def made_from(options):
-    """Content of `made_from` in summary.json. options: words of the command line that decide the results (cli.decisive)."""
-    words = [str(word) for word in options]
+    """Content of `made_from` in summary.json. options: arguments of the command line that decide the results (cli.decisive)."""
+    arguments = [str(argument) for argument in options]
     try:
-        files = of_files(_named_files(words))
+        files = of_files(_named_files(arguments))
     except (HouseError, RecordError, OSError):
         files = None  # the run itself reports the fault
-    return {"options": words, "files": files, "package": package()}
+    return {"options": arguments, "files": files, "package": package()}
 
 
 @cache
@@ -94,11 +94,11 @@ def of_files(paths):
     return total.hexdigest()[:16]
 
 
-def _named_files(words):
+def _named_files(arguments):
     """House files, with those they extend, and records that a command line names."""
     files = []
-    for before, word in zip(["", *words], words):
-        option, _, value = word.partition("=") if word.startswith("--") else (before, "", word)
+    for before, argument in zip(["", *arguments], arguments):
+        option, _, value = argument.partition("=") if argument.startswith("--") else (before, "", argument)
         if option == "--record" and value:
             files += find_files(value)
         elif value.endswith((".yaml", ".yml")):

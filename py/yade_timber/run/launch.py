@@ -1,21 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Start of a run script: `main` and `main_house` turn the command line into a run.
 
-With YADE's `-x`, or without a terminal, the run goes to its end and writes its results. Otherwise it starts in the background, and the prompt is the user's.
-The other modules are imported inside `launch`, so that Ctrl-C during their import ends in a line, too.
+With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the background, and the user has
+the prompt. The other modules are imported inside `launch`, so that Ctrl-C during their import ends in a line, too.
 """
 import signal
 import sys
 
 
 def main(house, earthquake=False, snow=False, argv=None):
-    """Run a house (name of a shipped one, or path of a YAML file) with the command line `argv` (default: sys.argv); returns the Run. earthquake, snow: loads of the script."""
-    return launch(lambda cli, words: cli.read(house, earthquake, snow, words), argv)
+    """Run a house (name of a shipped one, or path of a YAML file); returns the Run.
+
+    earthquake, snow: loads of the script; argv: command line (default: sys.argv)
+    """
+    return launch(lambda cli, arguments: cli.read(house, earthquake, snow, arguments), argv)
 
 
 def main_house(argv=None):
     """Run the house that the command line names; returns the Run."""
-    return launch(lambda cli, words: cli.read_house(words), argv)
+    return launch(lambda cli, arguments: cli.read_house(arguments), argv)
 
 
 def launch(read, argv=None):
@@ -41,7 +44,7 @@ def launch(read, argv=None):
         remedy = "continue with --resume" if output.checkpoint_interval > 0 else "nothing was saved (--checkpoint 0)"
         leave(f"stopped by {signal.Signals(stop.number).name} at {stop.time:.2f} s; {remedy}", 128 + stop.number)
     except KeyboardInterrupt:  # before the first step, or while results and pictures are written
-        remedy = f"; the same command makes what is missing in {output.folder}, scripts/show/show_run.py makes the pictures" if output else ""
+        remedy = f"; the same command makes the results, scripts/show/show_run.py the pictures in {output.folder}" if output else ""
         leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The scene in YADE -> descriptions and states of the recording's types. Element k of the HouseModel is body k, joint k is joint k of the JointEngine."""
+"""The scene in YADE -> descriptions and states of the recording's types.
+
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
+"""
 import math
 
 import numpy as np
@@ -140,12 +143,13 @@ class Observer:
         return State(position[:elements], orientation[:elements], joint_loads()[1][:joints])
 
     def observe(self, time):
-        """Note what has happened up to a time [s], that of the scene's state."""
+        """Note the events up to a time [s], that of the scene's state."""
         self.log.drop_after(time)
         monitor, first = scene.find_engine(yw.HouseMonitor), next(iter(scene.find_engine(yw.JointEngine).breaks), None)
         if first:
             _, name, kind, storey, side, _, cause, force = break_row(first, self.model)
-            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN (joint {name})")
+            place = f"{joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN (joint {name})"
+            self.log.add(first.time, "first_break", f"first spring breaks: {place}")
         if math.isfinite(monitor.tiltTime):
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):

@@ -10,6 +10,7 @@ from ..scene import engines as scene
 from . import observer
 from .versions import versions
 
+REMEDY = "continue with --no-frames, or run without --resume to start anew"
 O = yw.Omega()
 
 
@@ -17,9 +18,9 @@ class Recorder:
     """Frames of a run; the caller decides the times (frames.steps_between). run: fingerprint of its identity."""
 
     def __init__(self, scenario, model, title, run=""):
-        self.frames = frames.Frames(
-            title, scenario.name, model.name, versions()["package"], observer.describe_elements(model), observer.describe_joints(model), motion=observer.describe_motion(), run=run
-        )
+        elements, joints = observer.describe_elements(model), observer.describe_joints(model)
+        version = versions()["package"]
+        self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints, motion=observer.describe_motion(), run=run)
 
     def take(self, time, last=False):
         """Record the scene as it is now, unless that is done. time [s]; last: whether it is the final state."""
@@ -38,13 +39,13 @@ class Recorder:
 
     def restore(self, path):
         """Take over the frames of a file up to the present time. Raises RunError when they are missing, of another run, or end earlier."""
-        given = frames.load(path, missing=f"the checkpoint is at {O.time:g} s: go on with --no-frames, or run without --resume to start anew")
+        given = frames.load(path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
         if given.run != self.frames.run or given.position.shape[1:] != (len(self.frames.elements.name), 3):
-            raise RunError(f"{path}: frames of another run than the checkpoint; go on with --no-frames, or run without --resume to start anew")
+            raise RunError(f"{path}: frames of another run than the checkpoint; {REMEDY}")
         expected = O.iter // frames.steps_between(O.dt) + 1
         self._take_over(given, O.time)
         if len(self.frames.time) < expected:
-            raise RunError(f"{path}: {len(self.frames.time)} frames up to {O.time:g} s, where the checkpoint is; {expected} are needed: go on with --no-frames, or run without --resume")
+            raise RunError(f"{path}: {len(self.frames.time)} frames up to the checkpoint at {O.time:g} s, {expected} are needed; {REMEDY}")
 
     def _take_over(self, given, time):
         """Take over frames up to a time [s]."""

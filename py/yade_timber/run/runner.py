@@ -68,7 +68,7 @@ class Run:
         if self.recorder:
             self.recorder.take(O.time)
         if self.output.resume:
-            self.say(f"no checkpoint of this run in {self.output.folder}: starting from the beginning")
+            self.report(f"no checkpoint of this run in {self.output.folder}: starting from the beginning")
 
     def _resume(self):
         """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not, unless the run may start anew."""
@@ -82,7 +82,7 @@ class Run:
         if self.recorder:
             self.recorder.save(self.frames_path)  # without the results of an earlier end
         self._clear(*([] if self.recorder else [frames.NAME]))
-        self.say(f"resuming from {O.time:.2f} s")
+        self.report(f"resuming from {O.time:.2f} s")
         return True
 
     def _load(self):
@@ -99,10 +99,11 @@ class Run:
         """Attach observer and recorder to the scene. events: those known from a checkpoint."""
         self.identity = identity(self.scenario, self.model)
         self.observer = Observer(self.model, events)
-        self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if self.output.frames else None
+        recorded = self.output.frames
+        self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if recorded else None
 
     def _clear(self, *more):
-        """Remove results of an earlier run and the files `more`, so that nothing in the folder passes for a result of this run."""
+        """Remove results of an earlier run and the files `more`: they must not be taken for results of this run."""
         try:
             for name in (summary_files.SUMMARY, summary_files.HISTORY, summary_files.BREAKS, *all_pictures.NAMES, *more):
                 (self.output.folder / name).unlink(missing_ok=True)
@@ -116,7 +117,7 @@ class Run:
         except OSError as problem:
             raise RunError(f"--export {self.output.export}: cannot be written: {problem.strerror}") from None
 
-    def say(self, text):
+    def report(self, text):
         """Print a line, unless the run is quiet."""
         if not self.output.quiet:
             print(text, flush=True)
@@ -134,7 +135,7 @@ class Run:
 
     @contextmanager
     def _stop_signals(self):
-        """Stop signals end the run after the present chunk. After one, further signals have no effect: the user may press Ctrl-C twice."""
+        """Stop signals end the run after the present chunk; further ones have no effect, so that Ctrl-C may be pressed twice."""
         before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
         try:
             yield
@@ -170,7 +171,7 @@ class Run:
             self.recorder.take(time, last)
 
     def _advance(self, step):
-        """Go to that step with `O.step` in a loop: unlike `O.run`, it raises errors here, keeps its threads, and does not wait in slices of 40 ms."""
+        """Advance to that step. Unlike `O.run`, `O.step` raises errors here, reuses the OpenMP threads, and does not wait in slices of 40 ms."""
         since = time.perf_counter()
         try:
             while O.iter < step:
@@ -193,7 +194,8 @@ class Run:
                     self.recorder.save(self.frames_path)
                 checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, "events": self.observer.log.records()})
             except (OSError, RuntimeError) as problem:  # of YADE's writer
-                raise RunError(f"{self.checkpoint_path}: cannot be written ({problem}); the run stops at {O.time:.2f} s, the previous checkpoint is intact") from None
+                fault = f"cannot be written ({problem}); the run stops at {O.time:.2f} s, the previous checkpoint is intact"
+                raise RunError(f"{self.checkpoint_path}: {fault}") from None
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
@@ -201,7 +203,7 @@ class Run:
     def write(self):
         """Write results and pictures of the scene as it is now, and print their names."""
         if self.only_export:
-            self.say(f"written: {self.output.export}")
+            self.report(f"written: {self.output.export}")
             return
         self.take(O.time, last=True)
         found = {**summary_files.summary(self.scenario, self.observer, self.wall_s), "made_from": made_from(self.output.options)}
@@ -209,8 +211,8 @@ class Run:
         if self.output.views:
             written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
-        self.say(sentence(found))
-        self.say("written: " + ", ".join(str(path) for path in written))
+        self.report(sentence(found))
+        self.report("written: " + ", ".join(str(path) for path in written))
 
     def _results(self, found):
         written = []
@@ -220,13 +222,14 @@ class Run:
                 written.append(self.frames_path)
             return written + summary_files.write(self.output.folder, found, self.model)
         except OSError as problem:
-            raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); the same command with --resume makes them") from None
+            raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 
     def _pictures(self):
         try:
             return all_pictures.write(self.output.folder)
         except OSError as problem:
-            raise RunError(f"{self.output.folder}: the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them") from None
+            fault = f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them"
+            raise RunError(f"{self.output.folder}: {fault}") from None
 
 
 def title(scenario, model):

@@ -79,8 +79,14 @@ def record(scenario):
         return None
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
-    source = motion.source or motion.name
-    return {"source": source, "pga_gal": pga, "scale": scenario.scale, "dt": motion.dt, "interpolation_error": round(error, 6), "onset_s": onset(motion)}
+    return {
+        "source": motion.source or motion.name,
+        "pga_gal": pga,
+        "scale": scenario.scale,
+        "dt": motion.dt,
+        "interpolation_error": round(error, 6),
+        "onset_s": onset(motion),
+    }
 
 
 def energy_balance(terms):

@@ -5,8 +5,8 @@ import math
 
 import yade.wrapper as yw
 
-from . import engines as scene
 from ..base.atomic_write import write_text
+from . import engines
 
 O = yw.Omega()
 
@@ -17,23 +17,23 @@ def export_scene(path):
     elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
     materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
     joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
-               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name; none of a body that was taken out
+               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name; none of a removed body
     Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
             raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
-    engine = scene.find_engine(yw.JointEngine)
+    joint_engine = engines.find_engine(yw.JointEngine)
     known = {}
     elements = [describe_element(body, known) for body in O.bodies]
     content = {
         "format": "yade-timber scene 1",
         "units": "SI; world frame x east, y north, z up",
-        "gravity": list(scene.gravity_now()),
+        "gravity": list(engines.gravity_now()),
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": [describe_joint(joint) for joint in engine.joints if scene.joins_bodies(joint)] if engine else [],
+        "joints": [describe_joint(joint) for joint in joint_engine.joints if engines.joins_bodies(joint)] if joint_engine else [],
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 
@@ -60,7 +60,7 @@ def material_name(material, known):
 
 
 def world_vertices(body):
-    """(n, 3) sharp corners of a body in its present placement [m]."""
+    """(n, 3) sharp corners of a body in its present position [m]."""
     return [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
 
 
@@ -80,7 +80,7 @@ def describe_element(body, known):
 
 
 def describe_joint(joint):
-    """Dictionary of a TimberJoint; its points are the springs' ends on the first element."""
+    """Dictionary of a TimberJoint; points: ends of the springs on the first element."""
     state = O.bodies[joint.id1].state
     return {
         "elements": [joint.id1, joint.id2],

@@ -22,9 +22,9 @@ JOINT_SAFETY = 0.98
 
 @dataclass
 class Scenario:
-    """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m]; dt, duration [s].
+    """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
-    scale: factor on the motion [-]; options: of `engines.engines`.
+    scale: factor on the motion [-]; dt, duration [s]; options: of `engines.engines`.
     """
 
     name: str
@@ -38,7 +38,10 @@ class Scenario:
 
 
 def build(scenario, stride=REST_STRIDE):
-    """Build the scenario's scene in an emptied YADE. stride: steps to skip at a time while the house rests, unless its options say so. Returns the HouseModel."""
+    """Build the scenario's scene in an emptied YADE; returns the HouseModel.
+
+    stride: steps to skip at a time while the house rests (`skip_rest` in the scenario's options has precedence)
+    """
     model = build_house(load_house(scenario.house), snow_depth=scenario.snow_depth)
     O.reset()
     ids = add_elements(model)
@@ -57,7 +60,8 @@ def check_step(model):
     """Raise StepError when the joints, which have no dashpots, are too stiff for the time step, as between light members."""
     limit = engines.stable_dt(JOINT_SAFETY)
     if O.dt > limit:
-        raise StepError(f"{model.name}: a time step of {O.dt:g} s is too large for the joints between the lightest members: take at most {limit:.2g} s (--dt), or less stiff joints")
+        fault = f"a time step of {O.dt:g} s is too large for the joints between the lightest members"
+        raise StepError(f"{model.name}: {fault}: take at most {limit:.2g} s (--dt), or less stiff joints")
 
 
 def law_options(law):
