@@ -13,7 +13,8 @@ export function connect(player) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event") };
   const cameras = CAMERA_NAMES.map((name) => find(`camera-${name}`));
-  const events = player.runs.flatMap((run) => run.info.events).sort((a, b) => a.time - b.time);
+  const titled = ({ info }) => info.events.map(({ time, text }) => ({ time, text: player.runs.length > 1 ? `${info.title}: ${text}` : text }));
+  const events = player.runs.flatMap(titled).sort((a, b) => a.time - b.time);
 
   const camera = (name) => view.set(name, !calm.matches);
   const change = (name, on) => {

@@ -9,6 +9,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 
+UNUSABLE = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError, MemoryError)
+"""Raised by numpy and matplotlib for readable input with impossible content, such as a position that is not a number."""
+
+
 class Parser(argparse.ArgumentParser):
     """Reports a wrong option in one line and exits with status 1."""
 
@@ -37,11 +41,13 @@ def frames_path(run):
 
 @contextmanager
 def errors_in_a_line(output, *expected):
-    """Ends the script with one line and status 1 on an expected exception, or on an OSError while the output is written."""
+    """Ends the script with one line and status 1: on an expected exception, on impossible content, or when the output cannot be written."""
     try:
         yield
     except expected as problem:
         sys.exit(f"error: {_line(problem)}")
+    except UNUSABLE as problem:
+        sys.exit(f"error: {output}: cannot be made from this input ({type(problem).__name__}: {_line(problem)[:200]})")
     except OSError as problem:
         sys.exit(f"error: {output}: cannot be written: {problem.strerror or _line(problem)}")
 

@@ -75,6 +75,24 @@ def foreign_numbers(path):
         file["joints/a"][:] = 10**6
 
 
+def no_number(path):
+    made = frames()
+    made.position[5][1][0] = float("nan")
+    recorded.save(path, made)
+
+
+def wrong_events(path):
+    made = frames()
+    made.summary = {**made.summary, "events": [{"time_s": "soon", "kind": "tilt", "what": 3}]}
+    recorded.save(path, made)
+
+
+@pytest.mark.parametrize("damage", [no_number, wrong_events])
+def test_readable_frames_with_impossible_content(tmp_path, damage):
+    damage(tmp_path / recorded.NAME)
+    check_one_line(run("show/make_player.py", tmp_path))
+
+
 @pytest.mark.parametrize("script", ["show/show_run.py", "show/make_player.py", "show/export_vtk.py"])
 @pytest.mark.parametrize("damage", [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers])
 def test_frames_that_cannot_be_used(tmp_path, script, damage):

@@ -6,7 +6,7 @@ from matplotlib.patches import Ellipse, Polygon, Rectangle
 
 from ..base import colors
 from .figures import A4, heading, new_figure, save
-from .raster import Window, front_of, shade
+from .raster import Window, even_density, front_of, shade
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
@@ -63,7 +63,7 @@ def describe(model):
 def density(ax, box, dpi):
     """Pixels per metre at which a box fills axes, a multiple of 2."""
     cell = ax.get_position()
-    return int(dpi * min(cell.width * WIDTH / (box[1] - box[0]), cell.height * HEIGHT / (box[3] - box[2]))) // 2 * 2
+    return even_density(dpi * min(cell.width * WIDTH / (box[1] - box[0]), cell.height * HEIGHT / (box[3] - box[2])))
 
 
 def fit(ax, window, dpi):

@@ -24,7 +24,12 @@ class Window:
 
     view: object
     box: tuple
-    density: int
+    density: float
+
+
+def even_density(density):
+    """Pixels per metre reduced to a multiple of 2; unchanged below 2, for scenes of kilometres."""
+    return int(density) // 2 * 2 or density
 
 
 def front_of(solids, view):

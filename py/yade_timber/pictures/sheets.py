@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ..recording.sentences import sentence
 from . import key_times
 from .figures import A4, MARGIN, add_panel, drawable, heading, heading_height, new_figure, save
-from .raster import Window, front_of
+from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
 from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
 
@@ -44,7 +44,7 @@ class Layout:
 
     count: int
     columns: int
-    density: int
+    density: float
     panel: tuple
     width: float
     head: float
@@ -73,7 +73,7 @@ def layout(form, count, box, result):
         up = ((form.height - heading_height(form.width, result) - FOOT) / rows - CAPTION - GAP) / height
         found.append((min(across, up), columns - rows * columns, columns))
     scale, _, columns = max(found)
-    density = max(2, int(scale * form.dpi) // 2 * 2)
+    density = even_density(scale * form.dpi)
     panel = width * density / form.dpi, height * density / form.dpi
     sheet_width = max(columns * (panel[0] + GAP) - GAP + 2 * MARGIN, NARROWEST * form.width)
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
@@ -124,7 +124,7 @@ def both_views(frames, frame, dpi):
     boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
     top = max(box[3] for box in boxes)
     boxes = [(*box[:3], top) for box in boxes]
-    density = int(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes)) // 2 * 2
+    density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
     sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
     width = sum(width for width, _ in sizes) + 2 * MARGIN + GAP
     height = heading_height(width, result(frames)) + CAPTION + sizes[0][1] + END_AXES

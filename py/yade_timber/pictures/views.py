@@ -60,7 +60,7 @@ DEPTH_BELOW = 0.5
 GRID = 0.5
 """Boxes begin and end at multiples of it: with an even number of pixels per metre they have whole pixels. [m]"""
 FAR = 8.0
-"""Wreckage farther from the house's original position is cut off. [m]"""
+"""Wreckage farther from the house's original outline is cut off. [m]"""
 OUTLINE_PIXELS = 60
 """For the dashed outline. [1/m]"""
 HIDDEN_BEHIND = 0.25
@@ -86,7 +86,7 @@ def box_of(view, starts, later):
     across, original = points @ view.right, start @ view.right
     left = max(across.min(), original.min() - FAR) - BORDER
     right = min(across.max(), original.max() + FAR) + BORDER
-    top = points[:, 2].max() + BORDER
+    top = min(points[:, 2].max(), start[:, 2].max() + FAR) + BORDER
     return np.floor(left / GRID) * GRID, np.ceil(right / GRID) * GRID, -DEPTH_BELOW, np.ceil(top / GRID) * GRID
 
 
