@@ -15,9 +15,9 @@ from yade_timber.recording import frames as recorded
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
-def run(script, *words):
+def run(script, *arguments):
     """CompletedProcess of a script; it finds no Chromium, whose picture of the player has a test of its own."""
-    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, words)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
+    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
 
 
 def check_one_line(done, *parts):

@@ -100,7 +100,7 @@ def _scan(solids, window, density):
 
 
 def _normal(corners):
-    """Normal of a convex polygon (n, 3: column, depth, row) by Newell's sum, the depth component is > 0 for a face turned to the viewer."""
+    """Normal of a convex polygon (n, 3: column, depth, row) by Newell's sum; its depth component is > 0 for a face turned to the viewer."""
     a, b = corners, np.concatenate([corners[1:], corners[:1]])
     return np.array([a[:, j] @ b[:, k] - a[:, k] @ b[:, j] for j, k in ((1, 2), (2, 0), (0, 1))])
 
