@@ -10,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? join(here, "../py/yade_timber/data/player");
 const three = join(here, "node_modules/three");
 
-/** SHA-256 over names and contents of all that decides the bundle; tests/unit/test_player_asset.py computes the same. */
+/** SHA-256 of the names and contents of all inputs of the bundle; tests/unit/test_player_asset.py computes the same. */
 function sourceHash() {
   const names = ["build.mjs", "package-lock.json", "package.json", ...readdirSync(join(here, "src")).map((name) => `src/${name}`)].sort();
   const hash = createHash("sha256");
@@ -19,9 +19,9 @@ function sourceHash() {
 }
 
 const version = JSON.parse(readFileSync(join(three, "package.json"))).version;
-const banner = `/*! yade-timber player, GPL-2.0-or-later; made from player/, see its README; do not edit.
+const banner = `/*! yade-timber player, GPL-2.0-or-later; built from player/, see its README; do not edit.
 sources sha256 ${sourceHash()}
-Holds parts of three.js ${version}:
+Contains parts of three.js ${version}:
 ${readFileSync(join(three, "LICENSE"), "utf8").trim()}
 */`;
 mkdirSync(target, { recursive: true });

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-/** The time that is shown, and how fast it goes. */
+/** The time shown, and its speed. */
 export class Clock {
   constructor(end) {
     Object.assign(this, { end, time: 0, speed: 1, playing: false, last: null });
   }
 
-  /** Go to a time [s], or to the nearest there is. */
+  /** Go to a time [s], limited to the run. */
   seek(t) {
     this.time = Math.min(Math.max(t, 0), this.end);
     this.last = null;
   }
 
-  /** Start or stop; from the end it starts again at the beginning. */
+  /** Start or stop; at the end it restarts from the beginning. */
   play(on) {
     if (on && this.time >= this.end) this.time = 0;
     this.playing = on;
     this.last = null;
   }
 
-  /** now: a time of the browser [ms]. Pictures that come late do not make jumps of more than 0.25 s. */
+  /** Advance to a time of the browser [ms]; a late frame advances it by at most 0.25 s. */
   advance(now) {
     if (!this.playing) return;
     const passed = this.last === null ? 0 : Math.min((now - this.last) / 1000, 0.25);

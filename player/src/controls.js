@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Buttons, slider and keys.
+// Buttons, time line and keys.
+import { element } from "./dom.js";
 import { CAMERA_NAMES } from "./view.js";
 
 const TURN = 0.12; // [rad] per key
+const ANNOUNCED = 2; // time for which an event is shown on the time line [s]
 const find = (id) => document.getElementById(id);
 
-/** Connect the page's controls and keys with the player. */
+/** Connect the controls and keys of the page to the player. */
 export function connect(player) {
   const { clock, view, options } = player;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help") };
+  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event") };
   const cameras = CAMERA_NAMES.map((name) => find(`camera-${name}`));
-  const moments = [...new Set(player.runs.flatMap((run) => run.info.events.map(({ time }) => time)))].sort((a, b) => a - b);
+  const titled = ({ info }) => info.events.map(({ time, text }) => ({ time, text: player.runs.length > 1 ? `${info.title}: ${text}` : text }));
+  const events = player.runs.flatMap(titled).sort((a, b) => a.time - b.time);
 
   const camera = (name) => view.set(name, !calm.matches);
   const change = (name, on) => {
@@ -22,9 +25,9 @@ export function connect(player) {
     part.speed.selectedIndex = Math.min(Math.max(part.speed.selectedIndex + step, 0), part.speed.length - 1);
     clock.speed = Number(part.speed.value);
   };
-  const event = (way) => {
-    const next = way > 0 ? moments.find((t) => t > clock.time + 0.01) : moments.findLast((t) => t < clock.time - 0.01);
-    if (next !== undefined) player.seek(next);
+  const event = (next) => {
+    const found = next ? events.find(({ time }) => time > clock.time + 0.01) : events.findLast(({ time }) => time < clock.time - 0.01);
+    if (found) player.seek(found.time);
   };
 
   part.scrub.max = clock.end;
@@ -36,7 +39,7 @@ export function connect(player) {
   for (const name of ["shaken", "joints"]) part[name].addEventListener("change", () => change(name, part[name].checked));
   CAMERA_NAMES.forEach((name, k) => cameras[k].addEventListener("click", () => camera(name)));
   find("help-button").addEventListener("click", () => part.help.showModal());
-  ticks(find("ticks"), moments, clock.end);
+  addTicks(find("ticks"), events, player);
 
   const keys = {
     " ": () => player.play(!clock.playing),
@@ -47,8 +50,8 @@ export function connect(player) {
     ".": () => player.seek(clock.time + 0.05),
     Home: () => player.seek(0),
     End: () => player.seek(clock.end),
-    PageUp: () => event(-1),
-    PageDown: () => event(1),
+    PageUp: () => event(false),
+    PageDown: () => event(true),
     1: () => camera("front"),
     2: () => camera("side"),
     3: () => camera("free"),
@@ -66,10 +69,14 @@ export function connect(player) {
     "Shift+ArrowUp": () => view.turn(0, TURN),
     "Shift+ArrowDown": () => view.turn(0, -TURN),
   };
+  let tabbed = false; // whether the focus was last moved by the keyboard
+  addEventListener("pointerdown", () => (tabbed = false), true);
   addEventListener("keydown", (pressed) => {
+    if (pressed.key === "Tab") tabbed = true;
     const action = keys[(pressed.shiftKey && pressed.key.startsWith("Arrow") ? "Shift+" : "") + (pressed.key.length > 1 ? pressed.key : pressed.key.toLowerCase())];
-    if (!action || pressed.ctrlKey || pressed.altKey || pressed.metaKey || part.help.open || own(pressed)) return;
+    if (!action || pressed.ctrlKey || pressed.altKey || pressed.metaKey || part.help.open || needed(pressed, tabbed)) return;
     pressed.preventDefault();
+    if (pressed.key === " ") document.activeElement.blur(); // else the button would be pressed, too
     action();
   });
 
@@ -81,17 +88,35 @@ export function connect(player) {
     const label = clock.playing ? "Pause" : "Play";
     if (part.play.getAttribute("aria-label") !== label) part.play.setAttribute("aria-label", label);
     document.body.classList.toggle("playing", clock.playing);
+    announce(part.event, events, clock);
     CAMERA_NAMES.forEach((name, k) => cameras[k].setAttribute("aria-pressed", String(view.name === name)));
   };
 }
 
-/** Keys that the focused control needs itself: a button its space, the list of speeds its arrows. */
-function own({ key, target }) {
+/** Whether the focused control needs a key itself: a list its arrows, a button reached by keyboard its space. */
+function needed({ key, target }, tabbed) {
   if (target instanceof HTMLSelectElement) return key === " " || key.startsWith("Arrow") || key === "Home" || key === "End";
-  return key === " " && (target instanceof HTMLButtonElement || (target instanceof HTMLInputElement && target.type === "checkbox"));
+  return key === " " && tabbed && (target instanceof HTMLButtonElement || (target instanceof HTMLInputElement && target.type === "checkbox"));
 }
 
-/** Small marks over the slider where something happens. */
-function ticks(place, moments, end) {
-  place.innerHTML = moments.map((t) => `<i style="left:${((100 * t) / end).toFixed(3)}%"></i>`).join("");
+/** Marks of events on the time line; a click goes to the event. */
+function addTicks(place, events, player) {
+  for (const { time, text } of events) {
+    const tick = element("i", { title: `${time.toFixed(1)} s ${text}` });
+    tick.style.left = `${(100 * time) / player.clock.end}%`;
+    tick.addEventListener("click", () => player.seek(time));
+    place.append(tick);
+  }
+}
+
+/** Show the last event for a while beside its mark. */
+function announce(place, events, { time: now, end }) {
+  const event = events.findLast(({ time }) => time <= now + 1e-6 && now - time < ANNOUNCED);
+  const text = event ? event.text : "";
+  if (place.textContent === text) return;
+  place.textContent = text;
+  if (!event) return;
+  const share = (100 * event.time) / end;
+  const [before, after] = share > 50 ? ["auto", `${100 - share}%`] : [`${share}%`, "auto"];
+  Object.assign(place.style, { left: before, right: after, maxWidth: `${Math.max(share, 100 - share)}%` });
 }

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground motion and storey drifts over time, with a cursor; a click goes to that time.
+import { element, svg } from "./dom.js";
 import { rowAt } from "./run.js";
 
 /** Okabe and Ito (2008); storeys differ by dashes, too. */
 export const COLORS = { ns: "#0072b2", ew: "#d55e00", ud: "#8a8a8a" };
 const NAMES = { ns: "N–S", ew: "E–W", ud: "up–down" };
 const DASHES = [[], [5, 3], [2, 2]];
-const MOST_DRIFT = 1 / 5; // a house beyond it is falling: the curve stays at the border
-const LEFT = 42; // [pixel] for the numbers
+const MOST_DRIFT = 1 / 5; // larger drifts, of a falling house, are drawn at the border
+const LEFT = 42; // width of the labels [pixel]
+const AXIS = 14; // height of the labels of the time axis [pixel]
+const LABEL_GAP = 12; // between the baselines of two labels [pixel]
+const DRAG = 6; // sideways movement that makes a touch a drag [pixel]
 const [INK, PALE] = ["#39424a", "#d9d5cb"];
 const FONT = "11px system-ui, sans-serif";
 
@@ -17,19 +21,14 @@ export class Curves {
     Object.assign(this, { place, run });
     this.charts = [run.info.motion && motionChart(run, scales.acceleration), run.info.drifts.length && driftChart(run, scales.drifts)].filter(Boolean);
     for (const chart of this.charts) place.append(this.figure(chart));
-    this.cursor = Object.assign(document.createElement("div"), { className: "cursor" });
+    this.cursor = element("div", { className: "cursor" });
     place.append(this.cursor);
     this.listen(seek);
   }
 
   figure(chart) {
-    const figure = Object.assign(document.createElement("figure"), { className: chart.name });
-    const caption = Object.assign(document.createElement("figcaption"), { innerHTML: chart.caption });
-    chart.canvas = document.createElement("canvas");
-    chart.canvas.setAttribute("role", "img");
-    chart.canvas.setAttribute("aria-label", chart.words);
-    figure.append(caption, chart.canvas);
-    return figure;
+    chart.canvas = element("canvas", { role: "img", ariaLabel: chart.description });
+    return element("figure", { className: chart.name }, element("figcaption", {}, ...chart.caption), chart.canvas);
   }
 
   listen(seek) {
@@ -37,14 +36,26 @@ export class Curves {
       const { left, width } = this.place.getBoundingClientRect();
       seek(Math.min(Math.max((event.clientX - left - LEFT) / (width - LEFT), 0), 1) * this.span);
     };
+    let start = null; // of a touch that may yet become a scroll
     this.place.addEventListener("pointerdown", (event) => {
-      this.place.setPointerCapture(event.pointerId);
-      go(event);
+      if (event.pointerType === "touch") start = event.clientX;
+      else {
+        this.place.setPointerCapture(event.pointerId);
+        go(event);
+      }
     });
-    this.place.addEventListener("pointermove", (event) => event.buttons && go(event));
+    this.place.addEventListener("pointermove", (event) => {
+      if (start !== null && Math.abs(event.clientX - start) > DRAG) start = null;
+      if (event.buttons && start === null) go(event);
+    });
+    this.place.addEventListener("pointerup", (event) => {
+      if (start !== null) go(event);
+      start = null;
+    });
+    this.place.addEventListener("pointercancel", () => (start = null)); // the browser scrolls the page
   }
 
-  /** Draw all for the present size. span: time at the right end [s]. */
+  /** Redraw all at the current size. span: time at the right end [s]. */
   resize(span) {
     this.span = span;
     for (const chart of this.charts) paint(chart, this.run, span);
@@ -56,7 +67,7 @@ export class Curves {
   }
 }
 
-/** Largest sizes in any of the runs, so that their curves compare: { acceleration [m/s2], drifts [-] }. */
+/** Largest values of all runs, for a common scale: { acceleration [m/s2], drifts [-] }. */
 export function largest(runs) {
   const most = (name) => runs.reduce((sum, run) => (run[name] ?? []).reduce((a, b) => Math.max(a, Math.abs(b)), sum), 1e-6);
   return { acceleration: most("acceleration"), drifts: most("drifts") };
@@ -68,15 +79,16 @@ function motionChart(run, most) {
   const lines = ["ew", "ns", "ud"].map((key, k) => ({ key, k, dash: [] })).reverse();
   return {
     name: "motion",
-    caption: `<span>Ground<span class="wide"> acceleration</span>, m/s²</span> ${["ns", "ew", "ud"].map((key) => key_(key)).join(" ")}`,
-    words: `Ground acceleration over time, up to ${most.toFixed(1)} m/s²`,
+    caption: [element("span", {}, "Ground", element("span", { className: "wide" }, " acceleration"), ", m/s²"), ...["ns", "ew", "ud"].map(direction)],
+    description: `Ground acceleration over time, up to ${most.toFixed(1)} m/s²`,
     lines: lines.map((line) => ({ ...line, value: (i) => run.acceleration[3 * i + line.k], time: (i) => start + i * dt, count })),
     scale: (value) => value / (1.05 * most),
-    marks: [round(most)].flatMap((v) => [{ value: v, text: `${v}` }, { value: -v, text: `−${v}` }]),
+    marks: [round(most)].flatMap((v) => [{ value: -v, text: `−${v}` }, { value: v, text: `${v}` }]),
+    levels: [],
   };
 }
 
-/** Signed square roots: small drifts are seen beside large ones. */
+/** Scaled by signed square roots, so that small drifts are visible beside large ones. */
 function driftChart(run, most) {
   const columns = run.info.drifts;
   const width = columns.length;
@@ -86,8 +98,8 @@ function driftChart(run, most) {
   const dashes = storeys > 1 ? Array.from({ length: storeys }, (_, k) => swatch("#555", DASHES[k], `storey ${k + 1}`)) : [];
   return {
     name: "drift",
-    caption: `<span><span class="wide">Storey drift</span><span class="narrow">Drift</span></span> ${["ns", "ew"].map((key) => key_(key)).join(" ")} ${dashes.join(" ")}`,
-    words: `Storey drifts over time. ${run.info.result}`,
+    caption: [element("span", { className: "wide" }, "Storey drift"), element("span", { className: "narrow" }, "Drift"), ...["ns", "ew"].map(direction), ...dashes],
+    description: `Storey drifts over time. ${run.info.result}`,
     lines: columns.map(({ key, storey }, k) => ({
       key,
       dash: DASHES[(storey - 1) % DASHES.length],
@@ -96,19 +108,17 @@ function driftChart(run, most) {
       count: rows,
     })),
     scale: (value) => Math.max(-1, Math.min(1, (Math.sign(value) * Math.sqrt(Math.abs(value))) / full)),
-    marks: run.info.levels.flatMap(({ value, text }, k) => [
-      { value, text: k % 2 ? "" : text, line: true }, // the words by turns above and below: they would touch
-      { value: -value, text: k % 2 ? text : "", line: true },
-    ]),
+    marks: run.info.levels,
+    levels: run.info.levels.flatMap(({ value }) => [value, -value]),
   };
 }
 
 const round = (v) => Number((v >= 2 ? Math.floor(v) : v).toPrecision(2));
-const key_ = (key) => swatch(COLORS[key], [], NAMES[key]);
+const direction = (key) => swatch(COLORS[key], [], NAMES[key]);
 
 function swatch(color, dash, name) {
-  const style = `stroke="${color}" stroke-width="2.5" ${dash.length ? `stroke-dasharray="${dash.join(" ")}"` : ""}`;
-  return `<span class="key"><svg width="18" height="8" aria-hidden="true"><path d="M0 4H18" ${style}/></svg>${name}</span>`;
+  const line = svg("path", { d: "M0 4H18", stroke: color, "stroke-width": 2.5, "stroke-dasharray": dash.join(" ") });
+  return element("span", { className: "key" }, svg("svg", { width: 18, height: 8, "aria-hidden": "true" }, line), name);
 }
 
 function paint(chart, run, span) {
@@ -119,24 +129,26 @@ function paint(chart, run, span) {
   const pen = canvas.getContext("2d");
   pen.scale(ratio, ratio);
   const x = (t) => LEFT + (t / span) * (width - LEFT);
-  const y = (value) => (height - 14) * (0.5 - 0.5 * chart.scale(value)) + 0.5;
+  const y = (value) => (height - AXIS) * (0.5 - 0.5 * chart.scale(value)) + 0.5;
   axes(pen, chart, x, y, width, height, span);
-  for (const { time } of run.info.events) stroke(pen, [[x(time), 0], [x(time), height - 14]], "#b8b2a4", 1, [1, 3]);
+  for (const { time } of run.info.events) stroke(pen, [[x(time), 0], [x(time), height - AXIS]], "#b8b2a4", 1, [1, 3]);
   for (const line of chart.lines) curve(pen, line, x, y, span);
 }
 
 function axes(pen, chart, x, y, width, height, span) {
   Object.assign(pen, { font: FONT, fillStyle: INK, textBaseline: "middle", textAlign: "right" });
   stroke(pen, [[LEFT, y(0)], [width, y(0)]], "#9b9789", 1);
-  for (const { value, text, line } of chart.marks) {
-    if (line) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
-    pen.fillText(text, LEFT - 5, Math.max(y(value), 6));
+  for (const value of chart.levels) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
+  let last = Infinity;
+  for (const { value, text } of chart.marks) {
+    last = Math.max(Math.min(y(value), last - LABEL_GAP), LABEL_GAP / 2); // moved upwards where labels would overlap
+    pen.fillText(text, LEFT - 5, last);
   }
   Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
   const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
   for (let k = 0; k * gap <= span; k++) {
     const t = k * gap;
-    stroke(pen, [[x(t), 0], [x(t), height - 14]], PALE, 1);
+    stroke(pen, [[x(t), 0], [x(t), height - AXIS]], PALE, 1);
     if (x(t) < width - 16) pen.fillText(k === 0 ? "0 s" : `${Number(t.toFixed(1))}`, Math.max(x(t), LEFT + 8), height);
   }
 }
@@ -157,11 +169,11 @@ function curve(pen, { key, dash, value, time, count }, x, y, span) {
   pen.stroke();
 }
 
-/** Drift of largest size at a time, of a run: a number. */
+/** Largest absolute storey drift of a run at a time. [-] */
 export function driftAt(run, t) {
   const width = run.info.drifts.length;
   const row = rowAt(run.history_time, t) * width;
-  let most = 0;
-  for (let k = 0; k < width; k++) most = Math.max(most, Math.abs(run.drifts[row + k] ?? 0));
-  return most;
+  let largest = 0;
+  for (let k = 0; k < width; k++) largest = Math.max(largest, Math.abs(run.drifts[row + k] ?? 0));
+  return largest;
 }

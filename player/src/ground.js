@@ -44,7 +44,7 @@ export class Ground extends Group {
   }
 }
 
-/** A letter that lies on the ground, to be read from outside. */
+/** A letter on the ground, readable from outside. */
 function sign(letter, x, y) {
   const canvas = Object.assign(document.createElement("canvas"), { width: 128, height: 128 });
   const pen = canvas.getContext("2d");

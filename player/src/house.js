@@ -3,7 +3,7 @@
 import { BatchedMesh, BufferAttribute, BufferGeometry, Color, Group, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 
 const SNOW_OPACITY = 0.8;
-const EDGE = 0.5; // how much of the colour is left on the lines along edges
+const EDGE = 0.5; // brightness of the lines along edges
 
 /** All elements but the ground. */
 export class House extends Group {
@@ -18,7 +18,7 @@ export class House extends Group {
     this.add(...this.batches);
   }
 
-  /** Take over where the run's elements are now. */
+  /** Copy the current placement of the run's elements. */
   update() {
     const { position, orientation } = this.run;
     for (const one of this.batches) {
@@ -39,10 +39,10 @@ function batch(run, elements, material) {
   const shapes = elements.map(({ number }) => solid(run, number));
   const size = shapes.reduce((sum, shape) => sum + shape.attributes.position.count, 0);
   const mesh = new BatchedMesh(elements.length, size, 0, material);
-  const color = new Color();
+  const colors = new Map(run.info.kinds.map(({ kind, color }) => [kind, new Color(color)]));
   elements.forEach(({ kind }, i) => {
     mesh.addInstance(mesh.addGeometry(shapes[i]));
-    mesh.setColorAt(i, color.set(run.info.kinds[kind]?.color ?? "#999999"));
+    mesh.setColorAt(i, colors.get(kind));
   });
   mesh.userData.numbers = elements.map(({ number }) => number);
   mesh.perObjectFrustumCulled = mesh.sortObjects = mesh.frustumCulled = false;

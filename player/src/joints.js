@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Marks of the joints: what they carry as colour and size, what has become of them as shape.
+// Marks of the joints: colour and size show the load, the shape shows the state.
 import { BufferAttribute, BufferGeometry, Color, GreaterDepth, Group, LessEqualDepth, Points, ShaderMaterial } from "three";
 
-/** Colours from no load to the load that breaks (dark = much), and of the three kinds of damage (Okabe and Ito 2008). */
+/** Colours from no load to the strength (dark: high load), and of the three kinds of damage (Okabe and Ito 2008). */
 export const LOAD_COLORS = ["#fff7e0", "#f4a3c0", "#b0308a", "#3f0a5c"];
 export const DAMAGE_COLORS = { partly: "#e69f00", broken: "#d55e00", before: "#ffffff" };
 
@@ -17,7 +17,7 @@ void main() {
   vLoad = clamp(load, 0.0, 1.0);
   vState = state;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  seen.xyz *= 1.0 - 0.16 / max(length(seen.xyz), 1.0); // before the members it sits in
+  seen.xyz *= 1.0 - 0.16 / max(length(seen.xyz), 1.0); // in front of the members it connects
   gl_Position = projectionMatrix * seen;
   bool whole = state < 0.5;
   float size = whole ? mix(0.075, 0.17, vLoad) : state < 1.5 ? 0.24 : 0.26; // [m]
@@ -58,7 +58,7 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-/** One point per joint, drawn twice: as it is, and damaged ones pale where something hides them. */
+/** One point per joint, drawn twice: once where it is visible, and damaged joints in pale where a face hides them. */
 export class Joints extends Group {
   constructor(run) {
     super();
@@ -77,7 +77,7 @@ export class Joints extends Group {
     }
   }
 
-  /** Take over the run's joints as they are now. */
+  /** Upload the current state of the run's joints. */
   update() {
     for (const attribute of this.attributes) attribute.needsUpdate = true;
   }

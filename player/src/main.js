@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The page: runs that are played in step, by one clock and with one camera.
+// The page: runs played in step, with one clock and one camera.
 import { Box3, Vector3 } from "three";
 import { Clock } from "./clock.js";
 import { connect } from "./controls.js";
@@ -9,11 +9,11 @@ import { unpack } from "./run.js";
 import { Stage } from "./stage.js";
 import { View } from "./view.js";
 
-const BEFORE_SHAKING = 2; // where the page opens [s]
-const SHORTEST = 0.1; // time on the slider, for runs that never went a step [s]
-const NEAR = 6; // wreckage that is still in the picture [m]
+const BEFORE_SHAKING = 2; // time from the opening of the page to the shaking [s]
+const SHORTEST = 0.1; // length of the time line for runs without a step [s]
+const NEAR = 6; // distance up to which wreckage stays in the picture [m]
 
-/** All that is shown, and when: draws only what has changed. */
+/** Draws the runs, only when something has changed. */
 class Player {
   constructor(runs) {
     this.runs = runs;
@@ -48,7 +48,7 @@ class Player {
     this.changed();
   }
 
-  /** Something has changed: draw before the next picture. */
+  /** Draw before the next frame of the browser. */
   changed() {
     this.pending ||= requestAnimationFrame(this.tick);
   }
@@ -56,9 +56,9 @@ class Player {
   tick(now) {
     this.pending = 0;
     this.clock.advance(now);
-    const gliding = this.view.step(now);
+    const turning = this.view.step(now);
     this.draw();
-    if (this.clock.playing || gliding) this.changed();
+    if (this.clock.playing || turning) this.changed();
   }
 
   draw() {
@@ -84,14 +84,14 @@ class Player {
   }
 }
 
-/** The stage of a run, or none with a word why. */
+/** The stage of a run, or null with a message in its panel. */
 function open(panel, run, box) {
   try {
     return new Stage(panel.view, run, box);
   } catch (problem) {
     console.error(problem);
-    panel.fault.textContent = "No 3D picture: this browser offers no WebGL 2 here. Curves and events work.";
-    panel.fault.hidden = false;
+    panel.error.textContent = "No 3D picture: this browser has no WebGL 2. Curves and events work.";
+    panel.error.hidden = false;
     return null;
   }
 }
@@ -104,13 +104,13 @@ function corners(runs, time) {
   });
 }
 
-/** What the camera has in the picture: the houses at the start, and at the end as far as NEAR around it. */
+/** Points that the camera keeps in the picture: the houses at the start, and at the end within NEAR of them. */
 function inPicture(start, runs) {
   const near = new Box3().setFromPoints(start).expandByVector(new Vector3(NEAR, NEAR, 0));
   return [...start, ...corners(runs, Infinity).map((point) => near.clampPoint(point, point))];
 }
 
-/** For tests and the curious: seek(t), play(on), time, playing; of a point [m] in the body frame of an element of a run (from 0 on):
+/** For tests and the console: seek(t), play(on), time, playing; of a point [m] in the body frame of an element of a run (from 0 on):
  *  position(name, run, point) [m, frame of the ground], screen(name, run, point) { x, y } [pixel]. */
 function expose(player) {
   const position = (name, k = 0, point = [0, 0, 0]) => {
@@ -135,7 +135,7 @@ function expose(player) {
   });
 }
 
-/** #t=12.3 opens at that time, paused; else the page opens shortly before the shaking and plays, unless the user wants no motion. */
+/** #t=12.3 opens at that time, paused; else the page plays from shortly before the shaking, unless the user prefers no motion. */
 function begin(player) {
   const wanted = () => Number.parseFloat(new URLSearchParams(location.hash.slice(1)).get("t"));
   const jump = () => {

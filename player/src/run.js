@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A recorded run as the page holds it: text -> numbers, and where things are at a time.
+// A recorded run: unpacking, and the state at a time.
 import { Quaternion, Vector3 } from "three";
 
-/** Text made by packing.py -> Run. Throws when it is damaged. */
+/** Text made by packing.py -> Run. Throws when the text is damaged. */
 export async function unpack(text) {
   const packed = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -85,17 +85,17 @@ export class Run {
     const { place, load, state } = this.joint;
     const { a, anchor, loads, position, orientation } = this;
     for (let j = 0; j < this.joints; j++) {
-      turned(place, 3 * j, anchor, 3 * j, orientation, 4 * a[j]);
+      rotated(place, 3 * j, anchor, 3 * j, orientation, 4 * a[j]);
       for (let i = 0; i < 3; i++) place[3 * j + i] += position[3 * a[j] + i];
       load[j] = loads[k * this.joints + j] * (1 - weight) + loads[next * this.joints + j] * weight;
       state[j] = this.stateOf(k, j);
     }
   }
 
-  /** What has become of a joint by frame k. */
+  /** State of joint j in frame k. */
   stateOf(k, j) {
-    const gone = this.broken[k * this.joints + j];
-    return this.damaged[j] ? STATE.before : gone === 0 ? STATE.whole : gone < this.springs[j] ? STATE.partly : STATE.broken;
+    const broken = this.broken[k * this.joints + j];
+    return this.damaged[j] ? STATE.before : broken === 0 ? STATE.whole : broken < this.springs[j] ? STATE.partly : STATE.broken;
   }
 
   /** Whether any joint is in a state at any time. */
@@ -104,19 +104,19 @@ export class Run {
     return false;
   }
 
-  /** A point (Vector3) from the body frame of element k to where it is now [m]; returns it. */
+  /** Transform a point (Vector3 [m]) from the body frame of element k to its current position; returns it. */
   placed(k, point) {
     const [q, p] = [this.orientation.subarray(4 * k), this.position.subarray(3 * k)];
     return point.applyQuaternion({ x: q[0], y: q[1], z: q[2], w: q[3] }).add({ x: p[0], y: p[1], z: p[2] });
   }
 
-  /** Corners of element k, now: list of Vector3 [m]. */
+  /** Current corners of element k: list of Vector3 [m]. */
   corners(k) {
     const [from, to] = [this.vertex_start[k], this.vertex_start[k + 1]];
     return Array.from({ length: to - from }, (_, i) => this.placed(k, new Vector3().fromArray(this.vertices, 3 * (from + i))));
   }
 
-  /** Number of joints in a state, now. */
+  /** Current number of joints in a state. */
   count(state) {
     let found = 0;
     for (const one of this.joint.state) found += one === state;
@@ -137,11 +137,11 @@ export class Run {
   }
 }
 
-/** What has become of a joint: numbers that joints.js gives the shader. */
+/** States of a joint, as numbers for the shader of joints.js. */
 export const STATE = { whole: 0, partly: 1, broken: 2, before: 3 };
 
-/** out[o..] = vector v[i..] turned by the quaternion q[k..] (x, y, z, w). */
-function turned(out, o, v, i, q, k) {
+/** out[o..] = vector v[i..] rotated by the quaternion q[k..] (x, y, z, w). */
+function rotated(out, o, v, i, q, k) {
   const [x, y, z, w] = [q[k], q[k + 1], q[k + 2], q[k + 3]];
   const [a, b, c] = [v[i], v[i + 1], v[i + 2]];
   const tx = 2 * (y * c - z * b);

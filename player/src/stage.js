@@ -5,10 +5,10 @@ import { Ground } from "./ground.js";
 import { House } from "./house.js";
 import { Joints } from "./joints.js";
 
-const MOST_PIXELS = 2; // device pixels per pixel that are drawn at most
+const MOST_PIXELS = 2; // largest number of device pixels per pixel
 const HORIZON = 0xe9eef0;
 
-/** Draws a run as seen by a shared camera. Throws when the browser has no WebGL. */
+/** Draws a run for the shared camera. Throws when the browser has no WebGL. */
 export class Stage {
   constructor(canvas, run, box) {
     Object.assign(this, { canvas, run });
@@ -22,7 +22,7 @@ export class Stage {
     this.scene.fog = new Fog(HORIZON);
   }
 
-  /** Fit the canvas to its place on the page. */
+  /** Fit the canvas to its size on the page. */
   resize(fov) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.aspect = width / height;
@@ -32,7 +32,7 @@ export class Stage {
     this.joints.resize(height * ratio, fov, ratio);
   }
 
-  /** Draw the run as it is now. shaken: whether the ground moves before the viewer's eyes. */
+  /** Draw the current state of the run. shaken: whether the ground moves relative to the camera. */
   draw(view, { shaken, joints }) {
     this.house.update();
     this.joints.update();
@@ -45,7 +45,7 @@ export class Stage {
     this.renderer.render(this.scene, view.camera);
   }
 
-  /** Where a point [m, frame of the ground] is on the page: {x, y} [pixel]. */
+  /** Position on the page of a point [m, frame of the ground]: {x, y} [pixel]. */
   screen(point, view) {
     view.shape(this.aspect);
     const seen = new Vector3(...point).add(this.moving.position).project(view.camera);
@@ -54,7 +54,7 @@ export class Stage {
   }
 }
 
-/** Soft light from the sky and a sun in the south-east whose shadows reach as far as wreckage does. */
+/** Soft light from the sky, and a sun in the south-east whose shadows cover house and wreckage. */
 function lights(box) {
   const [middle, size] = [box.getCenter(new Vector3()), box.getSize(new Vector3())];
   const sky = new HemisphereLight(0xffffff, 0xb9ab97, 1.9);

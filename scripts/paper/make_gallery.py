@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
+"""Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-results holds the folders modelA_snow, modelA_quake and modelC2_snow; written are DIR/modelC2_snow.png, DIR/l_house.png and DIR/gallery/*.png (the player's picture only where Chromium is).
+Reads the folders modelA_snow, modelA_quake and modelC2_snow in results. Writes DIR/modelC2_snow.png, DIR/l_house.png and
+DIR/gallery/*.png; the picture of the player needs Chromium.
 """
 import argparse
 import io
@@ -17,17 +18,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 from PIL import Image  # noqa: E402
 
-from yade_timber.pictures import drawings  # noqa: E402
-from yade_timber.recording import frames  # noqa: E402
-from yade_timber.pictures import player  # noqa: E402
-from yade_timber.pictures import curves as plots  # noqa: E402
-from yade_timber.pictures import motion_sheet as record_plot  # noqa: E402
-from yade_timber.pictures import sheets  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.atomic_write import written_whole  # noqa: E402
+from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
+from yade_timber.pictures import curves, drawings, motion_sheet, player, sheets  # noqa: E402
 from yade_timber.pictures.views import FRONT, SIDE  # noqa: E402
+from yade_timber.recording import frames  # noqa: E402
 
 SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"
@@ -35,16 +32,16 @@ LEAD = "modelC2_snow"
 HOUSE, EXAMPLE = "C2", "l_house"
 COMPARED = ("modelA_quake", "modelC2_snow")
 AFTER_COLLAPSE = 1.0
-"""When the compared runs are shown, after the first has collapsed. [s]"""
+"""Time shown in the comparison, after the collapse of the first run. [s]"""
 CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
             "--window-size=1200,800", "--virtual-time-budget=5000")
 DPI = 130
 LARGEST = 150_000
-"""A picture on a web page may take so much. [bytes]"""
+"""Largest picture for a web page. [bytes]"""
 
 
 def telling_view(run):
-    """The view in which a run's house leans: N-S is seen from the east."""
+    """The view that shows the tilt of a run's house: N-S is seen from the east."""
     return SIDE if run.summary and run.summary["tilt_direction"] == "ew" else FRONT
 
 
@@ -56,7 +53,7 @@ def write(path, figure, dpi=DPI):
 
 
 def save(path, picture):
-    """Write an RGB image as PNG with as many colours as LARGEST allows; returns the path."""
+    """Write an RGB image as PNG with the largest number of colours that LARGEST permits; returns the path."""
     contents = (packed(quantized(picture, colors) if colors else picture) for colors in (None, 256, 128, 64, 32))
     with written_whole(path) as part:
         part.write_bytes(next(content for content in contents if len(content) < LARGEST))
@@ -74,26 +71,26 @@ def packed(picture):
     return data.getvalue()
 
 
-def compared(results, time):
-    """Picture of the player with the runs COMPARED side by side at a time [s], taken by Chromium."""
+def compared(runs, time):
+    """Screenshot of the player with the runs COMPARED side by side at a time [s], taken by Chromium. runs: {name: Frames}"""
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
-        player.make([results / name / frames.NAME for name in COMPARED], page)
+        player.make([(name, runs[name]) for name in COMPARED], page)
         subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
                        env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True)
         return Image.open(picture).convert("RGB")
 
 
 def ended(folder):
-    """Frames of a run that is over. Raises RunError when it is not."""
+    """Frames of a run that has ended. Raises RunError when it has not."""
     run = frames.load(folder / frames.NAME)
     if run.summary is None:
-        raise RunError(f"{folder}: this run is not over; finish it with --resume")
+        raise RunError(f"{folder}: this run has not ended; finish it with --resume")
     return run
 
 
 def fallen_at(run):
-    """When a run's house collapsed, or the end of the run. [s]"""
+    """Time of collapse, or the end of the run. [s]"""
     return run.summary["collapse_time_s"] or run.time[-1]
 
 
@@ -103,19 +100,19 @@ def make(results, out):
     gallery.mkdir(parents=True, exist_ok=True)
     runs = {name: ended(results / name) for name in {*SHEETS, *COMPARED, HISTORY, LEAD}}
     written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
-    written.append(write(gallery / "history.png", plots.page(runs[HISTORY])))
+    written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))
-    written.append(write(gallery / "ground_motion.png", record_plot.page(default_motion(), corner=0.05)))
+    written.append(write(gallery / "ground_motion.png", motion_sheet.page(default_motion(), 0.05, DPI)))
     if shutil.which(CHROMIUM[0]):
-        written.append(save(gallery / "player.png", compared(results, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
+        written.append(save(gallery / "player.png", compared(runs, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
     return written
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("results", type=Path, nargs="?", default=Path("results"), help="folder of the runs' folders (default: results)")
+    parser.add_argument("results", type=Path, nargs="?", default=Path("results"), help="folder with the results of the runs (default: results)")
     parser.add_argument("--out", type=Path, default=Path("docs"), help="folder to write to (default: docs)")
     options = parser.parse_args()
     try:

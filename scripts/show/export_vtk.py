@@ -1,44 +1,39 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames of a run as VTK time series: export_vtk.py results/modelC2_snow [--every 4] [--out DIR]. Needs VTK (python3-vtk9), not YADE.
+"""Export recorded frames as VTK time series: export_vtk.py results/modelC2_snow [--every 4] [--out DIR]. Needs VTK (python3-vtk9), not YADE.
 
 ParaView opens elements.pvd, joints.pvd and contacts.pvd in DIR (default: the folder vtk beside the frames).
 """
 import argparse
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.recording import frames  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.base.errors import RunError
+from yade_timber.recording import frames
 
 
 def positive(text):
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text}: it must be 1 or more")
-    return number
+    if not text.isdecimal() or int(text[:9]) < 1:
+        raise argparse.ArgumentTypeError(f"{text[:40]}: must be a whole number of 1 or more")
+    return int(text)
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="folder of a run's results (it holds frames.h5)")
-    parser.add_argument("--every", type=positive, default=1, metavar="N", help=f"take each N-th of the {frames.FRAMES_PER_SECOND} frames a second (default 1)")
-    parser.add_argument("--out", type=Path, help="folder to write to (default: the folder vtk beside the frames)")
+    parser = Parser(description=__doc__.splitlines()[0])
+    parser.add_argument("run", type=path, metavar="folder", help="folder of a run's results, or its frames.h5")
+    parser.add_argument("--every", type=positive, default=1, metavar="N", help=f"export every N-th of the {frames.FRAMES_PER_SECOND} frames per second (default 1)")
+    parser.add_argument("--out", type=path, help="folder to write to (default: the folder vtk beside the frames)")
     return parser.parse_args()
 
 
 def main():
     options = arguments()
-    try:
-        from yade_timber.pictures import vtk as vtk_export
+    file = frames_path(options.run)
+    out = options.out or file.parent / "vtk"
+    with errors_in_a_line(out, RunError):
+        from yade_timber.pictures import vtk
 
-        written = vtk_export.export(options.out or options.folder / "vtk", frames.load(options.folder / frames.NAME), options.every)
-    except RunError as problem:
-        sys.exit(f"error: {problem}")
-    except OSError as problem:
-        sys.exit(f"error: {problem}")
+        written = vtk.export(out, frames.load(file), options.every)
     print("written: " + ", ".join(map(str, written)))
 
 

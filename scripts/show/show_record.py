@@ -1,26 +1,22 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Measure a strong-motion record and plot its motion and its 5 % response spectra, as PNG and PDF.
+"""Print the measures of a strong-motion record and plot it with its 5 % response spectra, as PNG and PDF.
 
     scripts/show/show_record.py [--record FILE_OR_PREFIX] [--azimuth 30] [--start 10] [--pga 400] [--out FILE.png]
 
-The options are those of the run scripts: what is shown is what would shake the house. Without a record: the synthetic
-motion that the package ships. Needs no YADE.
+Takes the options of the run scripts and shows the motion that they would apply; without a record the synthetic motion of the
+package. Needs no YADE.
 """
 
-import argparse
-import sys
-from pathlib import Path
+from show_common import Parser, errors_in_a_line, file_name, path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
-from yade_timber import motion as gm  # noqa: E402
-from yade_timber.pictures import motion_sheet as record_plot  # noqa: E402
-from yade_timber.pictures import sheets  # noqa: E402
+from yade_timber import motion as gm
+from yade_timber.pictures import motion_sheet
+from yade_timber.pictures.figures import stem_of
 
 
 def print_measures(motion, corner):
-    """One line per measure; peaks for each component and for the horizontal vector."""
+    """Print one line per measure, with the peaks of each component and of the horizontal vector."""
     print(f"{motion.name}: {motion.source}")
     begins = f", from {motion.begins:%Y-%m-%d %H:%M:%S}" if motion.begins else ""
     print(f"{len(motion)} samples every {motion.dt:g} s, {motion.duration:g} s{begins}")
@@ -35,20 +31,20 @@ def print_measures(motion, corner):
     intensity = gm.jma_intensity(motion)
     print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
     print(f"Duration D5-95 [s]    {gm.significant_duration(motion):.2f}")
-    print(f"Straight lines between the samples miss at most {100 * gm.interpolation_error(motion):.2g} % of the PGA (--resample: nothing)")
+    print(f"Linear interpolation between samples errs by at most {100 * gm.interpolation_error(motion):.2g} % of the PGA (--resample: none)")
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("positional", nargs="?", metavar="RECORD", help="the same as --record")
+    parser = Parser(description=__doc__.splitlines()[0])
+    parser.add_argument("positional", nargs="?", metavar="RECORD", help="same as --record")
     gm.add_motion_options(parser)
-    parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run [s], for --resample (default %(default)g)")
-    parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD are taken [Hz] (default %(default)g); 0: none")
-    parser.add_argument("--out", type=Path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
+    parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run, for --resample [s] (default %(default)g)")
+    parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
+    parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     options = parser.parse_args()
     if options.record and options.positional:
-        parser.error("RECORD and --record are the same: give one")
+        parser.error("RECORD and --record name the same option: give one")
     options.record = options.record or options.positional
     return options
 
@@ -56,16 +52,12 @@ def arguments():
 def main():
     options = arguments()
     corner = options.corner or None
-    try:
+    with errors_in_a_line(options.out or "the picture", gm.RecordError):
         request = gm.motion_request(options)
         motion = gm.scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
-        out = sheets.stem_of(options.out) if options.out else Path(motion.name)
-        written = record_plot.write(out, motion, corner)
-    except gm.RecordError as error:
-        sys.exit(f"error: {error}")
-    except OSError as error:
-        sys.exit(f"error: {error.filename}: cannot be written ({error.strerror})")
+        stem = stem_of(options.out) if options.out else file_name(motion.name)
+        written = motion_sheet.write(stem, motion, corner)
     print("written: " + ", ".join(map(str, written)))
 
 

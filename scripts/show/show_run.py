@@ -1,20 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Make every picture of a finished run again, from its recorded frames: show_run.py results/modelC2_snow [...]. Needs no YADE."""
-import argparse
+"""Make the pictures of recorded runs again: show_run.py results/modelC2_snow [...] [--out DIR]. Needs no YADE."""
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+from show_common import Parser, errors_in_a_line, path
 
-from yade_timber.pictures import all_pictures as pictures  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.base.errors import RunError
+from yade_timber.pictures import all_pictures
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, nargs="+", help="folder of a run's results (it holds frames.h5)")
-    parser.add_argument("--out", type=Path, help="folder of the pictures, or of a folder for each of several runs (default: beside the frames)")
+    parser = Parser(description=__doc__)
+    parser.add_argument("folder", type=path, nargs="+", help="folder of a run's results (with frames.h5)")
+    parser.add_argument("--out", type=path, help="folder to write to; for several runs a folder for each (default: beside the frames)")
     return parser.parse_args()
 
 
@@ -22,16 +20,13 @@ def main():
     options = arguments()
     names = [folder.resolve().name for folder in options.folder]
     if options.out and len(set(names)) < len(names):
-        sys.exit("error: --out: two of the runs have folders of the same name; show them one by one")
+        sys.exit("error: --out: two runs have folders of the same name; show them one by one")
     for folder in options.folder:
         out = folder if options.out is None else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
-        try:
-            out.mkdir(parents=True, exist_ok=True)
-            written = pictures.write(out, folder)
-        except RunError as problem:
-            sys.exit(f"error: {problem}")
-        except OSError as problem:
-            sys.exit(f"error: {problem.filename}: cannot be written ({problem.strerror})")
+        with errors_in_a_line(out, RunError):
+            if out != folder:
+                out.mkdir(parents=True, exist_ok=True)
+            written = all_pictures.write(out, folder)
         print("written: " + ", ".join(map(str, written)))
 
 

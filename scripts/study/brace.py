@@ -78,7 +78,7 @@ def plot(table, without, options, path):
     colours = plt.cm.ScalarMappable(plt.Normalize(-100 * limit, 100 * limit), "PuOr_r")
     for axis, storey in zip(axes[1:], storeys):
         draw_plan(axis, model, main_house, storey, table, colours)
-    fallen = "; black: the house collapses" if any(row["collapses"] for row in table) else ""
+    fallen = "\nblack: the house collapses" if any(row["collapses"] for row in table) else ""
     figure.colorbar(colours, ax=axes[1:], orientation="horizontal", shrink=0.6, label=f"change of the largest storey drift by one more brace there [%]{fallen}")
     snow = f", {options.snow:g} m of snow" if options.snow else ""
     figure.suptitle(f"House {model.name}: one more brace; synthetic motions of seeds {', '.join(map(str, options.seeds))}, times {options.scale:g}{snow}")

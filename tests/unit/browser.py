@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A headless Chromium for tests of pages, with WebGL drawn by the processor; skips where something is missing."""
+"""A headless Chromium for tests of pages, with WebGL in software; skips where something is missing."""
 import io
 import json
 import os
@@ -16,7 +16,7 @@ FLAGS = ("--headless=new", "--no-sandbox", "--no-first-run", "--disable-backgrou
 
 @contextmanager
 def chromium(folder):
-    """A selenium driver; its scratch files go to the folder."""
+    """A selenium driver with its scratch files in a folder."""
     webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is missing (package python3-selenium)")
     from selenium.webdriver.chrome.service import Service
 
@@ -36,7 +36,7 @@ def chromium(folder):
 
 
 def resize(driver, width, height, phone=False):
-    """Size of the page in pixels; as a phone: with touch and the phone's way to lay pages out."""
+    """Set the size of the page in pixels; phone: with touch and the layout of phones."""
     metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
 
@@ -45,16 +45,16 @@ def wait(condition, seconds=60):
     """Wait until a condition holds; fails when it does not."""
     end = time.monotonic() + seconds
     while not (value := condition()):
-        assert time.monotonic() < end, "waited in vain"
+        assert time.monotonic() < end, f"not within {seconds} s"
         time.sleep(0.05)
     return value
 
 
 def picture(driver):
-    """(rows, columns, 3) of the page as seen, 0..1."""
+    """Screenshot (rows, columns, 3) in 0..1."""
     return matplotlib.image.imread(io.BytesIO(driver.get_screenshot_as_png()))[..., :3]
 
 
 def errors(driver):
-    """Lines of the console that tell an error; reading empties it."""
+    """Error lines of the console; reading empties it."""
     return [json.dumps(line) for line in driver.get_log("browser") if line["level"] == "SEVERE"]

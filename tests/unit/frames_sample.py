@@ -73,7 +73,10 @@ def motion():
 
 def summary(name):
     drift = {"ns": 1.3, "ew": 0.39}
-    return {"model": name, "broken": {"total": 7, "damaged_at_start": {"total": 1}}, "joints": {"total": 8}, "snow": False, "tilt_time_s": 2.3,
+    found = {"first_break": (2.1, "first spring breaks: column-beam, storey 1, south"), "tilt": (2.3, "storey drift passes 1/10 N-S"),
+             "collapse": (2.9, "collapse: a floor is down by half a storey")}
+    events = [{"time_s": time, "kind": kind, "what": what, "number": 1} for kind, (time, what) in found.items()]
+    return {"model": name, "events": events, "broken": {"total": 7, "damaged_at_start": {"total": 1}}, "joints": {"total": 8}, "snow": False, "tilt_time_s": 2.3,
             "tilt_direction": "ns", "collapsed": True, "collapse_time_s": 2.9, "peak_drift": {"storey1": drift, "storey2": {"ns": None, "ew": None}}}
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Recorded frames: written and read back, damaged files, placements in a frame, choice of key times. Needs no YADE."""
+"""Recorded frames: written and read back, damaged files, placements in a frame. Needs no YADE."""
 import dataclasses
 import os
 
@@ -8,7 +8,6 @@ import h5py
 import numpy as np
 import pytest
 from small_frames import CUBE, frames
-from yade_timber.pictures import key_times as moments
 from yade_timber.recording import frames as files
 from yade_timber.base.errors import RunError
 
@@ -160,26 +159,3 @@ def test_joint_states():
     made = frames()
     assert [list(made.joint_states(made.at(t))) for t in (0, 1.3, 2.0)] == [
         ["before", "whole", "whole"], ["before", "partly", "whole"], ["before", "broken", "partly"]]
-
-
-# --- key times -------------------------------------------------------------------------------------------------------
-
-
-def test_moments_that_have_a_name():
-    made = frames()
-    found = {m.reason: made.time[m.frame] for m in moments.choose(made)}
-    assert found == pytest.approx({"start": 0, "end": 3, "collapse: half a storey down": 2, "leans by 1/10": 1.5, "strongest shaking": 1.2, "": found[""]})
-
-
-def test_other_moments_halve_the_motion():
-    """Nothing is known of this run but its frames: the upper box moves between 1 s and 2 s only."""
-    made = frames(ended=False, shaken=False)
-    times = [made.time[m.frame] for m in moments.choose(made)]
-    assert len(times) == 6 and times == sorted(times) and (times[0], times[-1]) == (0, 3)
-    assert sum(1 <= t <= 2 for t in times) >= 3
-
-
-def test_a_run_of_two_frames():
-    made = frames(ended=False, shaken=False)
-    made.time, made.position = made.time[:2], made.position[:2]
-    assert [(m.frame, m.reason) for m in moments.choose(made)] == [(0, "start"), (1, "so far")]

@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Scripts that make pictures of finished runs: gallery and pictures again; one line for what cannot be read. Need no YADE."""
+"""The show scripts and the gallery: pictures of finished runs, one line and status 1 for wrong input. Need no YADE."""
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import h5py
 import pytest
 from small_frames import frames
+from yade_timber.pictures.figures import stem_of
 from yade_timber.recording import frames as recorded
-from yade_timber.pictures import sheets
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
-def run(script, *words):
+def run(script, *arguments):
     """CompletedProcess of a script; it finds no Chromium, whose picture of the player has a test of its own."""
-    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, words)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
+    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
+
+
+def check_one_line(done, *parts):
+    """Status 1, one line on stderr that begins with 'error: ' and has the parts in it."""
+    assert done.returncode == 1 and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1, done.stderr
+    assert all(part in done.stderr for part in parts), done.stderr
 
 
 def save_runs(folder, ended):
@@ -34,16 +41,80 @@ def test_gallery(tmp_path):
     assert all(5_000 < path.stat().st_size < 150_000 for path in made.values())
 
 
-def test_gallery_of_runs_that_are_not_over(tmp_path):
+def test_gallery_of_runs_that_have_not_ended(tmp_path):
     save_runs(tmp_path, ended=False)
     done = run("paper/make_gallery.py", tmp_path, "--out", tmp_path / "docs")
-    assert done.returncode == 1 and "not over" in done.stderr and done.stderr.count("\n") == 1
+    check_one_line(done, "has not ended")
 
 
-@pytest.mark.parametrize("script", ["show/show_run.py", "paper/make_gallery.py"])
-def test_nothing_there(tmp_path, script):
-    done = run(script, tmp_path, "--out", tmp_path)
-    assert done.returncode == 1 and done.stderr.startswith("error: ") and "frames.h5: no such file" in done.stderr and done.stderr.count("\n") == 1
+def no_hdf5(path):
+    path.write_bytes(b"no HDF5 at all")
+
+
+def truncated(path):
+    recorded.save(path, frames())
+    path.write_bytes(path.read_bytes()[:20_000])
+
+
+def another_kind(path):
+    with h5py.File(path, "w") as file:
+        file["position"] = [1.0]
+
+
+def huge_shapes(path):
+    """Declares 1.2 TB of positions of which nothing is stored."""
+    recorded.save(path, frames())
+    with h5py.File(path, "r+") as file:
+        del file["frames/position"]
+        file["frames"].create_dataset("position", shape=(10**6, 10**5, 3), dtype="f4", chunks=(1, 1, 3))
+
+
+def foreign_numbers(path):
+    recorded.save(path, frames())
+    with h5py.File(path, "r+") as file:
+        file["joints/a"][:] = 10**6
+
+
+def no_number(path):
+    made = frames()
+    made.position[5][1][0] = float("nan")
+    recorded.save(path, made)
+
+
+def wrong_events(path):
+    made = frames()
+    made.summary = {**made.summary, "events": [{"time_s": "soon", "kind": "tilt", "what": 3}]}
+    recorded.save(path, made)
+
+
+@pytest.mark.parametrize("damage", [no_number, wrong_events])
+def test_readable_frames_with_impossible_content(tmp_path, damage):
+    damage(tmp_path / recorded.NAME)
+    check_one_line(run("show/make_player.py", tmp_path))
+
+
+@pytest.mark.parametrize("script", ["show/show_run.py", "show/make_player.py", "show/export_vtk.py"])
+@pytest.mark.parametrize("damage", [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers])
+def test_frames_that_cannot_be_used(tmp_path, script, damage):
+    damage(tmp_path / recorded.NAME)
+    check_one_line(run(script, tmp_path, "--out", tmp_path / "out"), "frames.h5: ")
+    assert not list(tmp_path.glob("out/*"))
+
+
+def test_gallery_of_nothing(tmp_path):
+    check_one_line(run("paper/make_gallery.py", tmp_path, "--out", tmp_path), "frames.h5: no such file")
+
+
+@pytest.mark.parametrize("script, arguments", [
+    ("show_run.py", ["."]), ("make_player.py", ["."]), ("export_vtk.py", ["."]), ("show_house.py", ["A"]), ("show_record.py", []),
+])
+def test_empty_output(script, arguments):
+    check_one_line(run(f"show/{script}", *arguments, "--out", ""), "--out", "empty")
+
+
+@pytest.mark.parametrize("every", ["0", "-1", "1.5", "nine", "9" * 5000])
+def test_every_that_is_no_number(tmp_path, every):
+    check_one_line(run("show/export_vtk.py", tmp_path, f"--every={every}"), "--every")
 
 
 def test_pictures_of_several_runs_lie_apart(tmp_path):
@@ -54,7 +125,7 @@ def test_pictures_of_several_runs_lie_apart(tmp_path):
 
 
 def test_a_dot_in_a_name_is_no_ending(tmp_path):
-    assert sheets.stem_of(tmp_path / "site.a") == tmp_path / "site.a" and sheets.stem_of(tmp_path / "site.a.png") == tmp_path / "site.a"
+    assert stem_of(tmp_path / "site.a") == tmp_path / "site.a" and stem_of(tmp_path / "site.a.png") == tmp_path / "site.a"
     (tmp_path / "mine.yaml").write_text("extends: A\nname: house 1.5\n")
     done = subprocess.run([sys.executable, SCRIPTS / "show" / "show_house.py", "mine.yaml"], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -64,4 +135,18 @@ def test_a_dot_in_a_name_is_no_ending(tmp_path):
 def test_a_folder_that_cannot_be_written(tmp_path):
     recorded.save(tmp_path / recorded.NAME, frames())
     done = run("show/show_run.py", tmp_path, "--out", tmp_path / recorded.NAME)
-    assert done.returncode == 1 and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
+    check_one_line(done, "cannot be written")
+
+
+@pytest.mark.parametrize("script, first", [("show_house.py", "A"), ("show_record.py", "--pga=400")])
+def test_a_picture_that_cannot_be_written(tmp_path, script, first):
+    check_one_line(run(f"show/{script}", first, "--out", tmp_path / "none" / "x.png"), "x.png: cannot be written")
+
+
+@pytest.mark.parametrize("name, file", [("a/../b", "house_a_.._b.png"), ("$\\\\frac{$", None), ("y" * 300, f"house_{'y' * 74}.png")])
+def test_any_name_of_a_house(tmp_path, name, file):
+    """Drawn literally, and a file name in this folder."""
+    (tmp_path / "mine.yaml").write_text(f'extends: A\nname: "{name}"\n')
+    done = subprocess.run([sys.executable, SCRIPTS / "show" / "show_house.py", "mine.yaml"], capture_output=True, text=True, cwd=tmp_path)
+    made = [path.name for path in tmp_path.glob("*.png")]
+    assert done.returncode == 0 and len(made) == 1 and file in (None, *made), (done.stderr, made)

@@ -7,15 +7,16 @@ import re
 import subprocess
 import sys
 import zlib
+from hashlib import sha256
 from pathlib import Path
 
 import frames_sample
 import numpy as np
 import pytest
-from yade_timber.recording import frames
-from yade_timber.pictures import player
 from yade_timber.base.errors import RunError
+from yade_timber.pictures import key_times, player
 from yade_timber.pictures.packing import pack
+from yade_timber.recording import frames
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "make_player.py"
 
@@ -100,24 +101,48 @@ def test_a_long_run_stays_below_8_megabytes(tmp_path):
     run.orientation = turns / np.linalg.norm(turns, axis=2, keepdims=True)
     run.load, run.broken = random.uniform(size=(times, 294)), random.integers(0, 5, (times, 294))
     frames.save(tmp_path / "frames.h5", run)
-    assert player.make(tmp_path / "frames.h5", tmp_path / "player.html").stat().st_size < 8e6
+    assert player.make([("x", frames.load(tmp_path / "frames.h5"))], tmp_path / "player.html").stat().st_size < 8e6
 
 
 def test_the_page_is_whole_and_needs_nothing_else(tmp_path):
-    frames_sample.write(tmp_path / "frames.h5")
-    page = player.make(tmp_path / "frames.h5", tmp_path / "player.html").read_text(encoding="utf-8")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["frames.h5", "player.html"]
+    page = player.make([("x", frames_sample.run())], tmp_path / "player.html").read_text(encoding="utf-8")
+    assert [path.name for path in tmp_path.iterdir()] == ["player.html"]
     assert not re.search(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=|@import|url\(", page.split("<script>")[0])
-    assert not re.search(r"<!--(?:title|style|data|script)-->", page) and page.count("</script>") == 2
+    assert not re.search(r"{{\w+}}", page) and page.count("</script>") == 2
     assert "MIT License" in page and "three.js authors" in page
 
 
-def test_events_are_told_in_order():
+def test_the_policy_permits_this_script_and_this_style_only(tmp_path):
+    page = player.make([("x", frames_sample.run())], tmp_path / "player.html").read_text(encoding="utf-8")
+    policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page)[1]
+    assert "default-src 'none'" in policy and "unsafe" not in policy and "*" not in policy
+    for tag in ("script", "style"):
+        body = re.search(rf"<{tag}>(.*)</{tag}>", page, re.DOTALL)[1]
+        assert f"{tag}-src 'sha256-{base64.b64encode(sha256(body.encode()).digest()).decode()}'" in policy
+    assert page.index("Content-Security-Policy") < min(page.index("<style>"), page.index("<script"))
+
+
+@pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "{{script}}", "\ud800", "'\"&<>", "a\nb\0c"])
+def test_no_text_from_data_becomes_markup(tmp_path, text):
+    """The title is escaped, everything else is base64; the page has the same tags for any text."""
+    run = frames_sample.run()
+    run.title, run.summary["model"], run.elements.name[1], run.elements.kind[1], run.joints.name[0] = [text] * 5
+    run.summary["events"][0]["what"] = text
+    page = player.make([("x", run)], tmp_path / "player.html").read_text(encoding="utf-8")
+    plain = player.make([("x", frames_sample.run())], tmp_path / "plain.html").read_text(encoding="utf-8")
+    assert page.count("<") == plain.count("<") and re.fullmatch(r"[A-Za-z0-9+/=]+", re.search(r'class="run-data">([^<]*)<', page)[1])
+    title = re.search(r"<title>(.*?)</title>", page, re.DOTALL)[1]
+    assert not set(title) & set("<>\"'")
+    info, _ = unpack(player.packed("x", run))
+    assert info["title"] == player.plain(text) and info["elements"][1]["kind"] == player.plain(text)
+
+
+def test_events_are_in_order():
     texts = [f"{event['time']:.2f} {event['text']}" for event in player.events(frames_sample.run())]
     assert [text[:24] for text in texts] == sorted(text[:24] for text in texts)
-    expected = ["1.01 the shaking begins", "damage begins", "2.10 first spring breaks: column-beam, storey 1, south", "heavy damage", "2.30 the house leans N-S", "2.90 collapse"]
+    expected = ["1.01 the shaking begins", "damage begins", "2.10 first spring breaks: column-beam, storey 1, south", "heavy damage", "2.30 storey drift passes 1/10 N-S", "2.90 collapse"]
     assert all(any(part in text for text in texts) for part in expected), texts
-    assert player.onset(frames_sample.motion()) == pytest.approx(1.01)
+    assert key_times.onset(frames_sample.motion()) == pytest.approx(1.01)
 
 
 def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():
@@ -130,10 +155,10 @@ def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():
 def test_no_frames_and_too_many_runs(tmp_path):
     run = frames_sample.run()
     run.time = []
-    with pytest.raises(RunError, match="no frames in it"):
+    with pytest.raises(RunError, match="it has no frames"):
         player.packed("empty.h5", run)
     with pytest.raises(RunError, match="3 runs: the player shows one, or compares two"):
-        player.make(["a", "b", "c"], tmp_path / "x.html")
+        player.make([("x", run)] * 3, tmp_path / "x.html")
 
 
 def call(*arguments):
@@ -159,4 +184,4 @@ def test_script_says_what_is_wrong_in_a_line(tmp_path):
         assert done.returncode == 1 and word in done.stderr and done.stderr.count("\n") == 1
     frames_sample.write(tmp_path / "frames.h5")
     done = call(tmp_path, "--out", tmp_path / "no" / "such" / "folder.html")
-    assert done.returncode == 1 and "cannot write it" in done.stderr and done.stderr.count("\n") == 1
+    assert done.returncode == 1 and "folder.html: cannot be written" in done.stderr and done.stderr.count("\n") == 1

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The player's bundle belongs to its sources: by the hash in its header, and, where node is, by building it again."""
+"""The player's bundle was built from its sources: checked by the hash in its header and, with node, by building it again."""
 import re
 import shutil
 import subprocess
@@ -14,17 +14,17 @@ SOURCES, ASSETS = ROOT / "player", ROOT / "py" / "yade_timber" / "data" / "playe
 
 
 def source_hash():
-    """As build.mjs makes it."""
+    """The hash of build.mjs."""
     names = sorted(["build.mjs", "package-lock.json", "package.json", *(f"src/{path.name}" for path in (SOURCES / "src").iterdir())])
     return sha256(b"".join(name.encode() + b"\n" + (SOURCES / name).read_bytes() for name in names)).hexdigest()
 
 
 def test_bundle_is_up_to_date():
     found = re.search(r"sources sha256 ([0-9a-f]{64})", (ASSETS / "player.js").read_text(encoding="utf-8")[:500])
-    assert found and found[1] == source_hash(), "player.js is older than player/src: cd player && npm ci && npm run build"
+    assert found and found[1] == source_hash(), "player.js is not built from player/src: cd player && npm ci && npm run build"
 
 
-def test_bundle_carries_the_licences():
+def test_bundle_contains_the_licences():
     head = (ASSETS / "player.js").read_text(encoding="utf-8")[:3000]
     licence = (ASSETS / "LICENSE.three.js.txt").read_text(encoding="utf-8").strip()
     assert "GPL-2.0-or-later" in head and licence in head

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The player in a real browser: it shows what the data say, is worked by mouse and keys, fits a phone, and needs no network."""
+"""The player in a browser: it shows the recorded data, obeys mouse, touch and keys, fits a phone, uses no network, runs no code from data."""
 import browser
 import frames_sample
 import numpy as np
 import pytest
 from browser import errors, picture, resize, wait
-from yade_timber.recording import frames
 from yade_timber.pictures import player
+from yade_timber.recording import frames
 
-WIDE, PHONE = (920, 600), (360, 740)
+WIDE, PHONE, LYING_PHONE = (920, 600), (360, 740), (844, 390)
 MIDDLE, HEAD, FOOT = [0, 0, 0], [0, 0, 1.1], [0, 0, -1.1]  # of an element; of a column, near its ends [m]
 ROOF_IS_DARK = 0.5  # brightest channel of its pixels; sky and ground are above 0.7
 
@@ -24,9 +24,9 @@ def driver(tmp_path_factory):
 def pages(tmp_path_factory):
     """Addresses of a page with one run, and of one with two, of which the second ends earlier; and the runs."""
     folder = tmp_path_factory.mktemp("player")
-    runs = [frames_sample.write(folder / "a.h5", name="A"), frames_sample.write(folder / "b.h5", name="B", until=3.0)]
-    player.make(folder / "a.h5", folder / "one.html")
-    player.make([folder / "a.h5", folder / "b.h5"], folder / "two.html")
+    runs = [frames_sample.run(name="A"), frames_sample.run(name="B", until=3.0)]
+    player.make([("a", runs[0])], folder / "one.html")
+    player.make([("a", runs[0]), ("b", runs[1])], folder / "two.html")
     return f"file://{folder}/one.html", f"file://{folder}/two.html", runs
 
 
@@ -158,7 +158,28 @@ def test_keys(still):
     assert ask(still, "document.getElementById('help').open")
     press(still, Keys.ESCAPE)
     assert not ask(still, "document.getElementById('help').open")
+    press(still, "?")
+    still.find_element("css selector", "#help form button").click()
+    assert not ask(still, "document.getElementById('help').open")
     assert errors(still) == []
+
+
+def test_space_plays_after_a_click_and_presses_a_button_reached_by_tab(still):
+    from selenium.webdriver.common.keys import Keys
+
+    side, front = (still.find_element("id", f"camera-{name}") for name in ("side", "front"))
+    side.click()
+    wait(lambda: side.get_attribute("aria-pressed") == "true")
+    press(still, "1")
+    wait(lambda: front.get_attribute("aria-pressed") == "true")
+    press(still, " ")
+    assert ask(still, "player.playing") and front.get_attribute("aria-pressed") == "true"
+    press(still, " ")
+    assert not ask(still, "player.playing")
+    ask(still, "document.getElementById('camera-front').focus()")
+    press(still, Keys.TAB, " ")
+    wait(lambda: side.get_attribute("aria-pressed") == "true")
+    assert not ask(still, "player.playing")
 
 
 def test_keys_turn_the_house(still):
@@ -203,6 +224,19 @@ def test_curves_events_and_slider_go_to_a_time(still):
     assert "collapses at 2.9 s" in still.find_element(By.CLASS_NAME, "result").text
 
 
+def test_events_are_marked_on_the_time_line(still, pages):
+    """A mark for each event, with its text; the text of the last event stands there for a while."""
+    events = player.events(pages[2][0])
+    marks = still.find_elements("css selector", "#ticks i")
+    assert [mark.get_attribute("title").split(" s ", 1)[1] for mark in marks] == [event["text"] for event in events]
+    marks[-1].click()
+    assert ask(still, "player.time") == pytest.approx(events[-1]["time"])
+    shown = still.find_element("id", "event")
+    wait(lambda: shown.text == events[-1]["text"])
+    ask(still, "player.seek(0)")
+    wait(lambda: shown.text == "")
+
+
 def test_every_control_has_a_name_and_no_network_is_used(still):
     nameless = """[...document.querySelectorAll('button, input, select, canvas.view')].filter(
         (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.labels?.[0]?.textContent.trim())).length"""
@@ -226,6 +260,19 @@ def test_it_fits_a_phone(still):
     wait(lambda: roof_is_drawn(still, 0))
     small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.getBoundingClientRect().height < 36).length"
     assert ask(still, small) == 0
+
+
+def test_the_state_is_in_sight_on_a_lying_phone(still):
+    """A long result takes two lines; the line with the state is not below the controls."""
+    resize(still, *LYING_PHONE, phone=True)
+    wait(lambda: ask(still, "innerWidth") == LYING_PHONE[0])
+    ask(still, "scrollTo(0, 0)")
+    before = ask(still, "document.querySelector('.result').textContent")
+    ask(still, "void (document.querySelector('.result').textContent = 'a long result '.repeat(15))")
+    now, controls = (ask(still, f"document.querySelector('{name}').getBoundingClientRect().toJSON()") for name in (".now", "#transport"))
+    assert now["top"] >= 0 and now["bottom"] <= controls["top"] and controls["bottom"] <= LYING_PHONE[1] + 1
+    ask(still, f"void (document.querySelector('.result').textContent = {before!r})")
+    resize(still, *WIDE)
 
 
 def test_it_plays_by_itself_unless_the_user_wants_no_motion(driver, pages):
@@ -255,3 +302,75 @@ def test_two_runs_in_step(driver, pages):
     assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
     assert second["y"] < ask(driver, "document.getElementById('transport').getBoundingClientRect().top")
     assert errors(driver) == []
+
+
+def touch(driver, *path):
+    """A finger along points (x, y) of the page [pixel], by the browser's own events."""
+    points = [[{"x": x, "y": y}] for x, y in path]
+    for kind, touches in (("touchStart", points[0]), *(("touchMove", point) for point in points[1:]), ("touchEnd", [])):
+        driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+
+def place_of_curves(driver):
+    """(x, y) at 0.8 of the width of the curves, scrolled to the middle of the page. [pixel]"""
+    ask(driver, "document.querySelector('.curves').scrollIntoView({block: 'center'})")
+    box = ask(driver, "document.querySelector('.curves').getBoundingClientRect().toJSON()")
+    return box["left"] + 0.8 * box["width"], box["top"] + 0.5 * box["height"]
+
+
+def test_a_scroll_that_begins_on_a_curve_keeps_the_time(driver, pages):
+    """A tap and a sideways drag go to a time, a drag upwards scrolls the page."""
+    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
+    x, y = place_of_curves(driver)
+    before = ask(driver, "scrollY")
+    touch(driver, (x, y), *((x, y - 10 * k) for k in range(1, 10)))
+    wait(lambda: ask(driver, "scrollY") != before)
+    assert ask(driver, "player.time") == 1.5
+    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
+    x, y = place_of_curves(driver)
+    touch(driver, (x, y))
+    wait(lambda: ask(driver, "player.time") > 2.5)
+    touch(driver, (x, y), (x - 30, y), (x - 60, y), (x - 90, y))
+    wait(lambda: ask(driver, "player.time") < 2.5)
+    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+
+
+HOSTILE = ["<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>", "'\"><svg/onload=document.title='RUN'>", "$\\frac{$", "__proto__"]
+
+
+def hostile_run(text):
+    """A run whose every text is hostile."""
+    run = frames_sample.run(name=text)
+    run.title = text
+    run.elements.kind[2:4] = [text, text + "2"]
+    run.elements.name[2], run.joints.name[0], run.joints.kind[0], run.joints.side[0] = text, text, text, text
+    run.summary["events"][0]["what"] = text
+    return run
+
+
+@pytest.mark.parametrize("number", range(len(HOSTILE)))
+def test_no_text_from_data_runs(driver, tmp_path, number):
+    """Names, titles, kinds and events appear as text; the page has the elements that it has without them."""
+    text = HOSTILE[number]
+    page = player.make([("x", hostile_run(text))], tmp_path / "hostile.html")
+    load(driver, f"file://{page}#t=2.5", WIDE, motion=False)
+    assert driver.title == text and ask(driver, "document.querySelector('h1').textContent") == text
+    assert f"House {text} " in ask(driver, "document.querySelector('.result').textContent")
+    labels = ask(driver, "[...document.querySelectorAll('#legend-list li')].map((e) => e.textContent)")
+    assert {text, text + "2", "roof"} <= set(labels)
+    assert any(text in event for event in ask(driver, "[...document.querySelectorAll('.events button')].map((e) => e.textContent)"))
+    assert ask(driver, "document.querySelectorAll('img, iframe, [onerror], [onload], script:not(.run-data)').length") == 1
+    assert errors(driver) == []
+
+
+def test_the_policy_stops_foreign_code(driver, tmp_path):
+    """Were markup from data in the page, the browser would not run it: script, handler, style, picture and network are refused."""
+    page = player.make([("x", frames_sample.run())], tmp_path / "page.html")
+    foreign = "<script>document.title = 'RUN'</script><img src=x onerror=\"document.title = 'RUN'\"><style>h1 { display: none }</style>"
+    page.write_text(page.read_text(encoding="utf-8").replace('<main id="runs">', foreign + '<main id="runs">'), encoding="utf-8")
+    load(driver, f"file://{page}#t=2.5", WIDE, motion=False)
+    assert driver.title == "House A: earthquake" and driver.find_element("css selector", "h1").is_displayed()
+    assert ask(driver, "fetch('https://example.org/').then(() => 'reached', () => 'refused')") == "refused"
+    assert sum("Content Security Policy" in line for line in errors(driver)) >= 4

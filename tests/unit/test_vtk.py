@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The VTK export, read back with VTK: elements, joints and contact forces of an invented run are where the frames say. Needs no YADE."""
+"""The VTK export, read back with VTK: elements, joints and contact forces of an invented run are at their recorded positions. Needs no YADE."""
 import subprocess
 import sys
 from pathlib import Path
@@ -68,7 +68,7 @@ def test_elements(folder):
 
 
 def test_joints(folder):
-    """The two ends coincide at the start; at the end that of the upper box has gone with it."""
+    """The two ends coincide at the start; at the end the one on the upper box has moved with it."""
     made, found = frames(), series(folder, "joints")
     first, last = points(found[0][1]), points(found[-1][1])
     assert np.allclose(first[:3], first[3:], atol=1e-6) and np.allclose(last[:3], made.joint_places(-1), atol=1e-6)
@@ -84,7 +84,7 @@ def test_contacts(folder):
     assert np.allclose(values(data.GetPointData(), "force"), [[0, 0, 20], [0, 0, 10]]) and values(data.GetPointData(), "elements").tolist() == [[0, 1], [1, 2]]
 
 
-@pytest.mark.parametrize("options, words", [(["--every", "0"], "1 or more"), ([], "no such file")])
-def test_bad_input(tmp_path, options, words):
+@pytest.mark.parametrize("options, message", [(["--every", "0"], "1 or more"), ([], "no such file")])
+def test_bad_input(tmp_path, options, message):
     done = export(tmp_path, *options)
-    assert done.returncode != 0 and words in done.stderr
+    assert done.returncode != 0 and message in done.stderr

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Colours, the same in all pictures; told apart by colour-blind readers (Okabe and Ito 2008) and in grey print."""
+"""Colours shared by all pictures, distinct for colour-blind readers (Okabe and Ito 2008) and in grey print."""
 
-KINDS = {  # of elements, RGB in 0..1
+KINDS = {  # of elements; RGB in 0..1
     "ground": (0.55, 0.55, 0.50),
     "foundation": (0.60, 0.60, 0.60),
     "sill": (0.60, 0.45, 0.30),
@@ -13,7 +13,7 @@ KINDS = {  # of elements, RGB in 0..1
     "snow": (0.95, 0.97, 1.00),
 }
 OTHER = (0.7, 0.7, 0.7)
-"""Of a kind that has no colour of its own."""
+"""For kinds of elements without a colour of their own."""
 BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY = "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#F0E442", "#999999"
 DIRECTIONS = {"ns": BLUE, "ew": ORANGE, "ud": GREY}
 """N-S, E-W, up-down."""

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
 from ..recording import frames
-from . import player
-from .views import VIEWS
 
-END, CURVES = "end_state", "history"
-NAMES = [f"{END}.png"] + [f"{stem}.{ending}" for stem in (*(view.name for view in VIEWS), CURVES) for ending in ("png", "pdf")] + [player.NAME]
+END, CURVES, PLAYER = "end_state", "history", "player.html"
+SHEETS = ("front", "side")
+NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
 
 
@@ -14,13 +13,13 @@ def write(folder, results=None):
 
     Raises RunError when the frames cannot be read, OSError when a picture cannot be written.
     """
-    from . import curves as plots  # not above: a run without pictures needs no matplotlib, which takes 22 MB and 0.3 s
-    from . import sheets  # not above: a run without pictures needs no matplotlib, which takes 22 MB and 0.3 s
+    from . import curves, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
-    recorded = frames.load((results or folder) / frames.NAME)
+    path = (results or folder) / frames.NAME
+    recorded = frames.load(path)
     written = sheets.write_end(folder / END, recorded)
-    for view in VIEWS:
+    for view in views.VIEWS:
         written += sheets.write_sheet(folder / view.name, recorded, view)
-    if recorded.history and len(recorded.history[1]):
-        written += plots.write(folder / CURVES, recorded)
-    return written + [player.make((results or folder) / frames.NAME, folder / player.NAME)]
+    if recorded.history and recorded.history.samples:
+        written += curves.write(folder / CURVES, recorded)
+    return written + [player.make([(path, recorded)], folder / PLAYER)]

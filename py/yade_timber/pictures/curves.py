@@ -1,64 +1,79 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of curves for a run: ground motion, storey drifts, broken joints, energy balance. Needs no YADE."""
+"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance. Needs no YADE."""
 from itertools import cycle
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
-from ..base import colors as palette
-from .sheets import heading, save
+from ..base import colors
 from ..recording.sentences import DRIFT_LINES
+from .figures import A4, drawable, heading, heading_height, new_figure, save
+from .key_times import onset
+from .sheets import result
 
-PAPER = (8.27, 11.69)
-"""A4, upright. [inch]"""
 DPI = 200
 DRIFT_RANGE = 0.16
 """Largest drift shown: beyond it a storey falls. [-]"""
-STOREYS = ((palette.BLUE, "-"), (palette.ORANGE, "--"), (palette.GREEN, "-."))
-JOINT_KINDS = {"column_beam": palette.ORANGE, "brace_beam": palette.BLUE, "floor_beam": palette.AMBER, "roof_beam": palette.PURPLE, "roof_roof": palette.GREEN}
+AT_REST = 1e-3
+"""Before the shaking a house with smaller storey drifts is at rest. [-]"""
+LEAD = 1.0
+"""Time shown before the shaking. [s]"""
+LABEL_GAP = 10
+"""Between the baselines of two labels of drifts. [pt]"""
+STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
+JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
 DISSIPATED = {
-    "dashpot_normal": ("contact dashpots,\nnormal", palette.SKY_BLUE),
-    "dashpot_shear": ("contact dashpots,\ntangential", palette.BLUE),
-    "friction": ("friction", palette.AMBER),
-    "broken_springs": ("broken joints", palette.ORANGE),
-    "lost_contacts": ("contacts lost\nunder load", palette.PURPLE),
+    "dashpot_normal": ("contact dashpots,\nnormal", colors.SKY_BLUE),
+    "dashpot_shear": ("contact dashpots,\ntangential", colors.BLUE),
+    "friction": ("friction", colors.AMBER),
+    "broken_springs": ("broken joints", colors.ORANGE),
+    "lost_contacts": ("contacts lost\nunder load", colors.PURPLE),
 }
 
 
 def write(stem, frames):
     """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(frames), stem, ("png", "pdf"), DPI)
+    return save(page(frames, DPI), stem, ("png", "pdf"), DPI)
 
 
-def page(frames):
+def page(frames, dpi):
     """Figure with the curves of an ended run."""
-    values = dict(zip(frames.history[0], np.asarray(frames.history[1], float).T))
-    shaken = frames.motion is not None
-    figure = Figure(figsize=PAPER, facecolor="white")
-    FigureCanvasAgg(figure)
+    history, shaken = frames.history, frames.motion is not None
+    figure = new_figure(*A4, dpi)
     axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
-    figure.subplots_adjust(left=0.11, right=0.77, top=1 - 0.95 / PAPER[1], bottom=0.06, hspace=0.18)
+    head = heading_height(A4[0], result(frames)) + 0.2
+    figure.subplots_adjust(left=0.11, right=0.77, top=1 - head / A4[1], bottom=0.06, hspace=0.18)
     if shaken:
         draw_motion(axes.pop(0), frames.motion)
-    for axis, key, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
-        draw_drifts(axis, values, key, name)
+    for axis, direction, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
+        draw_drifts(axis, history, direction, name)
     draw_breaks(axes[2], frames)
-    draw_energy(axes[3], values)
+    draw_energy(axes[3], history)
     draw_events(figure.axes, frames.summary)
+    start = first_shown(frames)
     for axis in figure.axes:
         axis.grid(alpha=0.25)
         axis.tick_params(labelsize=8)
-        axis.set_xlim(0, frames.time[-1])
-    figure.axes[-1].set_xlabel("time [s]", fontsize=9)
+        axis.set_xlim(start, frames.time[-1])
+    rest = f"; ground and house are at rest before {start:.1f} s" if start else ""
+    figure.axes[-1].set_xlabel(f"time [s]{rest}", fontsize=9)
     figure.align_ylabels()
-    heading(figure, frames, "History")
+    heading(figure, f"{frames.title}. History", result(frames))
     return figure
 
 
+def first_shown(frames):
+    """Time at which the curves begin: shortly before the shaking when the house is at rest until then, else 0. [s]"""
+    if frames.motion is None:
+        return 0.0
+    start = min(onset(frames.motion), frames.time[-1]) - LEAD
+    moving = frames.history.time[frames.history.largest_drift() > AT_REST]
+    first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
+    return float(start) if 0 < start < first else 0.0
+
+
 def draw_events(axes, found):
-    """Lines through all axes when the house leans by 1/10 and when a floor has come down by half a storey, with words on top."""
-    for key, text, side in (("tilt_time_s", "leans", "right"), ("collapse_time_s", "collapses", "left")):
+    """Lines through all axes where a storey drift passes 1/10 and where the house collapses, with labels above."""
+    for key, text, side in (("tilt_time_s", "drift 1/10", "right"), ("collapse_time_s", "collapses", "left")):
         if found[key] is not None:
             for axis in axes:
                 axis.axvline(found[key], color="black", lw=0.7, ls="--")
@@ -66,7 +81,7 @@ def draw_events(axes, found):
 
 
 def legend(axis):
-    """Legend beside the axes, where it hides no curve."""
+    """Legend to the right of the axes."""
     axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
@@ -77,34 +92,42 @@ def label(axis, text):
 def draw_motion(axis, motion):
     """Ground acceleration."""
     for k, key, name in ((2, "ud", "up-down"), (0, "ew", "E-W"), (1, "ns", "N-S")):
-        axis.plot(motion.time, motion.acceleration[:, k], color=palette.DIRECTIONS[key], lw=0.6, label=name)
+        axis.plot(motion.time, motion.acceleration[:, k], color=colors.DIRECTIONS[key], lw=0.6, label=name)
     label(axis, "ground acceleration\n[m/s²]")
     legend(axis)
 
 
-def draw_drifts(axis, values, key, name):
-    """Storey drifts in one direction with the lines that engineers know, as far as the drifts reach."""
-    curves = [values[column] for column in values if column.startswith(f"drift_{key}")]
-    for k, (curve, (color, dashes)) in enumerate(zip(curves, cycle(STOREYS)), 1):
-        axis.plot(values["time [s]"], curve, color=color, ls=dashes, lw=0.9, label=f"storey {k}")
+def draw_drifts(axis, history, direction, name):
+    """Storey drifts in one direction, with the drift levels within reach of them."""
+    curves = [history.drift(storey, direction) for storey in history.storeys]
+    for storey, curve, (color, dashes) in zip(history.storeys, curves, cycle(STOREYS)):
+        axis.plot(history.time, curve, color=color, ls=dashes, lw=0.9, label=f"storey {storey}")
     reach = min(DRIFT_RANGE, max(1.2 * np.nanmax(np.abs(curves)), 1.25 * DRIFT_LINES[0][0]))
-    for level, text in DRIFT_LINES:
-        if level < reach:
-            for sign in (-1, 1):
-                axis.axhline(sign * level, color="black", lw=0.7, ls=":")
-            axis.annotate(text, (1, level), (4, 0), ("axes fraction", "data"), "offset points", va="center", fontsize=8)
     axis.set_ylim(-reach, reach)
+    draw_levels(axis, [(level, text) for level, text in DRIFT_LINES if level < reach], reach)
     label(axis, f"storey drift {name} [-]")
     axis.legend(loc="lower left", bbox_to_anchor=(1.01, -0.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
+def draw_levels(axis, levels, reach):
+    """Dotted lines at drift levels [(drift, text)] and their labels, moved apart where they would overlap. reach: upper end of the axis [-]"""
+    points = axis.get_position().height * axis.figure.get_size_inches()[1] * 72 / (2 * reach)  # [pt] per drift
+    lowest = -np.inf
+    for level, text in levels:
+        for sign in (-1, 1):
+            axis.axhline(sign * level, color="black", lw=0.7, ls=":")
+        lowest = max(lowest + LABEL_GAP, level * points)
+        axis.annotate(text, (1, level), (4, lowest - level * points), ("axes fraction", "data"), "offset points", va="center", fontsize=8)
+
+
 def draw_breaks(axis, frames):
-    """Joints broken during the run by kind, and those of which some springs are broken."""
+    """Number of joints broken during the run by kind, and of partly broken joints."""
     kinds = np.array(frames.joints.kind)
     states = np.array([frames.joint_states(k) for k in range(len(frames.time))])
     for kind in dict.fromkeys(kinds):
         broken = (states[:, kinds == kind] == "broken").sum(1)
-        axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, palette.GREY), label=kind.replace("_", "-"))
+        name = drawable(kind.replace("_", "-"), 20)
+        axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, colors.GREY), label=name)
     axis.step(frames.time, (states == "partly").sum(1), where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
     axis.yaxis.get_major_locator().set_params(integer=True)
     axis.set_ylim(0, max(1, axis.get_ylim()[1]))
@@ -112,16 +135,17 @@ def draw_breaks(axis, frames):
     legend(axis)
 
 
-def draw_energy(axis, values):
-    """What came in, and where it went; what is left over is printed."""
-    came = values["ground_motion [J]"] - values["gravity [J]"]
-    parts = [values[f"{name} [J]"] for name in DISSIPATED] + [values["elastic_contacts [J]"] + values["elastic_joints [J]"], values["kinetic [J]"]]
-    names = [name for name, _ in DISSIPATED.values()] + ["elastic", "moving"]
-    colors = [color for _, color in DISSIPATED.values()] + [palette.GREEN, palette.YELLOW]
-    axis.stackplot(values["time [s]"], [part / 1e3 for part in parts], labels=names, colors=colors, lw=0)
-    axis.plot(values["time [s]"], came / 1e3, "k--", lw=1, label="came in: ground\nmotion and gravity")
-    left = abs(sum(parts) - came).max()
-    share = 100 * left / max(abs(came).max(), 1e-300)
-    axis.set_title(f"not accounted for: at most {left / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3)
+def draw_energy(axis, history):
+    """Energy input and its parts; the remainder is printed above."""
+    supplied = history.energy("ground_motion") - history.energy("gravity")
+    parts = [history.energy(name) for name in DISSIPATED]
+    parts += [history.energy("elastic_contacts") + history.energy("elastic_joints"), history.energy("kinetic")]
+    names = [name for name, _ in DISSIPATED.values()] + ["elastic", "kinetic"]
+    fills = [color for _, color in DISSIPATED.values()] + [colors.GREEN, colors.YELLOW]
+    axis.stackplot(history.time, [part / 1e3 for part in parts], labels=names, colors=fills, lw=0)
+    axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
+    residual = abs(sum(parts) - supplied).max()
+    share = 100 * residual / max(abs(supplied).max(), 1e-300)
+    axis.set_title(f"largest error of the energy balance: {residual / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3)
     label(axis, "energy [kJ]")
     legend(axis)

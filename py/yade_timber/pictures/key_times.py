@@ -1,63 +1,83 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Which moments of a run are worth a picture. Needs no YADE."""
+"""The times of a run that are worth a picture. Needs no YADE."""
 from dataclasses import dataclass
 
 import numpy as np
 
 PANELS = 6
-CLOSE = 0.25
-"""Moments nearer than this to one that is chosen already are left out, but for the end. [s]"""
-WORTH = 0.05
-"""A path of the elements [m], root mean square, that a second without motion counts as: in a quiet run pictures are spread over time."""
+CLOSE = 0.5
+"""Two key times are at least this far apart. [s]"""
+DIFFERENT = 0.05
+"""Two pictures differ visibly beyond this mean displacement of the elements. [m]"""
+FARTHEST = 1.0
+"""Largest displacement that counts for one element, so that one that rolls away does not outweigh the house. [m]"""
+ONSET = 0.1
+"""Ground acceleration at which the shaking begins. [m/s2]"""
 
 
 @dataclass(frozen=True)
-class Moment:
-    """frame: number of the frame; reason: why it was chosen, in words; '' where it halves the motion between two others."""
+class KeyTime:
+    """frame: number of the frame; reason: caption, empty for a frame chosen by its motion alone."""
 
     frame: int
     reason: str
 
 
 def choose(frames, count=PANELS):
-    """Up to `count` moments in the order of time.
+    """Up to `count` KeyTimes in the order of time, no two of which look alike.
 
-    First those that have a name, in this order as far as there is room: the start, the end, collapse, the first lean beyond 1/10,
-    strongest shaking, the first break, in a house that stands the largest drift. Then, again and again, the frame that halves the motion in the gap
-    between two neighbours in which the elements move most.
+    1. The start and the end.
+    2. The named times (see `named`), in the order of their importance.
+    3. The frames that differ most from all chosen so far.
+    Fewer than `count` when the remaining frames look like chosen ones.
     """
-    chosen = {}
-    for time, reason in named(frames):
-        frame = frames.at(time)
-        near = min((abs(frames.time[frame] - frames.time[k]) for k in chosen), default=np.inf)
-        last = frame == len(frames.time) - 1
-        if len(chosen) < count and near > 0 and (near >= CLOSE or last):
-            chosen[frame] = reason
-    path = motion_path(frames)
-    while len(chosen) < min(count, len(path)):
-        chosen[halving(path, sorted(chosen))] = ""
-    return [Moment(frame, chosen[frame]) for frame in sorted(chosen)]
+    last = len(frames.time) - 1
+    chosen = {last: "end" if frames.summary else "so far", 0: "start"}
+    novelty = np.min([differences(frames, frame) for frame in chosen], axis=0)
+    waiting = [(frames.at(time), reason) for time, reason in named(frames)]
+    while len(chosen) < count:
+        waiting = [(frame, reason) for frame, reason in waiting if novelty[frame] >= DIFFERENT]
+        frame, reason = waiting.pop(0) if waiting else (int(np.argmax(novelty)), "")
+        if novelty[frame] < DIFFERENT:
+            break
+        chosen[frame] = reason
+        novelty = np.minimum(novelty, differences(frames, frame))
+    if len(chosen) == 2:
+        chosen[last] += ", no visible change"
+    return [KeyTime(frame, chosen[frame]) for frame in sorted(chosen)]
+
+
+def differences(frames, frame):
+    """(F,) mean displacement of the elements between each frame and one frame, zero within CLOSE of its time. [m]"""
+    positions = np.asarray(frames.position)[:, frames.shown]
+    moved = np.minimum(np.linalg.norm(positions - positions[frame], axis=2), FARTHEST).mean(1)
+    return np.where(np.abs(np.asarray(frames.time) - frames.time[frame]) < CLOSE, 0, moved)
 
 
 def named(frames):
-    """(time [s], reason) of the moments that have a name, the most telling first."""
-    yield frames.time[0], "start"
-    yield frames.time[-1], "end" if frames.summary else "so far"
+    """(time [s], reason) of the times that have a name, the most important first."""
     found = frames.summary or {}
     if found.get("collapse_time_s") is not None:
         yield found["collapse_time_s"], "collapse: half a storey down"
     if found.get("tilt_time_s") is not None:
-        yield found["tilt_time_s"], "leans by 1/10"
+        yield found["tilt_time_s"], "storey drift passes 1/10"
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
+    for kind in ("structure_fallen", "snow_fallen"):
+        yield from [(event["time_s"], event["what"]) for event in found.get("events", []) if event["kind"] == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
-        yield frames.breaks["time"][0], "first spring breaks"
-    if frames.history and len(frames.history[1]) and not found["collapsed"]:
+        yield frames.breaks["time"][0], "first joint damaged"
+    if frames.history and frames.history.samples and not found["collapsed"]:
         yield largest_drift(frames), "largest drift"
 
 
+def onset(motion):
+    """Time at which the shaking begins [s]; the motion's start when it stays below ONSET."""
+    return float(motion.time[np.argmax(np.abs(motion.acceleration).max(1) >= ONSET)])
+
+
 def strongest_shaking(frames):
-    """When the horizontal ground acceleration is largest within the run. [s]"""
+    """Time of the largest horizontal ground acceleration within the run. [s]"""
     motion = frames.motion
     within = (motion.time >= frames.time[0]) & (motion.time <= frames.time[-1])
     strength = np.where(within, np.hypot(*motion.acceleration[:, :2].T), -1)
@@ -65,22 +85,5 @@ def strongest_shaking(frames):
 
 
 def largest_drift(frames):
-    """When a storey's drift is largest. [s]"""
-    columns, rows = frames.history
-    drifts = [k for k, name in enumerate(columns) if name.startswith("drift")]
-    return rows[np.argmax(np.abs(rows[:, drifts]).max(1)), 0]
-
-
-def motion_path(frames):
-    """(F,) root-mean-square way of the elements up to each frame [m], and a little for the time itself."""
-    steps = np.diff(np.asarray(frames.position, float)[:, frames.shown], axis=0)
-    way = np.sqrt((steps**2).sum(2).mean(1))
-    return np.concatenate([[0], np.cumsum(way + WORTH * np.diff(frames.time))])
-
-
-def halving(path, chosen):
-    """The frame that halves the path in the gap of `chosen` frames that has the longest path and a frame inside."""
-    gaps = [(path[b] - path[a], a, b) for a, b in zip(chosen, chosen[1:]) if b - a > 1]
-    _, a, b = max(gaps)
-    inside = np.arange(a + 1, b)
-    return int(inside[np.argmin(np.abs(path[inside] - (path[a] + path[b]) / 2))])
+    """Time of the largest storey drift. [s]"""
+    return frames.history.time[np.argmax(frames.history.largest_drift())]

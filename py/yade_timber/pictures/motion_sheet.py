@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra. Needs no YADE."""
-from textwrap import fill
-
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from .. import motion as gm
 from ..base.colors import DIRECTIONS
-from .sheets import LETTERS, PRINT, save
+from .figures import A4, heading, new_figure, save
 
 DPI = 150
 QUIET = 0.01
-"""Before the first and after the last acceleration of this part of the PGA, motion is not shown. [-]"""
+"""Motion before the first and after the last acceleration of this share of the PGA is not shown. [-]"""
 PERIODS = np.geomspace(0.05, 10.0, 120)
 ROWS = (("ns", 1, "N-S", "-"), ("ew", 0, "E-W", "--"), ("ud", 2, "up-down", ":"))
 """Key, column, name, line style of the components."""
@@ -21,17 +17,15 @@ ROWS = (("ns", 1, "N-S", "-"), ("ew", 0, "E-W", "--"), ("ud", 2, "up-down", ":")
 
 def write(stem, motion, corner):
     """Write `stem`.png and `stem`.pdf; corner as in `page`. Returns the paths. Raises OSError."""
-    return save(page(motion, corner), stem, ("png", "pdf"), DPI)
+    return save(page(motion, corner, DPI), stem, ("png", "pdf"), DPI)
 
 
-def page(motion, corner):
+def page(motion, corner, dpi):
     """Figure with the motion. corner: high-pass of velocities and displacements [Hz], or None."""
-    figure = Figure(figsize=(PRINT.width, PRINT.height), facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = new_figure(A4[1], A4[0], dpi)
     axes = figure.subplots(3, 2, width_ratios=(1.25, 1))
     figure.subplots_adjust(left=0.07, right=0.985, top=0.87, bottom=0.07, hspace=0.28, wspace=0.17)
-    figure.text(0.03, 0.965, f"Ground motion {motion.name}", parse_math=False, fontsize=14, fontweight="bold", va="center")
-    figure.text(0.03, 0.925, fill(describe(motion), int(LETTERS * 0.94 * PRINT.width)), parse_math=False, fontsize=9, va="center")
+    heading(figure, f"Ground motion {motion.name}", describe(motion))
     draw_accelerations(axes[:, 0], motion)
     draw_curves(axes[0, 1], motion.time, 100 * gm.velocity(motion, corner), "velocity [cm/s]")
     draw_curves(axes[1, 1], motion.time, 100 * gm.displacement(motion, corner), "displacement [cm]")
@@ -47,21 +41,21 @@ def page(motion, corner):
 
 
 def describe(motion):
-    """Source and the measures that people know."""
+    """Source, JMA intensity and horizontal peaks."""
     intensity = gm.jma_intensity(motion)
     return f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {gm.pga(motion, 'h'):.0f} gal and {gm.pgv(motion):.0f} cm/s"
 
 
 def draw_accelerations(axes, motion):
-    """One component above the other, on one scale, each with its peak."""
+    """The components below each other on one scale, each with its peak."""
     reach = 1.1 * gm.pga(motion)
     for axis, (key, column, name, _) in zip(axes, ROWS):
         values = motion.acceleration[:, column] / gm.GAL
         peak = np.argmax(np.abs(values))
         axis.plot(motion.time, values, color=DIRECTIONS[key], lw=0.6)
         axis.plot(motion.time[peak], values[peak], "o", markersize=4, markerfacecolor="none", color="black")
-        words = f"{abs(values[peak]):.0f} gal at {motion.time[peak]:.2f} s"
-        axis.annotate(words, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8, va="center")
+        text = f"{abs(values[peak]):.0f} gal at {motion.time[peak]:.2f} s"
+        axis.annotate(text, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8, va="center")
         axis.set_ylim(-reach, reach)
         axis.set_ylabel(f"acceleration {name} [gal]", fontsize=8)
     axes[-1].set_xlabel("time [s]", fontsize=8)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of numbers in few bytes, for the player (player/src/run.js is the reader). Needs no YADE.
+"""Compressed arrays of numbers for the player (read by player/src/run.js). Needs no YADE.
 
-Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64 text. A number
-is a whole multiple of its array's step: it is off by at most half a step. Each column is stored as differences from row to row,
-signs folded into the lowest bit, and the four bytes of all differences apart: what hardly changes is a run of zeros.
+Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64 text. Numbers
+are rounded to multiples of their array's step. Each column is stored as differences from row to row, the sign in the lowest bit
+(zigzag), with the four bytes of all differences in separate planes: a column that hardly changes becomes a run of zeros.
 """
 import base64
 import json
@@ -24,9 +24,9 @@ def pack(info, arrays):
 
 
 def planes(name, values, step):
-    """The bytes of one array, 4 a number."""
+    """The bytes of one array, 4 per number."""
     whole = np.rint(np.asarray(values, float) / step)
-    if not (np.abs(whole) < LARGEST).all():  # NaN fails, too
+    if not (np.abs(whole) < LARGEST).all():  # also refuses NaN
         raise ValueError(f"{name}: numbers must be finite and below {LARGEST * step:g}")
     columns = whole.astype(np.int64).reshape(len(whole), int(np.prod(whole.shape[1:]))).T
     change = np.diff(columns, axis=1, prepend=0)

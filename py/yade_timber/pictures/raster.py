@@ -1,44 +1,65 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Orthographic pictures of convex bodies with a depth buffer: exact for bodies in any placement, even overlapping ones."""
+"""Orthographic pictures of convex bodies with a depth buffer; bodies may overlap."""
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.ndimage import binary_fill_holes
 
 SUPERSAMPLING = 2
 LIGHT = np.array([0.35, 0.75, 0.80])
-"""Direction to the light, in the picture's axes right, towards the viewer, up; need not be a unit vector."""
+"""Direction to the light in the axes right, towards the viewer, up of the picture; any length."""
 DARKEST = 0.74
-"""Brightness of a face that is turned away from the light. [-]"""
+"""Brightness of a face turned away from the light. [-]"""
 HAZE, HAZE_DEPTH = 0.4, 12.0
-"""Share of sky over what lies HAZE_DEPTH [m] behind the front of the house: far walls recede. [-]"""
+"""Largest share of sky over a face, reached HAZE_DEPTH [m] behind the front of the house, so that far walls recede."""
 EDGE_COLOR = 0.22
 EDGE_ON = 1e-6
-"""A face whose normal turns less to the viewer is seen edge on: not at all. [-]"""
+"""Faces with a smaller component of the normal towards the viewer are not drawn. [-]"""
 SKY = np.array([0.76, 0.85, 0.93], np.float32)
 
 
-def shade(solids, view, box, density, sky=SKY):
-    """Picture and depth of bodies.
+@dataclass(frozen=True)
+class Window:
+    """Part of a picture plane. view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m]; density: pixels per metre."""
 
-    solids   list with .vertices, .faces, .color, .kind; view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m]
-    density  pixels per metre; sky: RGB of what is behind everything, or one number for a grey
-    Returns RGB picture (rows, columns, 3) in 0..1, first row at the top, and the coordinate towards the viewer of what is seen in
-    each pixel [m], minus infinity where nothing is.
+    view: object
+    box: tuple
+    density: float
+
+
+def even_density(density):
+    """Pixels per metre reduced to a multiple of 2; unchanged below 2, for scenes of kilometres."""
+    return int(density) // 2 * 2 or density
+
+
+def front_of(solids, view):
+    """Coordinate towards the viewer of the nearest corner of the house, snow and ground left out. [m]"""
+    return max(((s.vertices @ view.toward).max() for s in solids if s.kind not in ("ground", "snow")), default=0.0)
+
+
+def shade(solids, window, front, sky=SKY):
+    """Picture and depth of bodies in a Window.
+
+    solids  list with .vertices, .faces, .color, .kind
+    front   where haze begins, as from `front_of` [m]
+    sky     RGB of the background, or one number for a grey
+    Returns the RGB picture (rows, columns, 3) in 0..1, first row at the top, and for each pixel the coordinate towards the viewer of
+    the visible face [m], minus infinity for the background.
     """
-    face, depth, faces = _scan(solids, view, box, density * SUPERSAMPLING)
-    shown = [(s.vertices @ view.toward).max() for s in solids if s.kind != "ground"]
+    face, depth, faces = _scan(solids, window, window.density * SUPERSAMPLING)
     sky = np.broadcast_to(np.float32(sky), 3)
     colors = np.array([sky] + [_tint(solids[body], normal) for body, normal in faces] + [np.full(3, EDGE_COLOR)], np.float32)
     color = np.where(_edges(face), len(faces) + 1, face + 1)
-    haze = _haze(face, depth, max(shown, default=0.0))
-    rows, columns = (n // SUPERSAMPLING * SUPERSAMPLING for n in face.shape)  # a rest at the border goes
+    haze = _haze(face, depth, front)
+    rows, columns = (n // SUPERSAMPLING * SUPERSAMPLING for n in face.shape)  # an incomplete pixel at the border is dropped
     corners = [np.s_[i:rows:SUPERSAMPLING, k:columns:SUPERSAMPLING] for i in range(SUPERSAMPLING) for k in range(SUPERSAMPLING)]
     picture = sum(_blended(colors.take(color[part], axis=0), sky, haze[part]) for part in corners)
     return picture / np.float32(len(corners)), depth[::SUPERSAMPLING, ::SUPERSAMPLING]
 
 
-def outline(solids, view, box, density):
-    """(rows, columns) whether a pixel lies within the outer outline of the bodies; arguments as in `shade`."""
-    return binary_fill_holes(_scan(solids, view, box, density)[0] >= 0)
+def outline(solids, window):
+    """(rows, columns) whether a pixel lies within the outer outline of the bodies."""
+    return binary_fill_holes(_scan(solids, window, window.density)[0] >= 0)
 
 
 def _tint(solid, normal):
@@ -47,9 +68,9 @@ def _tint(solid, normal):
     return np.array(solid.color) * (DARKEST + (1 - DARKEST) * light)
 
 
-def _haze(face, depth, nearest):
-    """(rows, columns) share of sky over what is seen."""
-    haze = np.clip((nearest - depth) * np.float32(HAZE / HAZE_DEPTH), 0, HAZE)
+def _haze(face, depth, front):
+    """(rows, columns) share of sky over the visible face. [-]"""
+    haze = np.clip((np.float32(front) - depth) * np.float32(HAZE / HAZE_DEPTH), 0, HAZE)
     haze[face < 0] = 0
     return haze
 
@@ -60,9 +81,9 @@ def _blended(picture, sky, share):
     return picture
 
 
-def _scan(solids, view, box, density):
-    """Depth buffer: (face number or -1, depth, list of (body, normal) of the faces)."""
-    left, right, bottom, top = box
+def _scan(solids, window, density):
+    """Depth buffer: (face number or -1, depth, list of (body, normal) of the faces). density: pixels per metre"""
+    view, (left, right, bottom, top) = window.view, window.box
     shape = round((top - bottom) * density), round((right - left) * density)
     owner, depth = np.full(shape, -1, np.int32), np.full(shape, -np.inf, np.float32)
     axes = np.array([view.right, view.toward, view.up], float)
@@ -79,13 +100,13 @@ def _scan(solids, view, box, density):
 
 
 def _normal(corners):
-    """Normal of a convex polygon (n, 3: column, depth, row) by Newell's sum, its middle component > 0 when it faces the viewer."""
+    """Normal of a convex polygon (n, 3: column, depth, row) by Newell's sum; its depth component is > 0 for a face turned to the viewer."""
     a, b = corners, np.concatenate([corners[1:], corners[:1]])
     return np.array([a[:, j] @ b[:, k] - a[:, k] @ b[:, j] for j, k in ((1, 2), (2, 0), (0, 1))])
 
 
 def _fill(polygon, normal, number, owner, depth):
-    """Enter a convex polygon (n, 3: column, depth, row) into the buffers where it is nearest. Pixel centres count."""
+    """Write a convex polygon (n, 3: column, depth, row) to the buffers at the pixels whose centres it covers and where it is nearest."""
     across, up = polygon[:, 0], polygon[:, 2]
     low = np.maximum([int(np.floor(up.min())), int(np.floor(across.min()))], 0)
     high = np.minimum([int(np.ceil(up.max())), int(np.ceil(across.max()))], owner.shape)
@@ -95,11 +116,11 @@ def _fill(polygon, normal, number, owner, depth):
     inside = np.ones((len(y), len(x)), bool)
     for a, b in zip(polygon, np.concatenate([polygon[1:], polygon[:1]])):
         inside &= (b[0] - a[0]) * (y - a[2]) <= (b[2] - a[2]) * (x - a[0])
-    here = polygon[0, 1] - (normal[0] * (x - across[0]) + normal[2] * (y - up[0])) / normal[1]
-    window = np.s_[low[0] : high[0], low[1] : high[1]]
-    nearer = inside & (here > depth[window])
-    owner[window][nearer] = number
-    depth[window][nearer] = here[nearer]
+    distance = polygon[0, 1] - (normal[0] * (x - across[0]) + normal[2] * (y - up[0])) / normal[1]
+    part = np.s_[low[0] : high[0], low[1] : high[1]]
+    nearer = inside & (distance > depth[part])
+    owner[part][nearer] = number
+    depth[part][nearer] = distance[nearer]
 
 
 def _edges(face):

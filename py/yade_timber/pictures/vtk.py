@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Recorded frames as VTK time series for ParaView: elements, joints and contact forces. Needs VTK (python3-vtk9), not YADE.
 
-elements.pvd  polygons; of each cell: element (number), kind (code, the names are in the field data kind_names), storey, fixed;
-              of each point: displacement since the start [m]
-joints.pvd    each joint as a point on its first and one on its second element and the line between; of each point: joint (number), kind,
-              load [-] (largest spring force by strength), state (0 whole, 1 partly broken, 2 broken, 3 broken before the start)
-contacts.pvd  points that touch; of each point: force [N] on the second element, elements (first, second)
+elements.pvd  polygons; cell data: element (number), kind (code, names in the field data kind_names), storey, fixed;
+              point data: displacement since the start [m]
+joints.pvd    for each joint a point on either element and the line between them; point data: joint (number), kind,
+              load [-] (largest spring force over strength), state (0 intact, 1 partly broken, 2 broken, 3 broken before the start)
+contacts.pvd  contact points; point data: force [N] on the second element, elements (first, second)
 """
 from xml.etree import ElementTree
 
@@ -27,7 +27,7 @@ STATES = {"whole": 0, "partly": 1, "broken": 2, "before": 3}
 
 
 def export(folder, frames, every=1):
-    """Write the three time series into a folder, each frame whose number is a multiple of `every` and the last; contacts as recorded.
+    """Write the three time series into a folder: every `every`-th frame and the last one; contacts as recorded.
 
     Returns the paths of the .pvd files. Raises OSError.
     """
@@ -43,12 +43,12 @@ def export(folder, frames, every=1):
 
 
 def write_series(folder, name, make, numbers):
-    """Write NAME/NAME_0000.vtp ... and NAME.pvd, which gives their times. numbers: [(time [s], number for make)]."""
+    """Write NAME/NAME_0000.vtp ... and NAME.pvd with their times. numbers: [(time [s], argument of make)]."""
     (folder / name).mkdir(exist_ok=True)
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
-    for place, (time, number) in enumerate(numbers):
-        file = f"{name}/{name}_{place:04d}.vtp"
+    for index, (time, number) in enumerate(numbers):
+        file = f"{name}/{name}_{index:04d}.vtp"
         write_polydata(folder / file, make(number))
         ElementTree.SubElement(collection, "DataSet", timestep=f"{time:.9g}", part="0", file=file)
     ElementTree.indent(root)
@@ -65,7 +65,7 @@ def write_polydata(path, data):
             raise OSError(f"{path}: VTK could not write it")
 
 
-# --- what a file holds ------------------------------------------------------------------------------------------------
+# --- contents of a file ------------------------------------------------------------------------------------------------
 
 
 class Elements:
@@ -98,9 +98,9 @@ class Joints:
 
     def __init__(self, frames):
         self.frames, j, e = frames, frames.joints, frames.elements
-        places = e.position[j.a] + rotated(e.orientation[j.a], j.anchor)
+        positions = e.position[j.a] + rotated(e.orientation[j.a], j.anchor)
         inverse = e.orientation[j.b] * (1, -1, -1, -1)
-        self.anchor_b = rotated(inverse, places - e.position[j.b])
+        self.anchor_b = rotated(inverse, positions - e.position[j.b])
         count = len(j.name)
         self.points = cells(np.arange(2 * count).reshape(-1, 1))
         self.lines = cells(np.arange(2 * count).reshape(2, -1).T)
@@ -138,9 +138,9 @@ class Contacts:
 
 def polydata(points, of_points):
     """vtkPolyData with points (n, 3) and arrays of their values, no cells yet."""
-    data, places = vtkPolyData(), vtkPoints()
-    places.SetData(numpy_to_vtk(np.ascontiguousarray(points, np.float32), deep=True))
-    data.SetPoints(places)
+    data, coordinates = vtkPolyData(), vtkPoints()
+    coordinates.SetData(numpy_to_vtk(np.ascontiguousarray(points, np.float32), deep=True))
+    data.SetPoints(coordinates)
     for name, values in of_points.items():
         data.GetPointData().AddArray(array(name, values))
     return data

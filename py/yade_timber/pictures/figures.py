@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
+import re
+from functools import cache
+from textwrap import fill
+
+import matplotlib
+from matplotlib import font_manager
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ft2font import FT2Font
+
+from ..base.atomic_write import written_whole
+
+A4 = (8.27, 11.69)
+"""Short and long side. [inch]"""
+MARGIN = 0.35
+"""Left and right of the headings. [inch]"""
+TITLE_HEIGHT, LINE_HEIGHT = 0.58, 0.17
+"""Height of the title, and of each line of the subtitle. [inch]"""
+TITLE_SIZE, SMALLEST_TITLE, SUBTITLE_SIZE = 14, 9, 10
+"""Font sizes. [pt]"""
+TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
+"""Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
+LONGEST_TEXT = 300
+"""Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
+REPLACEMENT = "\ufffd"
+SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
+"""TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
+
+METADATA = {".png": {"Software": None}, ".pdf": {"CreationDate": None}}
+"""Nothing that differs between two runs of the same program."""
+
+
+def new_figure(width, height, dpi):
+    """Empty white figure of a width and height [inch], rounded to whole pixels of a resolution [1/inch]."""
+    figure = Figure(figsize=(round(width * dpi) / dpi, round(height * dpi) / dpi), facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def add_panel(figure, corner, size, dpi):
+    """Axes with their lower left corner at (x, y), rounded to whole pixels, and a (width, height). [inch]"""
+    width, height = figure.get_size_inches()
+    x, y = (round(length * dpi) / dpi for length in corner)
+    return figure.add_axes([x / width, y / height, size[0] / width, size[1] / height])
+
+
+def drawable(text, most=LONGEST_TEXT):
+    """A text from data that matplotlib draws literally: one line, no mathtext, only letters of the font, at most `most` letters.
+
+    Every name, title or message that comes from a file passes through here before it is drawn.
+    """
+    letters = _letters()
+    line = " ".join(str(text)[: 4 * most].split())
+    line = "".join(letter if ord(letter) in letters else REPLACEMENT for letter in line)
+    line = line if len(line) <= most else line[: most - 1] + "…"
+    return line.replace("$", r"\$")
+
+
+@cache
+def _letters():
+    """Code points that the default font has."""
+    return frozenset(FT2Font(font_manager.findfont(font_manager.FontProperties(family=matplotlib.rcParams["font.family"]))).get_charmap())
+
+
+def heading(figure, title, subtitle=""):
+    """Title, made smaller and at last cut to fit the width, and a wrapped subtitle at the top of a figure."""
+    width, height = figure.get_size_inches()
+    room = TITLE_LETTERS * (width - 2 * MARGIN)  # letters at TITLE_SIZE
+    title = drawable(title, int(room * TITLE_SIZE / SMALLEST_TITLE))
+    size = TITLE_SIZE * min(1, room / max(len(title), 1))
+    figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=size, fontweight="bold", va="center")
+    figure.text(MARGIN / width, 1 - 0.46 / height, _wrapped(subtitle, width), fontsize=SUBTITLE_SIZE, va="top")
+
+
+def heading_height(width, subtitle=""):
+    """Height of a heading at the top of a figure of this width. [inch]"""
+    return TITLE_HEIGHT + LINE_HEIGHT * (1 + _wrapped(subtitle, width).count("\n"))
+
+
+def _wrapped(subtitle, width):
+    """Subtitle in lines for a figure of this width [inch]; each line of the text begins a new one."""
+    units_kept = (re.sub(r"(?<=\d) (?=[a-z]\b)", "\u00a0", drawable(line)) for line in subtitle.splitlines())  # a number and its unit stay together
+    return "\n".join(fill(line, int(SUBTITLE_LETTERS * (width - 2 * MARGIN))) for line in units_kept)
+
+
+def save(figure, stem, endings, dpi):
+    """Write a figure as files STEM.ENDING; returns their paths. Raises OSError."""
+    paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
+    for path in paths:
+        with written_whole(path) as part, matplotlib.rc_context(SETTINGS):
+            figure.savefig(part, dpi=dpi, metadata=METADATA[path.suffix])
+    return paths
+
+
+def stem_of(path):
+    """A picture's path without .png or .pdf; any other dot belongs to the name."""
+    return path.with_suffix("") if path.suffix.lower() in (".png", ".pdf") else path

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Shared by the show scripts: path of the package, path options, errors in one line."""
+import argparse
+import re
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+
+
+UNUSABLE = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError, MemoryError)
+"""Raised by numpy and matplotlib for readable input with impossible content, such as a position that is not a number."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Reports a wrong option in one line and exits with status 1."""
+
+    def error(self, message):
+        sys.exit(f"error: {_line(message)}")
+
+
+def path(text):
+    """Path of a file or folder, for argparse."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("the path is empty")
+    return Path(text)
+
+
+def file_name(name):
+    """Path in this folder made from a name of any characters."""
+    return Path(re.sub(r"[^\w. -]", "_", name)[:80] or "_")
+
+
+def frames_path(run):
+    """The frames of a run, given as its folder or as the file."""
+    from yade_timber.recording import frames
+
+    return run / frames.NAME if run.is_dir() else run
+
+
+@contextmanager
+def errors_in_a_line(output, *expected):
+    """Ends the script with one line and status 1: on an expected exception, on impossible content, or when the output cannot be written."""
+    try:
+        yield
+    except expected as problem:
+        sys.exit(f"error: {_line(problem)}")
+    except UNUSABLE as problem:
+        sys.exit(f"error: {output}: cannot be made from this input ({type(problem).__name__}: {_line(problem)[:200]})")
+    except OSError as problem:
+        sys.exit(f"error: {output}: cannot be written: {problem.strerror or _line(problem)}")
+
+
+def _line(problem):
+    return " ".join(str(problem).split())
