@@ -6,6 +6,7 @@ the prompt. The other modules are imported inside `launch`, so that Ctrl-C durin
 """
 import signal
 import sys
+from contextlib import contextmanager
 
 
 def main(house, earthquake=False, snow=False, argv=None):
@@ -27,16 +28,18 @@ def launch(read, argv=None):
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
     try:
-        from . import cli
-        from ..house import HouseError
-        from ..motion import RecordError
-        from ..base.errors import RunError
-        from .runner import Interrupted
+        with _deferred_interrupt():
+            from ..base.errors import RunError
+            from ..house import HouseError
+            from ..motion import RecordError
+            from . import cli
+            from .runner import Interrupted
     except KeyboardInterrupt:
         leave("stopped by SIGINT before the run", 128 + signal.SIGINT)
     output = None
     try:
-        scenario, output = read(cli, sys.argv if argv is None else argv)
+        with _deferred_interrupt():
+            scenario, output = read(cli, sys.argv if argv is None else argv)
         return _run(scenario, output)
     except (RunError, RecordError, HouseError) as problem:
         leave(f"error: {problem}", 1)
@@ -69,14 +72,27 @@ def _run(scenario, output):
     with ExitStack() as folder_lock:
         if not folder_lock.enter_context(locked(output.folder)):
             raise RunError(f"{output.folder}: another process computes a run there; wait for it, or choose another folder with --out")
+        with _deferred_interrupt():
+            run = (LiveRun if stays else Run)(scenario, output)
         if not stays:
-            run = Run(scenario, output)
             run.complete()
             return run
-        run = LiveRun(scenario, output)
         run.start(folder_lock.pop_all())
     print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {run.output.folder} at the end")
     return run
+
+
+@contextmanager
+def _deferred_interrupt():
+    """Ctrl-C takes effect at the end of the block: KeyboardInterrupt in the middle of an import may crash compiled modules."""
+    received = []
+    before = signal.signal(signal.SIGINT, lambda *_: received.append(True))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if received:
+        raise KeyboardInterrupt
 
 
 def leave(line, status):
