@@ -2,6 +2,7 @@
 """Damaged house files, records and motion options for hypothesis, and the check that each is used or refused in one line."""
 
 import argparse
+import copy
 import resource
 import signal
 import sys
@@ -120,7 +121,7 @@ def damaged_trees(draw):
         elif kind == "repeat" and isinstance(node, list):
             node *= draw(st.sampled_from([2, 3, 200]))
         else:
-            node[key] = draw(VALUES)
+            node[key] = copy.deepcopy(draw(VALUES))  # later replacements may be within it
         if not tree:
             break
     return yaml.safe_dump(tree, allow_unicode=True, sort_keys=False).encode("utf-8", "surrogatepass")

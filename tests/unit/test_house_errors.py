@@ -249,6 +249,7 @@ LIMITS = {  # file: (text, place, limit in the message)
     "an alias of itself": (lambda: "a: &a [*a]\n", "store.yaml:1", limits.MAX_DEPTH),
     "20 MB": (lambda: "a: [" + "1," * 10_000_000 + "]", "store.yaml", limits.MAX_FILE_SIZE / 1e6),
     "100 000 keys": (lambda: "".join(f"k{i}: 1\n" for i in range(30_000)), "store.yaml:10000", limits.MAX_NODES),
+    "400 000 digits": (lambda: STOREHOUSE.replace("count: 2", f"count: {'1' * 400_000}"), "store.yaml:11", limits.MAX_NUMBER_LENGTH),
     "200 000 levels": (lambda: nested(200_000), "store.yaml:1", limits.MAX_DEPTH),
     "levels of keys": (lambda: "? " * 100_000, "store.yaml:1", limits.MAX_DEPTH),
     "positions": (lambda: STOREHOUSE.replace("[0, 1.5]", str(list(range(9000)))), "store.yaml:11: structures.store.grid.y.positions", 400),

@@ -5,7 +5,6 @@
 Few examples; the long run is in tests/stress.
 """
 
-import pytest
 from hypothesis import HealthCheck, given, settings
 
 from input_fuzz import SHED, house_files, motion_options, record_files, record_texts, use_house, use_options, use_record

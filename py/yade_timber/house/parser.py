@@ -11,7 +11,7 @@ from .limits import MAX_DEPTH, MAX_NODES, MAX_NUMBER_LENGTH
 
 TAG = "tag:yaml.org,2002:"
 _PLAIN_TYPES = {TAG + name for name in ("null", "bool", "int", "float", "str")}
-_EXPONENT = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
+_EXPONENT = re.compile(r"^[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+$")
 
 
 class Table(dict):

@@ -16,7 +16,7 @@ import numpy as np
 from ..base.input_file import exists, is_file, is_folder, one_line, shown
 from .formats import parse
 from .processing import round_off, turned
-from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning
+from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning, require_possible
 from .text import DOWN, UP, direction_of, read_lines
 
 RIGHT_ANGLE_TOLERANCE = 1.0
@@ -62,10 +62,12 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     directions = _directions(channels, component)
     dt, values = _aligned(channels, trim_to_shortest)
     acceleration = _to_house_axes(str(record), values, directions)
-    if np.abs(acceleration).max() > SURPRISING:
-        warnings.warn(f"{record}: {np.abs(acceleration).max() / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning, stacklevel=2)
-    motion = GroundMotion(dt, acceleration, one_line(_common_name(paths)), one_line(_provenance(channels, directions)), _beginning(channels))
-    return turned(motion, angle)
+    peak = np.abs(acceleration).max()
+    require_possible(peak, record)
+    if peak > SURPRISING:
+        warnings.warn(f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning, stacklevel=2)
+    name, source = one_line(_common_name(paths)), one_line(_provenance(channels, directions))
+    return turned(GroundMotion(dt, acceleration, name, source, _beginning(channels)), angle)
 
 
 def find_files(record):
