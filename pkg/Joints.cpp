@@ -166,11 +166,11 @@ void JointEngine::sumPulls()
 	}
 }
 
-Real JointEngine::elasticPower() const
+Real JointEngine::elasticPower(const Scene& of) const
 {
 	Real power = 0;
 	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(*scene, j->id1), *b2 = bodyAt(*scene, j->id2);
+		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k)
 			if (!j->broken[k]) power += j->forces[k].dot(partingVelocity(*b1->state, *b2->state, b2->state->pos + b2->state->ori * j->anchors2[k]));
 	}

@@ -72,8 +72,8 @@ public:
 	int                 append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
-	/// Rate at which the springs' elastic energy grows with the bodies' present velocities. [W]
-	Real                elasticPower() const;
+	/// Rate at which the springs' elastic energy grows with the present velocities of a scene's bodies. [W]
+	Real                elasticPower(const Scene&) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a spring whose force exceeds the strength breaks and never acts again.",

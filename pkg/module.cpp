@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The Python module _yade_timber. Loading it defines the guard's functions only; host.py calls register_classes() once the guard is content.
+// The Python module _yade_timber. Loading it defines functions only; host.py calls register_classes() once the layout is verified.
 #include <pch.hpp>
 
 #include <Gl1_RoundedPolyhedron.hpp>
 #include <PackedScene.hpp>
+#include <SceneCheck.hpp>
 #include <build_info.hpp>
 #include <layout_guard.hpp>
 
 namespace {
 
-/// Hand this module's classes, and only them, to YADE's registration; they appear in yade.wrapper. Returns their names.
-/// Omega::loadPlugins() registers every name in ClassFactory's list, so the names YADE knows already step aside meanwhile.
+/// Registers this module's classes, and only them, with YADE; they appear in yade.wrapper. Returns their names.
+/// Omega::loadPlugins() registers every name in ClassFactory's list, so names that YADE knows already are removed meanwhile.
 boost::python::list registerClasses()
 {
 	auto& names = yade::ClassFactory::instance().pluginClasses;
@@ -27,6 +28,15 @@ boost::python::list registerClasses()
 	return registered;
 }
 
+/// Ends a run in the background after the current step and waits for its end. Not for the thread that computes the steps.
+void finishStep()
+{
+	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
+	yade::Omega::instance().stop();
+	yade::Omega::instance().createSimulationLoop();
+	PyEval_RestoreThread(released);
+}
+
 std::string buildRecord() { return TIMBER_BUILD_RECORD; }
 
 } // namespace
@@ -36,6 +46,8 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	defineLayoutGuard();
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
+	boost::python::def("finish_step", &finishStep);
+	boost::python::def("check_body", &yade::checkBody, (boost::python::arg("body")));
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

@@ -8,7 +8,7 @@ O = yw.Omega()
 
 def undamp():
     """Switch the dashpots of all contacts off, present and future."""
-    for functor in scene.interaction_loop().physDispatcher.functors:
+    for functor in scene.find_engine(yw.ContactLoop).loop.physDispatcher.functors:
         functor.dampingRatio = 0
     for interaction in O.interactions:
         if interaction.phys is not None:

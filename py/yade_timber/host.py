@@ -131,6 +131,10 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
         check_value(f"Scene.{name}", stored, found, record, host)
     collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
+    loop = wrapper.InteractionLoop(
+        [wrapper.Ig2_Sphere_Sphere_ScGeom()], [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()], []
+    )
+    check_value("InteractionLoop functors", (1, 2, 0), plugin.count_contact_functors(loop), record, host)
 
 
 def load(package: str, directory):

@@ -11,7 +11,8 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene.engines import angular_momentum, energy, energy_residual  # noqa: F401
+from yade_timber.scene.bodies import angular_momentum  # noqa: F401
+from yade_timber.scene.queries import energy, energy_residual  # noqa: F401
 
 O = yw.Omega()
 G = 9.81

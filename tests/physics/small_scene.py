@@ -8,7 +8,7 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Vector3
-from yade_timber.scene.engines import angular_momentum
+from yade_timber.scene.bodies import angular_momentum
 
 O = yw.Omega()
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])

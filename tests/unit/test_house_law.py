@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a house file says about the laws arrives in the engines."""
 import pytest
+import yade.wrapper as yw
 from yade import O
 from yade_timber.run import checkpoint
 from yade_timber.scene import scenario
@@ -13,7 +14,7 @@ def built(tmp_path, law):
     path.write_text(f"extends: storehouse\nname: mine\nlaw: {law}\n")
     built = scenario.Scenario("law", str(path))
     model = scenario.build(built)
-    loop = scene.interaction_loop()
+    loop = scene.find_engine(yw.ContactLoop).loop
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, checkpoint.identity(built, model, "")

@@ -6,6 +6,7 @@ import math
 import yade.wrapper as yw
 
 from . import engines as scene
+from .joints import joins_bodies
 from ..base.atomic_write import write_text
 
 O = yw.Omega()
@@ -33,7 +34,7 @@ def export_scene(path):
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": [describe_joint(joint) for joint in engine.joints if scene.joins_bodies(joint)] if engine else [],
+        "joints": [describe_joint(joint) for joint in engine.joints if joins_bodies(joint)] if engine else [],
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 

@@ -10,6 +10,8 @@ from yade.minieigenHP import Vector3
 from . import bodies as elements
 from ..base import colors as palette
 from . import engines as scene
+from .joints import make_joint
+from .queries import stable_dt
 from ..recording.frames import steps_between
 from ..house import build_house, load_house
 from ..house.errors import StepError
@@ -72,7 +74,7 @@ def build(scenario):
 
 def check_step(model):
     """Raise StepError when the joints, which have no dashpots, are too stiff for the time step: those of light members are."""
-    limit = scene.stable_dt(JOINT_SAFETY)
+    limit = stable_dt(JOINT_SAFETY)
     if O.dt > limit:
         raise StepError(f"{model.name}: a time step of {O.dt:g} s is too large for the joints between the lightest members: take at most {limit:.2g} s (--dt), or less stiff joints")
 
@@ -109,12 +111,7 @@ def make_material(name, spec, model):
 
 def add_joints(model, ids):
     """TimberJoints of the model, between the bodies in their present placement."""
-    return [
-        scene.make_joint(
-            O.bodies[ids[j.a]], O.bodies[ids[j.b]], ids[j.a], ids[j.b], j.points, j.normal, j.kn, j.ks, j.strength, j.per, j.kind, j.name, j.broken
-        )
-        for j in model.joints
-    ]
+    return [make_joint(ids[j.a], ids[j.b], j) for j in model.joints]
 
 
 def level_marks(model, structure):
