@@ -6,7 +6,9 @@
 #include <PackedScene.hpp>
 #include <SceneCheck.hpp>
 #include <build_info.hpp>
+#include <chrono>
 #include <layout_guard.hpp>
+#include <thread>
 
 namespace {
 
@@ -28,13 +30,24 @@ boost::python::list registerClasses()
 	return registered;
 }
 
-/// Ends a run in the background after the current step and waits for its end. Not for the thread that computes the steps.
+/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps.
 void finishStep()
 {
+	yade::Omega&   omega    = yade::Omega::instance();
 	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
-	yade::Omega::instance().stop();
-	yade::Omega::instance().createSimulationLoop();
+	const long     before   = omega.getScene()->iter;
+	while (omega.isRunning() && omega.getScene()->iter == before) // stop() must not come before the run's thread has started
+		std::this_thread::sleep_for(std::chrono::microseconds(20));
+	omega.stop();
+	omega.createSimulationLoop();
 	PyEval_RestoreThread(released);
+}
+
+/// Checks a body of the scene whose shape, material or state was replaced. Collider and HealthCheck then check the whole scene.
+void checkReplacedPart(const yade::Body& body)
+{
+	yade::checkBody(body);
+	yade::Omega::instance().getScene()->doSort = true;
 }
 
 std::string buildRecord() { return TIMBER_BUILD_RECORD; }
@@ -47,7 +60,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
 	boost::python::def("finish_step", &finishStep);
-	boost::python::def("check_body", &yade::checkBody, (boost::python::arg("body")));
+	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

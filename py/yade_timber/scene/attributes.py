@@ -6,6 +6,7 @@ the classes that it is given: unknown names are refused, and after a refused val
 """
 import difflib
 import re
+from contextlib import contextmanager
 
 import yade.wrapper as yw
 
@@ -65,7 +66,7 @@ def _assign(self, attribute, name, value):
 
 def _update(self, attributes):
     """Update object attributes from given dictionary"""
-    with _restored(self):
+    with _restored(self), _named_errors(type(self), attributes):
         _update_attributes(self, attributes)
 
 
@@ -89,17 +90,24 @@ class _restored:
 
 
 def _initialiser(construct):
-    """Constructor that names the keyword whose value has another type than its attribute."""
+    """Constructor whose errors name the keyword."""
 
     def __init__(self, *args, **attributes):
-        try:
+        with _named_errors(type(self), attributes):
             construct(self, *args, **attributes)
-        except (AttributeError, *CONVERSION_ERRORS):
-            for name, value in attributes.items():
-                _check_keyword(type(self), name, value)
-            raise
 
     return __init__
+
+
+@contextmanager
+def _named_errors(cls, attributes):
+    """Context in which several attributes are set: errors of YADE and Boost name the attribute and its admissible form."""
+    try:
+        yield
+    except (AttributeError, *CONVERSION_ERRORS):
+        for name, value in attributes.items():
+            _check_keyword(cls, name, value)
+        raise
 
 
 def _check_keyword(cls, name, value):

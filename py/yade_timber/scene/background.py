@@ -82,8 +82,7 @@ def _check(body, name):
     """Raise an error if an element of the scene cannot be computed with its new part."""
     if body.shape is None:
         raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out")
-    _plugin.check_body(body)
+    _plugin.check_replaced_part(body)
     if name == "shape":  # the functors of its contacts are those of the old one
         for interaction in body.intrs():
             O.interactions.erase(interaction.id1, interaction.id2)
-    O._sceneObj.doSort = True  # HealthCheck and collider look at the scene anew
