@@ -5,6 +5,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 from yade_timber.scene import bodies as elements
 from yade_timber.scene import engines as scene
+from yade_timber.scene.joints import connect
 
 O = yw.Omega()
 UNBREAKABLE = 1e12
@@ -33,7 +34,7 @@ def build_frame(frame, dt=1e-4, **options):
         a, b = frame.index[tie.first], frame.index[tie.second]
         half = min(frame.parts[a].width, frame.parts[b].width) / 2
         points = [[x, y, z] for y in (-half, half) for x, z in tie.points]
-        scene.connect(a, b, points, stiffness=(tie.stiffness, tie.stiffness), strength=UNBREAKABLE)
+        connect(a, b, points, stiffness=(tie.stiffness, tie.stiffness), strength=UNBREAKABLE)
 
 
 def advance(duration):
@@ -62,4 +63,4 @@ def start_in_mode(frame, bodies, shape):
         body = O.bodies[int(k)]
         body.state.vel = Vector3(x, 0, z)
         body.state.angVel = Vector3(0, -angle, 0)  # from x to z is minus about y
-        body.state.angMom = scene.angular_momentum(body)
+        body.state.angMom = elements.angular_momentum(body)

@@ -16,6 +16,7 @@ from yade.minieigenHP import Vector3
 from .. import _plugin
 from .. import host
 from ..scene import engines as scene
+from ..scene import queries
 from ..base.atomic_write import write_text
 from ..motion import interpolation_error, onset
 from ..scene.scenario import level_marks
@@ -172,13 +173,13 @@ def leaning_structures(model):
 
 
 def energy_balance(terms):
-    """The part `energy` of the summary [J] from the terms of `scene.energy`.
+    """The part `energy` of the summary [J] from the terms of `queries.energy`.
 
     input: work of the ground motion and potential energy released by gravity since the start. residual: what is stored,
     moving and dissipated minus the input; residual_fraction: its size by the input, None when there is no input.
     """
     into = terms.get("ground_motion", 0.0) - terms["gravity"]
-    residual = scene.energy_residual(terms)
+    residual = queries.energy_residual(terms)
     return {
         "input": finite(into),
         "kinetic": finite(terms["kinetic"]),
@@ -253,7 +254,7 @@ def summary(scenario, model, wall_s):
         "leaning_structures": leaning_structures(model),
         "peak_drift": by_storey(monitor.peak),
         "residual_drift": by_storey(residual_drift(monitor)),
-        "energy": energy_balance(scene.energy()),
+        "energy": energy_balance(queries.energy()),
         "versions": versions(),
     }
 
