@@ -145,7 +145,9 @@ void checkBody(const Body& b)
 		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose() << " kg m2: they must be finite and > 0";
 		refuseBody(b, fault.str());
 	}
-	if (!isRounded(b)) return;
+	const auto* shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
+	if (!shape) return;
+	if (shape->vertices.empty()) refuseBody(b, "its shape has no vertices");
 	const auto* material = dynamic_cast<const ElementMat*>(b.material.get());
 	if (!material || material->getClassIndex() == ElementMat::getClassIndexStatic())
 		refuseBody(b, "material " + (b.material ? b.material->getClassName() : string("None")) + ": it must be a TimberMat or SnowMat");

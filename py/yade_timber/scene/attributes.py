@@ -30,11 +30,16 @@ REGISTERED = re.compile(r":yattrtype:`(.*?)`")
 CONVERSION_ERRORS = (TypeError, OverflowError)
 """Of Boost.Python for a value of another type."""
 
+VALIDATED_OF_YADE = ("density",)
+"""Attributes of YADE's base classes on which the package's classes depend."""
+
+_guarded = set()
 _update_attributes = yw.Serializable.updateAttrs
 
 
 def guard(classes):
     """Install the rules of this module on classes of yade.wrapper."""
+    _guarded.update(classes)
     for cls in classes:
         cls.__init__ = _initialiser(cls.__init__)
         cls.__setattr__ = _set_attribute
@@ -55,12 +60,13 @@ def _set_attribute(self, name, value):
 
 
 def _assign(self, attribute, name, value):
-    """Set an attribute, then have the object validated: the setters of base classes do not."""
+    """Set an attribute, then have the object validated: not all setters of YADE do so."""
     try:
         attribute.fset(self, value)
     except CONVERSION_ERRORS:
         raise TypeError(_wrong_type(type(self), attribute, name, value)) from None
-    if REGISTERED.search(attribute.__doc__ or ""):
+    owner = next(c for c in type(self).__mro__ if name in vars(c))
+    if name in VALIDATED_OF_YADE or (owner in _guarded and REGISTERED.search(attribute.__doc__ or "")):
         _update_attributes(self, {name: attribute.fget(self)})
 
 

@@ -67,9 +67,8 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius, name=name, kind=kind)
-    if color is not None:
-        body.shape.color = arguments.vector("color", color)
+    look = {} if color is None else {"color": arguments.vector("color", color)}
+    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius, name=name, kind=kind, **look)
     body.material = material
     body.state.mass = material.density * volume
     body.state.inertia = material.density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
