@@ -20,12 +20,19 @@ bool HealthCheck::hasSceneChanged() const
 	return scene->doSort || checkedEngines.size() != scene->engines.size() || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
 }
 
-/// The engines hold data of the bodies, which is wrong in another scene.
+void HealthCheck::checkBodies() const
+{
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b) checkBody(*b);
+}
+
+/// Engines store data of the bodies that is wrong in another scene.
 void HealthCheck::checkScene()
 {
 	const shared_ptr<Scene>& current = Omega::instance().getScene();
 	if (!checkedEngines.empty() && checkedScene.lock() != current)
 		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = yade_timber.engines(...) again");
+	checkBodies();
 	checkEngines(*scene);
 	checkContacts(*scene);
 	checkedScene = current;
@@ -34,10 +41,13 @@ void HealthCheck::checkScene()
 		checkedEngines.push_back(e.get());
 }
 
-void HealthCheck::checkMotion(const Body& b) const
+/// Parts of a body are replaced between checks of the scene only; numbers of its state may change at any time.
+void HealthCheck::checkState(const Body& b) const
 {
 	const State& s = *b.state;
+	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0)) checkBody(b);
 	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) return;
+	checkBodies(); // another cause than the time step
 	std::ostringstream what;
 	what << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity " << s.vel.transpose()
 	     << " m/s; the time step " << scene->dt << " s is probably too large";
@@ -49,11 +59,9 @@ void HealthCheck::action()
 	const bool changed = hasSceneChanged();
 	if (!changed && scene->iter % every != 0) return;
 	if (!(scene->dt > 0)) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be > 0");
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) checkBody(*b);
 	if (changed) checkScene();
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) checkMotion(*b);
+		if (b) checkState(*b);
 }
 
 } // namespace yade

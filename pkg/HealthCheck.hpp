@@ -11,7 +11,8 @@ class HealthCheck : public GlobalEngine {
 
 	bool hasSceneChanged() const;
 	void checkScene();
-	void checkMotion(const Body&) const;
+	void checkBodies() const;
+	void checkState(const Body&) const;
 
 public:
 	void postLoad(HealthCheck&) { validate(); }
@@ -20,8 +21,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine,
 		"Stops a run with an error before a step that cannot be computed. Must come before the collider. "
-		"When bodies came or the list of engines changed it checks that the list is complete, in order and of this scene, and that all pairs of shapes and materials have functors. "
-		"Then and at an interval it checks each body: its material, mass and blocked degrees of freedom, and that its position and velocity are finite and its speed plausible.",
+		"When bodies were added or the list of engines was changed it checks that the list is complete, in order and of this scene, that all pairs of shapes and materials have functors, and that materials and masses are valid. "
+		"Then and at an interval it checks that positions and velocities are finite and speeds plausible.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]")));
 	// clang-format on

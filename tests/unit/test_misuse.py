@@ -262,6 +262,16 @@ def test_part_of_a_body(part, value, words):
     is_one_line(error, f"body {new}", *words)
 
 
+@pytest.mark.parametrize("mass", [0.0, -1.0, NAN])
+def test_mass_changed_by_hand(mass):
+    """The message does not blame the time step."""
+    _, column = column_on_plate(health_check=10)
+    O.bodies[column].state.mass = mass
+    with pytest.raises(RuntimeError) as error:
+        O.run(50, True)
+    is_one_line(error, f"body {column}", "state.mass")
+
+
 def test_other_shape_and_material_in_contact():
     _, column = column_on_plate()
     O.bodies[column].shape = yt.box((0.2, 0.2, 1.0), (0, 0, 0)).shape
