@@ -45,7 +45,7 @@ void CollisionTrigger::remember()
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
 		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-		seen[b->getId()] = { b->state->pos, b->state->ori, bool(shape), shape ? shape->geometry->span : Vector3r(Vector3r::Zero()), yade::boxMargin(*b, margin, scene->dt) };
+		seen[b->getId()] = { b->state->pos, b->state->ori, bool(shape), shape ? shape->geometry->halfExtents : Vector3r(Vector3r::Zero()), yade::boxMargin(*b, margin, scene->dt) };
 	}
 }
 

@@ -279,10 +279,10 @@ TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 		const Group<Lanes, const Vec3> all(points.data(), points.size());
 		const double limit = uniform(random, -0.05, 0.05);
 		for (int f = 0; f < int(wedge.faces.size()); ++f) {
-			const Lanes::Mask over = isOverFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInside(wedge, f, all.vectors(), Lanes(limit));
+			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInsideOtherFaces(wedge, f, all.vectors(), Lanes(limit));
 			for (int i = 0; i < laneCount; ++i) {
-				EXPECT_EQ(over[i] != 0, isOverFace<double>(wedge.faces[f], points[i], limit));
-				EXPECT_EQ(inside[i] != 0, isInside<double>(wedge, f, points[i], limit));
+				EXPECT_EQ(over[i] != 0, projectsOntoFace<double>(wedge.faces[f], points[i], limit));
+				EXPECT_EQ(inside[i] != 0, isInsideOtherFaces<double>(wedge, f, points[i], limit));
 			}
 		}
 	}
