@@ -14,7 +14,7 @@ CollisionTrigger::Motion CollisionTrigger::motionOf(const Body& b) const
 	const Seen&    then = seen[b.getId()];
 	const State&   now  = *b.state;
 	const Vector3r way  = now.pos - then.place;
-	if (then.isRounded) return { way, timber::turnedWay(then.turn.conjugate() * now.ori, then.span) };
+	if (then.isRounded) return { way, timber::rotationDisplacement(then.turn.conjugate() * now.ori, then.span) };
 	return { way, now.ori.coeffs() == then.turn.coeffs() ? 0 : std::numeric_limits<Real>::infinity() };
 }
 

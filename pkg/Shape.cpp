@@ -89,7 +89,7 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
 	if (!shape) return 0;
 	const State& s   = *b.state;
-	const Real   way = dt * (s.vel.norm() + timber::turningSpeed(s.ori.conjugate() * s.angVel, shape->geometry->span));
+	const Real   way = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->span));
 	return math::max(margin, math::min(boxWidest * margin, boxSteps * way));
 }
 
