@@ -29,8 +29,8 @@ inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
-	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * root(Number(radius) * n) * n; } ///< [N] (Eq. 37)
-	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * root(Number(radius) * n); } ///< [N/m] (Eq. 39)
+	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * sqrt(Number(radius) * n) * n; } ///< [N] (Eq. 37)
+	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * sqrt(Number(radius) * n); } ///< [N/m] (Eq. 39)
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
 	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
 };
@@ -106,7 +106,7 @@ template <class Law> double initialOverlap(const Law& law, double overlap, doubl
 /// Energy of a tangential spring. [J]
 template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number stiffness)
 {
-	return chosen(stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
+	return selectLazily(stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
 template <class Number> Number shearEnergy(const Springs<Number>& s, const PairProperties& p) { return shearEnergy<Number>(s.shear, Number(p.shearRatio) * s.stiffness); }
 
@@ -115,10 +115,10 @@ template <class Number> Number shearEnergy(const Springs<Number>& s, const PairP
 template <class Number> [[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
 {
 	const Number length = shear.squaredNorm();
-	Vec3Of<Number> t = shear + wide<Number>(rotation).cross(shear);
+	Vec3Of<Number> t = shear + broadcast<Number>(rotation).cross(shear);
 	t -= t.dot(normal) * normal;
 	const Number rest = t.squaredNorm(), none = 0.;
-	return t * chosen(rest > none, [&] { return root(Number(length / rest)); }, [&] { return none; });
+	return t * selectLazily(rest > none, [&] { return sqrt(Number(length / rest)); }, [&] { return none; });
 }
 
 /// Force of a point that begins or ends within a step: its overlap n [m] is below its displacement d in a step [m]. The trapezoidal sum
@@ -126,7 +126,7 @@ template <class Number> [[gnu::always_inline]] inline Vec3Of<Number> rotatedShea
 /// energy. Exact for a linear law. [N]
 template <class Law, class Number> Number grazingForce(const Law& law, Number n, Number d)
 {
-	return most(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
+	return max(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
 }
 
 /// Elastic force of a new point in the energy balance, once its next displacement d' is known: the force F' at n whose work over the
@@ -157,24 +157,24 @@ template <class Law, class Point, class Number>
 {
 	ShearIncrement<Number> increment;
 	const Number h = step, none = 0., limit = pair.overlapLimit, closing = -motion.velocity.dot(point.normal) * h;
-	springs.excess = least(springs.excess, point.overlap);
+	springs.excess = min(springs.excess, point.overlap);
 	const Number before = springs.overlap, stiffnessBefore = springs.stiffness, total = point.overlap - springs.excess;
-	springs.overlap = least(total, limit);
+	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) {
 		springs.normal = law.force(springs.overlap);
-		const Number displacement = most(closing, Number(-closing));
-		const auto grazes = both(none < springs.overlap, springs.overlap < least(displacement, limit));
-		springs.normal = chosen(grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normal; });
+		const Number displacement = max(closing, Number(-closing));
+		const auto grazes = logicalAnd(none < springs.overlap, springs.overlap < min(displacement, limit));
+		springs.normal = selectLazily(grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normal; });
 	} else
-		springs.normal = most(none, Number(springs.normal + springs.stiffness * (springs.overlap - before)));
+		springs.normal = max(none, Number(springs.normal + springs.stiffness * (springs.overlap - before)));
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normal;
 
 	const Number shearStiffness = Number(pair.shearRatio) * springs.stiffness;
 	springs.shear = rotatedShear<Number>(springs.shear, motion.spin * step, point.normal);
 	increment.shearBefore = springs.shear;
 	increment.shearEnergyBefore = shearEnergy<Number>(springs.shear, Number(pair.shearRatio) * stiffnessBefore);
-	springs.shear *= chosen(springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
+	springs.shear *= selectLazily(springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
 	increment.slip = (motion.velocity + Number(closing / h) * point.normal) * h;
 	springs.shear -= shearStiffness * increment.slip;
 	return increment;

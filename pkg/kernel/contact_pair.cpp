@@ -14,8 +14,8 @@ namespace {
 	template <class Number> [[gnu::always_inline]] inline RelativeMotion<Number> relativeMotion(const Vec3Of<Number>& x, const PairStep& step)
 	{
 		const auto velocity = [&](const BodyKinematics& body) {
-			const Vec3Of<Number> arm = x - wide<Number>(body.position), spin = wide<Number>(body.spin);
-			return Vec3Of<Number>(wide<Number>(body.velocity) + spin.cross(arm - Number(step.h / 2) * spin.cross(arm)));
+			const Vec3Of<Number> arm = x - broadcast<Number>(body.position), spin = broadcast<Number>(body.spin);
+			return Vec3Of<Number>(broadcast<Number>(body.velocity) + spin.cross(arm - Number(step.h / 2) * spin.cross(arm)));
 		};
 		return { velocity(step.b) - velocity(step.a), (step.a.spin + step.b.spin) / 2 };
 	}
@@ -174,12 +174,12 @@ void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pai
 		const Group<Number, const PointRecord> record(&records[i], points.size() - i);
 		const Vec3Of<Number> position = point.get(&ContactPoint::position);
 		ContactInput<Number> p;
-		p.armA = position - wide<Number>(a.position);
-		p.armB = position - wide<Number>(b.position);
+		p.armA = position - broadcast<Number>(a.position);
+		p.armB = position - broadcast<Number>(b.position);
 		p.normal = point.get(&ContactPoint::normal);
 		p.elasticNormal = record.get(&PointRecord::normal);
 		p.elasticShear = record.get(&PointRecord::shear);
-		p.normalDamping = Number(2 * pair.dampingRatio) * root(Number(pair.mass) * record.get(&PointRecord::stiffness)); // Eq. 41
+		p.normalDamping = Number(2 * pair.dampingRatio) * sqrt(Number(pair.mass) * record.get(&PointRecord::stiffness)); // Eq. 41
 		p.shearDamping = p.normalDamping * Number(std::sqrt(pair.shearRatio)); // Eq. 42
 		p.friction = pair.friction;
 		p.impulse = Number(step.h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpot));

@@ -76,9 +76,9 @@ namespace {
 	template <class Number> Vec3Of<Number> explicitImpulse(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double h)
 	{
 		const Vec3Of<Number> v = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Number vn = v.dot(p.normal), normal = most(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normal;
+		const Number vn = v.dot(p.normal), normal = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normal;
 		const Vec3Of<Number> dashpot = p.shearDamping * (v - vn * p.normal);
-		const Vec3Of<Number> shear = chosen(p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
+		const Vec3Of<Number> shear = selectLazily(p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
 		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
@@ -171,7 +171,7 @@ void ContactSolver::warmStart(std::vector<SolverBody>& bodies, const SolverPair&
 	Sums<12> all(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 	for (size_t point = 0; point < pair.count; point += laneCount) {
 		const ConstraintGroup& group = groupAt(pair, point);
-		const Vec3s spinA = wide<Lanes>(a.inverseInertia) * group.armA.cross(group.impulse), spinB = wide<Lanes>(b.inverseInertia) * group.armB.cross(group.impulse);
+		const Vec3s spinA = broadcast<Lanes>(a.inverseInertia) * group.armA.cross(group.impulse), spinB = broadcast<Lanes>(b.inverseInertia) * group.armB.cross(group.impulse);
 		all.add<Lanes>(pair.count - point, Vec3s(Lanes(-a.inverseMass) * group.impulse), Vec3s(-spinA), Vec3s(Lanes(b.inverseMass) * group.impulse), spinB);
 	}
 	PairVelocity(all).store(a, b);

@@ -111,7 +111,7 @@ template <class ConstraintX, class ConstraintY, class Work> void forMembers(Cons
 template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
 {
 	const Number square = v.squaredNorm();
-	return chosen(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / root(square))); }, [&] { return v; });
+	return selectLazily(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
 }
 
 /// e_s after sliding: at most friction times the normal force. [N]

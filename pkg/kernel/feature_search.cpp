@@ -77,8 +77,8 @@ namespace {
 		/// Bound of the relative motion near x (frame of A) while the cache holds. [m]
 		template <class Number> Number motionAt(const Vec3Of<Number>& x) const
 		{
-			const Number away = Vec3Of<Number>(x - wide<Number>(cache.centre)).norm() / Number(cache.region);
-			return Number(cache.skin) * most(Number(1.), away);
+			const Number away = Vec3Of<Number>(x - broadcast<Number>(cache.centre)).norm() / Number(cache.region);
+			return Number(cache.skin) * max(Number(1.), away);
 		}
 
 		Edges placed(size_t first) const
@@ -87,7 +87,7 @@ namespace {
 			const size_t count = edges.size() - first;
 			const Group<Lanes, const Edge> group(&edges[first], count);
 			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) { return &verticesB[edges[first + i].tail].place; }).vectors();
-			Edges all { first, tails, wide<Lanes>(pair.rotation) * group.get(&Edge::along), wide<Lanes>(pair.rotation) * group.get(&Edge::outward), group.get(&Edge::length),
+			Edges all { first, tails, broadcast<Lanes>(pair.rotation) * group.get(&Edge::along), broadcast<Lanes>(pair.rotation) * group.get(&Edge::outward), group.get(&Edge::length),
 				std::numeric_limits<double>::infinity() };
 			for (size_t i = 0; i < laneCount && i < count; ++i)
 				setLane(all.behind, i, std::min(behindB(edges[first + i].tail), behindB(edges[first + i].head)));
@@ -120,17 +120,17 @@ namespace {
 		void edgesMeet(int edgeA, const Edges& b, Lanes::Mask on)
 		{
 			const Edge& ea = pair.a.core.edges[edgeA];
-			const Vec3s tail = wide<Lanes>(pair.a.core.vertices[ea.tail]), along = wide<Lanes>(ea.along);
+			const Vec3s tail = broadcast<Lanes>(pair.a.core.vertices[ea.tail]), along = broadcast<Lanes>(ea.along);
 			const Lanes lengthA = ea.length;
 			const Crossing<Lanes> c = crossing<Lanes>(tail, along, b.tail, b.along);
 			const auto parallel = c.sine < Lanes(steadySine);
 			const Vec3s place = tail + c.alongA * along;
 			const Lanes motion = motionAt<Lanes>(place), range = Lanes(std::max(pair.touch(), pair.depthLimit())) + motion;
 			const Lanes slack = Lanes(3.) * (motion + range * Lanes(turn)) / c.sine;
-			const auto inside = [&](Lanes at, Lanes length) { return both(at >= -slack, at <= length + slack); };
-			const Lanes height = c.across.dot(Vec3s(b.tail - tail)), distance = most(height, -height);
-			const auto mayFace = c.across.dot(wide<Lanes>(ea.outward)) * c.across.dot(b.outward) <= Lanes(3 * turn) / c.sine;
-			const auto meet = both(both(inside(c.alongA, lengthA), inside(c.alongB, b.length)), both(distance <= range, mayFace));
+			const auto inside = [&](Lanes at, Lanes length) { return logicalAnd(at >= -slack, at <= length + slack); };
+			const Lanes height = c.across.dot(Vec3s(b.tail - tail)), distance = max(height, -height);
+			const auto mayFace = c.across.dot(broadcast<Lanes>(ea.outward)) * c.across.dot(b.outward) <= Lanes(3 * turn) / c.sine;
+			const auto meet = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)), logicalAnd(distance <= range, mayFace));
 			for (size_t i = 0; i < laneCount; ++i) {
 				if (!lane(on, i)) continue;
 				const int edgeB = int(b.first + i);

@@ -10,7 +10,7 @@
 
 namespace timber {
 
-template <class Number> Number height(const HalfSpace& plane, const Vec3Of<Number>& x) { return wide<Number>(plane.normal).dot(x) - Number(plane.offset); }
+template <class Number> Number height(const HalfSpace& plane, const Vec3Of<Number>& x) { return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset); }
 
 /// The foot of x lies in the face or beyond its border by at most `limit` (negative: inside it by as much) [m]. At a
 /// corner the distance along the bisector counts, too, over sqrt(2): nothing new at a right corner, but a foot beyond a
@@ -21,13 +21,13 @@ template <class Number> auto isOverFace(const Face& face, const Vec3Of<Number>& 
 	auto over = none <= none, beyond = none < none;
 	for (const HalfSpace& border : face.borders) {
 		const Number distance = height(border, x);
-		over = both(over, distance <= limit);
+		over = logicalAnd(over, distance <= limit);
 		if (!any(over)) return over;
-		beyond = either(beyond, distance > none);
+		beyond = logicalOr(beyond, distance > none);
 	}
-	if (!any(both(over, beyond))) return over;
+	if (!any(logicalAnd(over, beyond))) return over;
 	for (const HalfSpace& tip : face.tips)
-		over = both(over, either(beyond == (none < none), height(tip, x) <= Number(M_SQRT2) * limit));
+		over = logicalAnd(over, logicalOr(beyond == (none < none), height(tip, x) <= Number(M_SQRT2) * limit));
 	return over;
 }
 
@@ -37,7 +37,7 @@ template <class Number> auto isInside(const Polyhedron& body, int face, const Ve
 	const Number none = 0.;
 	auto inside = none <= none;
 	for (int f = 0; f < int(body.faces.size()); ++f)
-		if (f != face) inside = both(inside, height(body.faces[f].plane, x) <= limit);
+		if (f != face) inside = logicalAnd(inside, height(body.faces[f].plane, x) <= limit);
 	return inside;
 }
 

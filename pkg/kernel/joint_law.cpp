@@ -37,14 +37,14 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, 
 		const size_t count = springs.broken.size() - i;
 		const auto vectors = [&](const std::vector<Vec3>& of) -> Vec { return Group<Number, const Vec3>(&of[i], count).vectors(); };
 		const auto intact = Group<Number, const int>(&springs.broken[i], count).numbers() <= Number(0.);
-		const Vec armB = wide<Number>(placement.axesB) * vectors(springs.anchorsB), armA = wide<Number>(placement.axesA) * vectors(springs.anchorsA), end = wide<Number>(placement.distance) + armB;
-		const Vec stretch = where(intact, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
+		const Vec armB = broadcast<Number>(placement.axesB) * vectors(springs.anchorsB), armA = broadcast<Number>(placement.axesA) * vectors(springs.anchorsA), end = broadcast<Number>(placement.distance) + armB;
+		const Vec stretch = select(intact, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
 		const SpringForce<Number> f = springForce<Number>(k, stretch, worldNormal);
 		Group<Number, Vec3>(&springs.stretches[i], count).set(stretch);
 		Group<Number, Vec3>(&springs.forces[i], count).set(f.force);
 		const Number square = f.force.squaredNorm();
 		const Vec torqueA = end.cross(f.force), torqueB = -armB.cross(f.force); // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
-		sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, root(square));
+		sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, sqrt(square));
 		for (size_t l = 0; l < laneCount; ++l)
 			pull.largestSquared = std::max(pull.largestSquared, lane(square, l));
 	});

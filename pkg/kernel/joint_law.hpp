@@ -26,7 +26,7 @@ template <class Number> struct SpringForce {
 /// stretch: anchor of B minus anchor of A, world [m]. With equal stiffnesses the normal does not matter.
 template <class Number> SpringForce<Number> springForce(const JointStiffness& k, const Vec3Of<Number>& stretch, const Vec3& normal)
 {
-	const Vec3Of<Number> n = wide<Number>(normal), shear = Number(k.shear) * stretch;
+	const Vec3Of<Number> n = broadcast<Number>(normal), shear = Number(k.shear) * stretch;
 	const Number along = stretch.dot(n), square = Number(k.shear) * stretch.squaredNorm(), extra = k.normal - k.shear, half = 0.5;
 	if (k.normal == k.shear) return { shear, Number(k.normal) * along, half * square };
 	return { shear + extra * along * n, Number(k.normal) * along, half * (square + extra * along * along) };

@@ -15,7 +15,7 @@ template <class Number>
 [[gnu::always_inline]] inline Vec3Of<Number> relativeVelocity(
         const Vec3Of<Number>& armA, const Vec3Of<Number>& armB, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
 {
-	return wide<Number>(vB) + wide<Number>(wB).cross(armB) - wide<Number>(vA) - wide<Number>(wA).cross(armA);
+	return broadcast<Number>(vB) + broadcast<Number>(wB).cross(armB) - broadcast<Number>(vA) - broadcast<Number>(wA).cross(armA);
 }
 
 /// Motion of B relative to A at a contact point.

@@ -50,7 +50,7 @@ namespace {
 		{
 			const Number overlap = Number(pair.touch()) - meet.distance;
 			const Vec3Of<Number> middle = meet.onA + (Number(pair.a.radius) - overlap / Number(2.)) * meet.normal;
-			const Vec3Of<Number> place = wide<Number>(originA) + wide<Number>(turnA) * middle, normal = wide<Number>(turnA) * meet.normal;
+			const Vec3Of<Number> place = broadcast<Number>(originA) + broadcast<Number>(turnA) * middle, normal = broadcast<Number>(turnA) * meet.normal;
 			for (size_t i = 0; i < count; ++i) {
 				if (!lane(on, i)) continue;
 				const ContactPoint next { first[i], lane(place, i), lane(normal, i), lane(overlap, i) };
@@ -67,11 +67,11 @@ namespace {
 		const Face& f = body.core.faces[face];
 		const Number border = pair.borderLimit(), none = 0.;
 		distance = height(f.plane, x);
-		auto on = both(distance < Number(pair.touch()), distance > Number(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
+		auto on = logicalAnd(distance < Number(pair.touch()), distance > Number(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
 		if (!any(on)) return on;
-		on = both(on, isOverFace(f, x, pair.deep() ? border : least(border, distance)));
+		on = logicalAnd(on, isOverFace(f, x, pair.deep() ? border : min(border, distance)));
 		if (!pair.deep()) return on;
-		return face == facing ? both(on, either(distance >= none, isInside(body.core, face, x, border))) : none < none;
+		return face == facing ? logicalAnd(on, logicalOr(distance >= none, isInside(body.core, face, x, border))) : none < none;
 	}
 
 	/// Up to laneCount vertices of one body against the same face of the other.
@@ -86,7 +86,7 @@ namespace {
 		const auto on = verticesOnFace<Number>(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB<Number>(own) : inA, meet.distance);
 		if (!any(on)) return on;
 		const Vec3& outward = body.core.faces[face].plane.normal;
-		meet.normal = wide<Number>(ofB ? Vec3(-(pair.rotation * outward)) : outward);
+		meet.normal = broadcast<Number>(ofB ? Vec3(-(pair.rotation * outward)) : outward);
 		meet.onA = ofB ? inA : Vec(inA - meet.distance * meet.normal);
 		return on;
 	}
@@ -103,18 +103,18 @@ namespace {
 		const Group<Number, const Edge> a(count, edgeA), b(count, edgeB);
 		const Vec tailA = Group<Number, const Vec3>(count, [&](size_t i) { return &coreA.vertices[edgeA(i)->tail]; }).vectors();
 		const Vec tailB = pair.toA<Number>(Group<Number, const Vec3>(count, [&](size_t i) { return &coreB.vertices[edgeB(i)->tail]; }).vectors());
-		const Vec alongA = a.get(&Edge::along), alongB = wide<Number>(pair.rotation) * b.get(&Edge::along);
+		const Vec alongA = a.get(&Edge::along), alongB = broadcast<Number>(pair.rotation) * b.get(&Edge::along);
 		const Crossing<Number> c = crossing<Number>(tailA, alongA, tailB, alongB);
 		auto on = c.sine >= Number(parallelSine);
 		if (!any(on)) return on;
 		const Number end = Number(flushTolerance) / c.sine;
-		on = both(on, both(both(c.alongA > end, c.alongA < a.get(&Edge::length) - end), both(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
+		on = logicalAnd(on, logicalAnd(logicalAnd(c.alongA > end, c.alongA < a.get(&Edge::length) - end), logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
 		if (!any(on)) return on;
-		meet.normal = where(c.across.dot(a.get(&Edge::outward)) < none, Vec(-c.across), c.across);
-		on = both(on, meet.normal.dot(Vec(wide<Number>(pair.rotation) * b.get(&Edge::outward))) < none); // else B's edge is on the far side of B
+		meet.normal = select(c.across.dot(a.get(&Edge::outward)) < none, Vec(-c.across), c.across);
+		on = logicalAnd(on, meet.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < none); // else B's edge is on the far side of B
 		meet.onA = tailA + c.alongA * alongA;
 		meet.distance = meet.normal.dot(Vec(tailB + c.alongB * alongB - meet.onA));
-		return both(on, both(meet.distance < Number(pair.touch()), meet.distance > Number(-(pair.deep() ? pair.depthLimit() : flushTolerance))));
+		return logicalAnd(on, logicalAnd(meet.distance < Number(pair.touch()), meet.distance > Number(-(pair.deep() ? pair.depthLimit() : flushTolerance))));
 	}
 
 	/// A vertex is the nearest part of its body in direction `towards` (unit) if no edge from it leads that way.
@@ -209,7 +209,7 @@ namespace {
 		FeatureContact<Number> meet;
 		const auto take = [&](auto on) {
 			if (!any(on)) return;
-			if (pair.deep()) on = both(on, meet.normal.dot(wide<Number>(pair.axis)) >= Number(outwardCosine));
+			if (pair.deep()) on = logicalAnd(on, meet.normal.dot(broadcast<Number>(pair.axis)) >= Number(outwardCosine));
 			points.add(first, count, on, meet);
 		};
 		const FeatureKind meeting = first->kind();

@@ -17,11 +17,11 @@ inline Lanes cosine(Lanes x) { return eachLane(x, [](double one) { return std::c
 template <class Number> std::pair<Number, Number> sineCosine(Number x)
 {
 	const Number one = 1., y = x * x;
-	const auto isLong = either(x > Number(0.02), x < Number(-0.02));
+	const auto isLong = logicalOr(x > Number(0.02), x < Number(-0.02));
 	const auto over = [y](double divisor) { return Number(y / Number(divisor)); };
 	const auto shortSine = [&] { return Number(x * (one - over(6) * (one - over(20) * (one - over(42))))); };
 	const auto shortCosine = [&] { return Number(one - over(2) * (one - over(12) * (one - over(30) * (one - over(56))))); };
-	return { chosen(isLong, [x] { return sine(x); }, shortSine), chosen(isLong, [x] { return cosine(x); }, shortCosine) };
+	return { selectLazily(isLong, [x] { return sine(x); }, shortSine), selectLazily(isLong, [x] { return cosine(x); }, shortCosine) };
 }
 
 template <class Number> using QuatOf = Eigen::Quaternion<Number>;
@@ -49,7 +49,7 @@ template <int axis, class Number> void rotateAboutAxis(QuatOf<Number>& orientati
 /// velocity after the step, world [rad/s].
 template <class Number> Vec3Of<Number> freeRotation(QuatOf<Number>& orientation, const Vec3Of<Number>& momentum, const Vec3Of<Number>& inertia, double h)
 {
-	assert(std::isfinite(h) && isFinite(momentum) && isFinite(inertia) && !any(either(inertia[0] <= Number(0.), either(inertia[1] <= Number(0.), inertia[2] <= Number(0.)))));
+	assert(std::isfinite(h) && isFinite(momentum) && isFinite(inertia) && !any(logicalOr(inertia[0] <= Number(0.), logicalOr(inertia[1] <= Number(0.), inertia[2] <= Number(0.)))));
 	const Number whole = h, half = h / 2;
 	const Vec3Of<Number> inverse = inertia.cwiseInverse();
 	Vec3Of<Number> body = orientation.conjugate() * momentum;
@@ -58,7 +58,7 @@ template <class Number> Vec3Of<Number> freeRotation(QuatOf<Number>& orientation,
 	rotateAboutAxis<2, Number>(orientation, body, whole * body[2] * inverse[2]);
 	rotateAboutAxis<1, Number>(orientation, body, half * body[1] * inverse[1]);
 	rotateAboutAxis<0, Number>(orientation, body, half * body[0] * inverse[0]);
-	orientation.coeffs() /= root(orientation.squaredNorm());
+	orientation.coeffs() /= sqrt(orientation.squaredNorm());
 	return orientation * body.cwiseProduct(inverse).eval();
 }
 

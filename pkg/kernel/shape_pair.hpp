@@ -23,8 +23,8 @@ struct Pair {
 	bool deep() const { return gap < 0; }
 	double touch() const { return a.radius + b.radius; }
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); }
-	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return wide<Number>(rotation).transpose() * (x - wide<Number>(translation)); }
-	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return wide<Number>(rotation) * x + wide<Number>(translation); }
+	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation)); }
+	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation) * x + broadcast<Number>(translation); }
 	/// Foot beyond a border by less than this still belongs to the face. [m]
 	double borderLimit() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
 };
@@ -41,7 +41,7 @@ template <class Number> Crossing<Number> crossing(const Vec3Of<Number>& originA,
 	Crossing<Number> c;
 	const Vec3Of<Number> n = alongA.cross(alongB);
 	const Number square = n.squaredNorm();
-	c.sine = root(square);
+	c.sine = sqrt(square);
 	c.across = n / c.sine;
 	const Vec3Of<Number> w = originB - originA;
 	c.alongA = w.cross(alongB).dot(n) / square;
