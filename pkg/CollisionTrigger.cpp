@@ -18,7 +18,7 @@ CollisionTrigger::MotionSinceCollision CollisionTrigger::motionOf(const Body& b)
 	const BodySnapshot& before       = snapshots[b.getId()];
 	const State&        now          = *b.state;
 	const Vector3r      displacement = now.pos - before.position;
-	if (before.isRounded) return { displacement, timber::turnedWay(before.orientation.conjugate() * now.ori, before.halfExtents) };
+	if (before.isRounded) return { displacement, timber::rotationDisplacement(before.orientation.conjugate() * now.ori, before.halfExtents) };
 	return { displacement, now.ori.coeffs() == before.orientation.coeffs() ? 0 : infinity };
 }
 

@@ -80,7 +80,7 @@ std::vector<Real> HouseMonitor::energies() const
 	const JointEngine*        j    = findEngine<JointEngine>(*scene);
 	const GroundMotionEngine* g    = findEngine<GroundMotionEngine>(*scene);
 	const Real                half = scene->dt / 2;
-	return { kineticEnergy(), gravityEnergy(), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower() : 0, g ? g->workNow() : 0,
+	return { kineticEnergy(), gravityEnergy(), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower(*scene) : 0, g ? g->workNow() : 0,
 		     c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
 }
 

@@ -95,7 +95,7 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
 	if (!shape) return 0;
 	const State& s            = *b.state;
-	const Real   displacement = dt * (s.vel.norm() + timber::turningSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
+	const Real   displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
 	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
 }
 

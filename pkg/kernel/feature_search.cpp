@@ -88,8 +88,8 @@ namespace {
 		/// Bound of the relative motion of a point (frame of A) within the margin. [m]
 		template <class Number> Number motionBound(const Vec3Of<Number>& x) const
 		{
-			const Number distance = Vec3Of<Number>(x - wide<Number>(cache.centre)).norm() / Number(cache.regionRadius);
-			return Number(cache.skin) * most(Number(1.), distance);
+			const Number distance = Vec3Of<Number>(x - broadcast<Number>(cache.centre)).norm() / Number(cache.regionRadius);
+			return Number(cache.skin) * max(Number(1.), distance);
 		}
 
 		EdgeBatch edgeBatch(size_t first) const
@@ -98,7 +98,7 @@ namespace {
 			const size_t count = edges.size() - first;
 			const Group<Lanes, const Edge> group(&edges[first], count);
 			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) { return &verticesB[edges[first + i].tail].position; }).vectors();
-			EdgeBatch batch { first, tails, wide<Lanes>(pair.rotation) * group.get(&Edge::direction), wide<Lanes>(pair.rotation) * group.get(&Edge::outward),
+			EdgeBatch batch { first, tails, broadcast<Lanes>(pair.rotation) * group.get(&Edge::direction), broadcast<Lanes>(pair.rotation) * group.get(&Edge::outward),
 				group.get(&Edge::length), std::numeric_limits<double>::infinity() };
 			for (size_t i = 0; i < laneCount && i < count; ++i)
 				setLane(batch.depth, i, std::min(depthInB(edges[first + i].tail), depthInB(edges[first + i].head)));
@@ -136,17 +136,17 @@ namespace {
 		void testEdges(int edgeA, const EdgeBatch& b, Lanes::Mask inRange)
 		{
 			const Edge& ea = pair.a.core.edges[edgeA];
-			const Vec3s tail = wide<Lanes>(pair.a.core.vertices[ea.tail]), direction = wide<Lanes>(ea.direction);
+			const Vec3s tail = broadcast<Lanes>(pair.a.core.vertices[ea.tail]), direction = broadcast<Lanes>(ea.direction);
 			const Lanes lengthA = ea.length;
 			const Crossing<Lanes> c = crossing<Lanes>(tail, direction, b.tail, b.direction);
 			const auto nearlyParallel = c.sine < Lanes(crossingSine);
 			const Vec3s position = tail + c.alongA * direction;
 			const Lanes motion = motionBound<Lanes>(position), range = Lanes(std::max(pair.contactDistance(), pair.depthLimit())) + motion;
 			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation)) / c.sine; // shift of the crossing along the edges
-			const auto inside = [&](Lanes at, Lanes length) { return both(at >= -slack, at <= length + slack); };
-			const Lanes height = c.normal.dot(Vec3s(b.tail - tail)), distance = most(height, -height);
-			const auto mayFace = c.normal.dot(wide<Lanes>(ea.outward)) * c.normal.dot(b.outward) <= Lanes(3 * maxRotation) / c.sine;
-			const auto mayCross = both(both(inside(c.alongA, lengthA), inside(c.alongB, b.length)), both(distance <= range, mayFace));
+			const auto inside = [&](Lanes at, Lanes length) { return logicalAnd(at >= -slack, at <= length + slack); };
+			const Lanes height = c.normal.dot(Vec3s(b.tail - tail)), distance = max(height, -height);
+			const auto mayFace = c.normal.dot(broadcast<Lanes>(ea.outward)) * c.normal.dot(b.outward) <= Lanes(3 * maxRotation) / c.sine;
+			const auto mayCross = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)), logicalAnd(distance <= range, mayFace));
 			for (size_t i = 0; i < laneCount; ++i) {
 				if (!lane(inRange, i)) continue;
 				const int edgeB = int(b.first + i);

@@ -11,7 +11,7 @@
 namespace timber {
 
 /// Distance of a point from a plane, > 0 outside. [m]
-template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3Of<Number>& x) { return wide<Number>(plane.normal).dot(x) - Number(plane.offset); }
+template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3Of<Number>& x) { return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset); }
 
 /// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative: inside them) [m].
 /// Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This changes nothing at a right angle, and keeps the
@@ -22,13 +22,13 @@ template <class Number> auto projectsOntoFace(const Face& face, const Vec3Of<Num
 	auto inside = zero <= zero, beyond = zero < zero;
 	for (const HalfSpace& side : face.sidePlanes) {
 		const Number distance = signedDistance(side, x);
-		inside = both(inside, distance <= limit);
+		inside = logicalAnd(inside, distance <= limit);
 		if (!any(inside)) return inside;
-		beyond = either(beyond, distance > zero);
+		beyond = logicalOr(beyond, distance > zero);
 	}
-	if (!any(both(inside, beyond))) return inside;
+	if (!any(logicalAnd(inside, beyond))) return inside;
 	for (const HalfSpace& bevel : face.bevelPlanes)
-		inside = both(inside, either(beyond == (zero < zero), signedDistance(bevel, x) <= Number(M_SQRT2) * limit));
+		inside = logicalAnd(inside, logicalOr(beyond == (zero < zero), signedDistance(bevel, x) <= Number(M_SQRT2) * limit));
 	return inside;
 }
 
@@ -39,7 +39,7 @@ template <class Number> auto isInsideOtherFaces(const Polyhedron& body, int excl
 	const Number zero = 0.;
 	auto inside = zero <= zero;
 	for (int f = 0; f < int(body.faces.size()); ++f)
-		if (f != excludedFace) inside = both(inside, signedDistance(body.faces[f].plane, x) <= limit);
+		if (f != excludedFace) inside = logicalAnd(inside, signedDistance(body.faces[f].plane, x) <= limit);
 	return inside;
 }
 

@@ -61,7 +61,7 @@ namespace {
 		{
 			const Number overlap = Number(pair.contactDistance()) - contact.distance;
 			const Vec3Of<Number> middle = contact.pointA + (Number(pair.a.radius) - overlap / Number(2.)) * contact.normal;
-			const Vec3Of<Number> position = wide<Number>(positionA) + wide<Number>(rotationA) * middle, normal = wide<Number>(rotationA) * contact.normal;
+			const Vec3Of<Number> position = broadcast<Number>(positionA) + broadcast<Number>(rotationA) * middle, normal = broadcast<Number>(rotationA) * contact.normal;
 			for (size_t i = 0; i < count; ++i) {
 				if (!lane(valid, i)) continue;
 				const ContactPoint next { first[i], lane(position, i), lane(normal, i), lane(overlap, i) };
@@ -79,11 +79,11 @@ namespace {
 		const Face& f = body.core.faces[face];
 		const Number side = pair.sideTolerance(), zero = 0.;
 		distance = signedDistance(f.plane, x);
-		auto valid = both(distance < Number(pair.contactDistance()), distance > Number(-(pair.isDeep() ? body.coreHalfThickness : flushTolerance)));
+		auto valid = logicalAnd(distance < Number(pair.contactDistance()), distance > Number(-(pair.isDeep() ? body.coreHalfThickness : flushTolerance)));
 		if (!any(valid)) return valid;
-		valid = both(valid, projectsOntoFace(f, x, pair.isDeep() ? side : least(side, distance)));
+		valid = logicalAnd(valid, projectsOntoFace(f, x, pair.isDeep() ? side : min(side, distance)));
 		if (!pair.isDeep()) return valid;
-		return face == supportFace ? both(valid, either(distance >= zero, isInsideOtherFaces(body.core, face, x, side))) : zero < zero;
+		return face == supportFace ? logicalAnd(valid, logicalOr(distance >= zero, isInsideOtherFaces(body.core, face, x, side))) : zero < zero;
 	}
 
 	/// Up to laneCount vertices of one body against the same face of the other. Returns which of them are in contact.
@@ -100,7 +100,7 @@ namespace {
 		        pair, body, isFaceOfB ? pair.supportFaceB : pair.supportFaceA, face, isFaceOfB ? pair.toB<Number>(own) : inA, contact.distance);
 		if (!any(valid)) return valid;
 		const Vec3& outward = body.core.faces[face].plane.normal;
-		contact.normal = wide<Number>(isFaceOfB ? Vec3(-(pair.rotation * outward)) : outward);
+		contact.normal = broadcast<Number>(isFaceOfB ? Vec3(-(pair.rotation * outward)) : outward);
 		contact.pointA = isFaceOfB ? inA : Vec(inA - contact.distance * contact.normal);
 		return valid;
 	}
@@ -117,19 +117,19 @@ namespace {
 		const Group<Number, const Edge> a(count, edgeA), b(count, edgeB);
 		const Vec tailA = Group<Number, const Vec3>(count, [&](size_t i) { return &coreA.vertices[edgeA(i)->tail]; }).vectors();
 		const Vec tailB = pair.toA<Number>(Group<Number, const Vec3>(count, [&](size_t i) { return &coreB.vertices[edgeB(i)->tail]; }).vectors());
-		const Vec directionA = a.get(&Edge::direction), directionB = wide<Number>(pair.rotation) * b.get(&Edge::direction);
+		const Vec directionA = a.get(&Edge::direction), directionB = broadcast<Number>(pair.rotation) * b.get(&Edge::direction);
 		const Crossing<Number> c = crossing<Number>(tailA, directionA, tailB, directionB);
 		auto valid = c.sine >= Number(parallelSine);
 		if (!any(valid)) return valid;
 		const Number end = Number(flushTolerance) / c.sine;
-		valid = both(valid, both(both(c.alongA > end, c.alongA < a.get(&Edge::length) - end), both(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
+		valid = logicalAnd(valid, logicalAnd(logicalAnd(c.alongA > end, c.alongA < a.get(&Edge::length) - end), logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
 		if (!any(valid)) return valid;
-		contact.normal = where(c.normal.dot(a.get(&Edge::outward)) < zero, Vec(-c.normal), c.normal);
-		valid = both(valid, contact.normal.dot(Vec(wide<Number>(pair.rotation) * b.get(&Edge::outward))) < zero); // otherwise on the far side of B
+		contact.normal = select(c.normal.dot(a.get(&Edge::outward)) < zero, Vec(-c.normal), c.normal);
+		valid = logicalAnd(valid, contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < zero); // otherwise on the far side of B
 		contact.pointA = tailA + c.alongA * directionA;
 		contact.distance = contact.normal.dot(Vec(tailB + c.alongB * directionB - contact.pointA));
-		return both(valid,
-		        both(contact.distance < Number(pair.contactDistance()), contact.distance > Number(-(pair.isDeep() ? pair.depthLimit() : flushTolerance))));
+		return logicalAnd(valid,
+		        logicalAnd(contact.distance < Number(pair.contactDistance()), contact.distance > Number(-(pair.isDeep() ? pair.depthLimit() : flushTolerance))));
 	}
 
 	/// Whether a vertex is the support point of its body along a direction (unit): no edge from it rises by more than `slope` (cosine).
@@ -233,7 +233,7 @@ namespace {
 		FeatureContact<Number> contact;
 		const auto add = [&](auto valid) {
 			if (!any(valid)) return;
-			if (pair.isDeep()) valid = both(valid, contact.normal.dot(wide<Number>(pair.axis)) >= Number(deepNormalCosine));
+			if (pair.isDeep()) valid = logicalAnd(valid, contact.normal.dot(broadcast<Number>(pair.axis)) >= Number(deepNormalCosine));
 			points.add(first, count, valid, contact);
 		};
 		const FeatureKind kind = first->kind();

@@ -26,8 +26,8 @@ struct ShapePair {
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); } ///< [m]
 	/// A projection beyond a side of a face by less than this still belongs to the face. [m]
 	double sideTolerance() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
-	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return wide<Number>(rotation).transpose() * (x - wide<Number>(translation)); }
-	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return wide<Number>(rotation) * x + wide<Number>(translation); }
+	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation)); }
+	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation) * x + broadcast<Number>(translation); }
 };
 
 /// Closest points of two lines.
@@ -44,7 +44,7 @@ Crossing<Number> crossing(const Vec3Of<Number>& originA, const Vec3Of<Number>& d
 	Crossing<Number> c;
 	const Vec3Of<Number> n = directionA.cross(directionB);
 	const Number square = n.squaredNorm();
-	c.sine = root(square);
+	c.sine = sqrt(square);
 	c.normal = n / c.sine;
 	const Vec3Of<Number> w = originB - originA;
 	c.alongA = w.cross(directionB).dot(n) / square;

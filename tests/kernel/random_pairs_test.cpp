@@ -158,7 +158,7 @@ TEST(RandomPairs, GapIsKept)
 		if (gap == 0) continue;
 		++promised;
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.boundingRadius);
-		const double left = gap - turnedWay(turn, b.halfExtents);
+		const double left = gap - rotationDisplacement(turn, b.halfExtents);
 		ASSERT_GE(left, 0);
 		EXPECT_TRUE(contacts(a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns).empty()) << trial;
 		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
@@ -169,18 +169,18 @@ TEST(RandomPairs, GapIsKept)
 }
 
 /// No core vertex goes farther than the bound; a member that spins about its axis is not taken for one that swings.
-TEST(RandomPairs, TurnedWayBoundsAllPoints)
+TEST(RandomPairs, RotationDisplacementBoundsAllPoints)
 {
 	Random random(92);
 	int refused = 0;
 	for (const auto& body : randomBodies(random, 200, refused)) {
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 3));
-		const double bound = turnedWay(turn, body.halfExtents);
+		const double bound = rotationDisplacement(turn, body.halfExtents);
 		EXPECT_LE(bound, 4 * body.boundingRadius);
 		for (const Vec3& x : body.core.vertices)
 			EXPECT_LE((turn * x - x).norm(), bound + 1e-12 * body.boundingRadius);
 	}
 	const auto column = roundedBox({ 0.12, 0.12, 2.73 });
-	EXPECT_NEAR(turnedWay(about(Vec3::UnitZ(), 0.01), column.halfExtents), 0.01 * M_SQRT2 * 0.048, 1e-5);
-	EXPECT_NEAR(turnedWay(about(Vec3::UnitX(), 0.01), column.halfExtents), 0.01 * std::hypot(0.048, 1.353), 1e-5);
+	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitZ(), 0.01), column.halfExtents), 0.01 * M_SQRT2 * 0.048, 1e-5);
+	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitX(), 0.01), column.halfExtents), 0.01 * std::hypot(0.048, 1.353), 1e-5);
 }
