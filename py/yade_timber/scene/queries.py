@@ -6,7 +6,7 @@ from yade.minieigenHP import Vector3
 
 from . import arguments
 from .engines import find_engine
-from .joints import joins_bodies, require_ids
+from .joints import require_ids
 
 O = yw.Omega()
 
@@ -67,18 +67,5 @@ def stable_dt(safety=0.5):
     solver = find_engine(yw.ContactForces)
     if solver is None:
         raise ValueError("stable_dt: set O.engines = yade_timber.engines(...) first")
-    squared = solver.largestEigenvalue(_unbroken_springs())
+    squared = solver.largestEigenvalue()
     return safety * 2 / np.sqrt(squared) if squared > 0 else np.inf
-
-
-def _unbroken_springs():
-    """[(id1, id2, point on body 1, stiffness)] of all springs that act, world frame."""
-    engine = find_engine(yw.JointEngine)
-    springs = []
-    for joint in engine.joints if engine else []:
-        if joint.isFinished or not joins_bodies(joint):
-            continue
-        s1 = O.bodies[joint.id1].state
-        stiffness = max(joint.kn, joint.ks) / (len(joint.anchors1) if joint.perJoint else 1)
-        springs += [(joint.id1, joint.id2, s1.pos + s1.ori * a, stiffness) for a, gone in zip(joint.anchors1, joint.broken) if not gone]
-    return springs
