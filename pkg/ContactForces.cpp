@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactForces.hpp>
+#include <Joints.hpp>
+#include <kernel/constants.hpp>
 #include <kernel/threads.hpp>
+#include <validation.hpp>
 #include <numeric>
 
 namespace yade {
 
 YADE_PLUGIN((ContactForces));
 
-/// Steps for which a point's response is kept. A member that turns at 10 rad/s has turned by 0.03 rad by then; longer gains nothing.
-constexpr int responseSteps = 32;
+namespace {
+	/// Placement, velocities, mass and inertia of a body; the new velocities are without its forces.
+	void setBody(timber::SolverBody& own, const State& s)
+	{
+		own.position = s.pos;
+		own.velocity = own.newVelocity = s.vel;
+		own.spin = own.newSpin = s.angVel;
+		own.inverseMass        = 0;
+		own.inverseInertia.setZero();
+		if (!isFree(s)) return;
+		const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
+		own.inverseMass     = 1 / s.mass;
+		for (int i = 0; i < 3; ++i)
+			for (int j = 0; j < 3; ++j)
+				own.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j)); // as a product of matrices Eigen calls a function for each
+	}
+}
+
+void ContactForces::validate() const
+{
+	require(sweeps >= 0, "ContactForces.sweeps", sweeps, ">= 0");
+	requirePositive("ContactForces.tolerance", tolerance);
+}
 
 void ContactForces::sortPairs()
 {
@@ -18,38 +42,34 @@ void ContactForces::sortPairs()
 	std::sort(order.begin(), order.end(), [&](size_t k, size_t l) { return ids(k) < ids(l); });
 }
 
-void ContactForces::collectPairs()
+/// Pairs with contact points or released energy, in the container's order.
+void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& found)
 {
 	static const int ours = ManifoldGeom::getClassIndexStatic();
 	found.clear();
-	for (const shared_ptr<Interaction>& I : *scene->interactions) {
+	for (const shared_ptr<Interaction>& I : *scene.interactions) {
 		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
-		if (!phys.isIdle()) found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.states.size(), phys.lostEnergy });
+		if (!phys.isIdle()) found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.lostEnergy });
 	}
-	const auto wasSame = [this](const Pair& p, size_t place) { return p.hasIdsOf(found[place]); };
-	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), wasSame)) sortPairs();
+}
+
+void ContactForces::collectPairs()
+{
+	findPairs(*scene, found);
+	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(found[k]); };
+	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds)) sortPairs();
 	pairs.resize(found.size());
-	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t place) { return found[place]; });
+	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t k) { return found[k]; });
 }
 
 void ContactForces::collectBody(Body::id_t id)
 {
 	const shared_ptr<Body>& b = (*scene->bodies)[id];
 	if (!b) return;
-	const State&         s   = *b->state;
 	timber::SolverBody& own = bodies[id];
-	own.position = s.pos;
-	own.velocity = own.newVelocity = s.vel;
-	own.spin = own.newSpin = s.angVel;
-	own.inverseMass        = 0;
-	own.inverseInertia.setZero();
-	if (!isFree(s)) return;
-	const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
-	own.inverseMass     = 1 / s.mass;
-	for (int i = 0; i < 3; ++i)
-		for (int j = 0; j < 3; ++j)
-			own.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j)); // as a product of matrices Eigen calls a function for each
+	setBody(own, *b->state);
+	if (own.inverseMass == 0) return;
 	own.newVelocity += scene->dt * own.inverseMass * scene->forces.getForce(id);
 	own.newSpin += scene->dt * own.inverseInertia * scene->forces.getTorque(id);
 }
@@ -67,38 +87,38 @@ void ContactForces::findIslands()
 {
 	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
 	links.resize(pairs.size());
-	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const Pair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
+	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
 	islands.find(bodies.size(), links);
 }
 
-void ContactForces::prepareContacts(timber::ContactSolver& solver, size_t k, const Pair& p)
+void ContactForces::prepareContacts(timber::ContactSolver& solver, size_t k, const ContactPair& p)
 {
 	const Real inverseMass = timber::inverseMass(bodies[p.id1], bodies[p.id2]);
-	if (inverseMass > 0) p.phys->mass = 1 / inverseMass; // bodies are held and released, and get other masses
-	const bool refresh = (scene->iter + p.id1 + p.id2) % responseSteps == 0; // not all pairs in the same step, and the same ones after a load
-	timber::prepareContacts(solver, k, bodies, p.phys->properties(), p.phys->dampingRatio, scene->dt, refresh, p.geom->contactPoints, p.phys->states);
+	if (inverseMass > 0) p.phys->mass = 1 / inverseMass; // bodies may be fixed, freed or get another mass in a session
+	const bool refresh = (scene->iter + p.id1 + p.id2) % timber::responseSteps == 0; // spread over the steps, reproducible after a load
+	timber::prepareContacts({ solver, bodies, scene->dt }, k, p.phys->properties(), refresh, p.geom->contactPoints, p.phys->records);
 }
 
-void ContactForces::storeForces(const timber::ContactSolver& solver, size_t k, const Pair& p, timber::PairEnergies& books)
+void ContactForces::storeForces(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)
 {
-	const timber::PairForce f = timber::storeForces(solver, k, bodies, p.phys->properties(), scene->dt, p.phys->states, trackEnergy ? &books : nullptr);
-	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // fixed bodies belong to several islands, which other threads work on
+	const timber::PairForce f = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
+	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
 	if (bodies[p.id2].inverseMass > 0) sums.add(p.id2, f.onB, f.torqueB);
 }
 
-/// All of a step's work on an island, while it is in the processor's cache.
-ContactForces::Result ContactForces::solve(timber::Islands::Island island)
+/// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
+ContactForces::IslandResult ContactForces::solve(timber::Islands::Island island)
 {
-	Result                 result;
+	IslandResult           result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
 	const int              count  = int(island.size());
-	solver.clear(sweeps);
+	solver.begin(sweeps);
 	for (const int pair : island)
 		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
 	timber::forAll(count, [&](int k) { prepareContacts(solver, k, pairs[island[k]]); });
 	result.sweeps = solver.solve(bodies, tolerance);
 	for (int k = 0; k < count; ++k)
-		storeForces(solver, k, pairs[island[k]], result.books);
+		storeForces(solver, k, pairs[island[k]], result.energies);
 	return result;
 }
 
@@ -113,16 +133,16 @@ void ContactForces::solveAll()
 void ContactForces::sumResults()
 {
 	elasticNormal = elasticShear = elasticPower = 0;
-	for (const Pair& pair : pairs)
+	for (const ContactPair& pair : pairs)
 		if (trackEnergy) lost += pair.lost;
 	int most = 0;
-	for (const Result& of : results) {
-		dashpotNormal += of.books.dashpotNormal;
-		dashpotShear += of.books.dashpotShear;
-		friction += of.books.friction;
-		elasticNormal += of.books.elasticNormal;
-		elasticShear += of.books.elasticShear;
-		elasticPower += of.books.elasticPower;
+	for (const IslandResult& of : results) {
+		dashpotNormal += of.energies.dashpotNormal;
+		dashpotShear += of.energies.dashpotShear;
+		friction += of.energies.friction;
+		elasticNormal += of.energies.elasticNormal;
+		elasticShear += of.energies.elasticShear;
+		elasticPower += of.energies.elasticPower;
 		most = std::max(most, of.sweeps);
 	}
 	sweepsDone += most;
@@ -138,29 +158,24 @@ void ContactForces::action()
 	sums.handOver(*scene);
 }
 
-Real ContactForces::largestEigenvalue(const boost::python::list& extra)
+Real ContactForces::largestEigenvalue() const
 {
-	scene = Omega::instance().getScene().get(); // not that of before a load
-	collectPairs();
-	collectBodies();
-	std::vector<timber::StiffPoint> stiff;
-	for (const Pair& pair : pairs) {
-		const int id1 = pair.id1, id2 = pair.id2;
+	const Scene&                    now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
+	std::vector<timber::SolverBody> masses(now.bodies->size());
+	for (const shared_ptr<Body>& b : *now.bodies)
+		if (b) setBody(masses[b->getId()], *b->state);
+	std::vector<ContactPair> contacts;
+	findPairs(now, contacts);
+	std::sort(contacts.begin(), contacts.end(), [](const ContactPair& p, const ContactPair& q) { return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2); });
+	std::vector<timber::PointSpring> springs;
+	for (const ContactPair& pair : contacts)
 		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
-			const Real                  kn = pair.phys->states[k].stiffness;
-			stiff.push_back({ id1, id2, at.position - Body::byId(id1, scene)->state->pos, at.position - Body::byId(id2, scene)->state->pos, at.normal, kn, pair.phys->shearRatio * kn });
+			const Real                  kn = pair.phys->records[k].stiffness;
+			springs.push_back({ pair.id1, pair.id2, at.position - masses[pair.id1].position, at.position - masses[pair.id2].position, at.normal, kn, pair.phys->shearRatio * kn });
 		}
-	}
-	for (int k = 0; k < boost::python::len(extra); ++k) {
-		const boost::python::tuple t   = boost::python::extract<boost::python::tuple>(extra[k]);
-		const int                  id1 = boost::python::extract<int>(t[0]), id2 = boost::python::extract<int>(t[1]);
-		const Vector3r             x = boost::python::extract<Vector3r>(t[2]);
-		const Real                 stiffness = boost::python::extract<Real>(t[3]);
-		const Body *               b1 = bodyAt(*scene, id1), *b2 = bodyAt(*scene, id2);
-		if (b1 && b2) stiff.push_back({ id1, id2, x - b1->state->pos, x - b2->state->pos, Vector3r::UnitZ(), stiffness, stiffness });
-	}
-	return timber::largestEigenvalue(bodies, stiff);
+	if (const JointEngine* joints = findEngine<JointEngine>(now)) joints->addSprings(now, springs);
+	return timber::largestEigenvalue(masses, springs);
 }
 
 } // namespace yade

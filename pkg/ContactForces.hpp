@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// From the elastic forces of all contacts to the total forces on the bodies.
+/// Engine of the contact solver: collects pairs and bodies, solves island by island, sums forces and energies.
 #pragma once
 #include <ContactPhysics.hpp>
 #include <bodies.hpp>
@@ -10,65 +10,65 @@
 namespace yade {
 
 class ContactForces : public GlobalEngine {
-	/// A contact pair in this step. Pairs are handled island by island, in the order of their body ids, whatever the container's
-	/// order: the sums then do not depend on threads or on when the collider saw the pair.
-	struct Pair {
+	/// A pair in this step. Pairs are ordered by island and body ids, not by the container's order: the sums then depend neither on threads
+	/// nor on the history of the collider.
+	struct ContactPair {
 		Body::id_t          id1, id2;
-		const ManifoldGeom* geom; ///< of this step: a reset interaction gets new ones
+		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
 		ManifoldPhys*       phys;
-		size_t              points; ///< this and the next are phys's, read while it is at hand
-		Real                lost; ///< [J]
-		bool                hasIdsOf(const Pair& p) const { return id1 == p.id1 && id2 == p.id2; }
+		size_t              points; ///< copy of the number of phys's records
+		Real                lost; ///< copy of phys->lostEnergy [J]
+		bool                hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
-	std::vector<Pair>                  pairs, found; ///< sorted, and in the container's order
-	std::vector<size_t>                order; ///< of each of `pairs`, its place in `found`
+	struct IslandResult {
+		timber::PairEnergies energies;
+		int                  sweeps = 0;
+	};
+	std::vector<ContactPair>           pairs, found; ///< ordered by body ids, and in the container's order
+	std::vector<size_t>                order; ///< of each of `pairs`, its index in `found`
 	timber::Islands                    islands;
 	std::vector<timber::Link>          links; ///< of each pair
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
-	std::vector<timber::SolverBody>   bodies; ///< indexed by body id
+	std::vector<timber::SolverBody>    bodies; ///< indexed by body id
+	std::vector<IslandResult>          results; ///< of each island
 	BodyForces                         sums; ///< of the contacts, on free bodies
 
-	/// What a step makes of an island; summed in their order, whoever did them.
-	struct Result {
-		timber::PairEnergies books;
-		int                  sweeps = 0;
-	};
-	std::vector<Result> results;
-
-	void   sortPairs();
-	void   collectPairs();
-	void   collectBody(Body::id_t);
-	void   collectBodies();
-	void   findIslands();
-	void   prepareContacts(timber::ContactSolver&, size_t k, const Pair&);
-	void   storeForces(const timber::ContactSolver&, size_t k, const Pair&, timber::PairEnergies&);
-	Result solve(timber::Islands::Island);
-	void   solveAll();
-	void   sumResults();
+	static void  findPairs(const Scene&, std::vector<ContactPair>&);
+	void         sortPairs();
+	void         collectPairs();
+	void         collectBody(Body::id_t);
+	void         collectBodies();
+	void         findIslands();
+	void         prepareContacts(timber::ContactSolver&, size_t k, const ContactPair&);
+	void         storeForces(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
+	IslandResult solve(timber::Islands::Island);
+	void         solveAll();
+	void         sumResults();
 
 public:
+	void postLoad(ContactForces&) { validate(); }
+	void validate() const;
 	void action() override;
-	/// Largest eigenvalue of M^-1 K of the contacts as they are now and the given springs, by power iteration. [1/s2]
-	/// springs: list of (id1, id2, point in the world frame [m], stiffness [N/m]).
-	Real largestEigenvalue(const boost::python::list& springs);
+	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
+	Real largestEigenvalue() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
-		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb's limit. "
+		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 50, , "Most Gauss-Seidel sweeps for the implicit springs and dashpots; 0: explicit ones, as in the paper, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, , "The sweeps of an island of contacts end once none of its pairs changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass. [-]"))
-		((long, sweepsDone, 0, , "Sweeps of all steps so far, each those of the island that took most. [-]"))
-		((bool, trackEnergy, true, , "Whether the energies below are kept. [-]"))
-		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots, and what Newmark's term has taken. [J]"))
-		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots, and what Newmark's term has taken. [J]"))
+		((int, sweeps, 50, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
+		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass. [-]"))
+		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
+		((bool, trackEnergy, true, , "Whether the energies below are computed. [-]"))
+		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))
+		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots and by Newmark's term. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
-		((Real, lost, 0, , "Elastic energy of loaded points that ceased to exist, minus that of points born under load. [J]"))
+		((Real, lost, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))
-		((Real, elasticPower, 0, , "Rate at which the springs' energy grows with the velocities at the end of the last step. [W]")),
+		((Real, elasticPower, 0, , "Rate of change of the springs' energy at the velocities after the last step. [W]")),
 		,
-		.def("largestEigenvalue", &ContactForces::largestEigenvalue, (boost::python::arg("springs")), "Largest eigenvalue of M^-1 K of all contacts as they are now, plus springs given as (id1, id2, point, stiffness). [1/s2]")
+		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the present contacts and joints of the scene. [1/s2]")
 	);
 	// clang-format on
 };

@@ -15,18 +15,18 @@ namespace serialization {
 
 namespace yade {
 
-/// Made anew from the two placements in each step; the points are saved so that a loaded scene can be asked for them.
+/// Computed from the two poses in each step. The points are saved, so that a loaded scene shows them before its first step.
 class ManifoldGeom : public IGeom {
 public:
 	timber::CandidateCache cache;
-	Real                   gap = 0; ///< by which the bodies may surely move against each other before they touch; 0: not known [m]
+	Real                   safeDisplacement = 0; ///< relative motion of the bodies before which there is no contact; 0: unknown [m]
 
 	boost::python::list pyPoints() const;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldGeom, IGeom, "Contact points between two :yref:`RoundedPolyhedron`; none while they are only near each other.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldGeom, IGeom, "Contact points between two :yref:`RoundedPolyhedron`; none while their bounding boxes overlap without contact.",
 		((vector<timber::ContactPoint>, contactPoints, , Attr::hidden, "Contact points, sorted by feature id. [-]")),
 		createIndex();,
-		.add_property("points", &ManifoldGeom::pyPoints, "List of (position [m], normal from body 1 to body 2, overlap [m], feature id) of the points that touch, world frame.")
+		.add_property("points", &ManifoldGeom::pyPoints, "List of (position [m], normal from body 1 to body 2, overlap [m], feature id) of the contact points, world frame.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ManifoldGeom, IGeom);
@@ -40,9 +40,9 @@ public:
 	DEFINE_FUNCTOR_ORDER_2D(RoundedPolyhedron, RoundedPolyhedron);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom, IGeomFunctor,
-		"Contact points between two polyhedra: vertex on face and edge across edge, as the paper keeps (section 2.2). The interaction stays while the bounding boxes overlap, so that the candidate features of a near pair are kept.",
-		((bool, vertexEdge, false, , "Whether vertex-edge and vertex-vertex contacts exist too, which the paper ignores. [-]"))
-		((bool, flushSupports, true, , "Whether a vertex exactly over the border of a face (flush members) is supported by it. [-]"))
+		"Contact points between two polyhedra: vertex-face and edge-edge, as in the paper (section 2.2). The interaction exists while the bounding boxes overlap, so that the candidate features of a near pair are cached. Periodic cells are not supported.",
+		((bool, vertexEdge, false, , "Also vertex-edge and vertex-vertex contacts, which the paper ignores. [-]"))
+		((bool, flushSupports, true, , "A vertex exactly above the border of a face (flush members) is supported by the face. [-]"))
 	);
 	// clang-format on
 };

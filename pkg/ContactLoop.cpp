@@ -17,58 +17,60 @@ namespace {
 	}
 }
 
-bool ContactLoop::isHeld(const Pair& p) const
+bool ContactLoop::areBothFixed(const TrackedInteraction& t) const
 {
-	const Body *b1 = bodyAt(*scene, p.id1), *b2 = bodyAt(*scene, p.id2);
+	const Body *b1 = bodyAt(*scene, t.id1), *b2 = bodyAt(*scene, t.id2);
 	return b1 && b2 && !isFree(*b1->state) && !isFree(*b2->state);
 }
 
-/// Nothing has happened that only the wrapped loop can deal with: the trigger has looked in this step, the collider has not run, no pair was reset, no held body released.
+/// Whether the tracked interactions are valid: the trigger ran in this step and the collider did not, no interaction was added, erased or
+/// reset, and no fixed body was freed.
 bool ContactLoop::isCurrent(const CollisionTrigger* trigger) const
 {
-	return trigger && trigger->isCurrent() && colliderRuns == trigger->runs && seen == scene->interactions->size()
-	        && std::all_of(pairs.begin(), pairs.end(), [](const Pair& p) { return p.interaction->isReal(); })
-	        && std::all_of(held.begin(), held.end(), [this](const Pair& p) { return isHeld(p); });
+	return trigger && trigger->isCurrent() && colliderRuns == trigger->runs && interactionCount == scene->interactions->size()
+	        && std::all_of(tracked.begin(), tracked.end(), [](const TrackedInteraction& t) { return t.interaction->isReal(); })
+	        && std::all_of(fixedPairs.begin(), fixedPairs.end(), [this](const TrackedInteraction& t) { return areBothFixed(t); });
 }
 
-void ContactLoop::lookAtAll(const CollisionTrigger* trigger)
+void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
 {
-	if (!loop) throw std::invalid_argument("ContactLoop.loop: it needs an InteractionLoop");
+	if (!loop) throw std::invalid_argument("ContactLoop.loop: an InteractionLoop is required");
 	loop->scene = scene;
 	loop->action();
 	++runs;
-	pairs.clear();
-	held.clear();
-	bool ours = !scene->isPeriodic;
+	tracked.clear();
+	fixedPairs.clear();
+	bool allRounded = true;
 	for (const shared_ptr<Interaction>& I : *scene->interactions) {
-		const Pair pair { I, I->getId1(), I->getId2(), 0 };
-		if (I->isReal()) pairs.push_back(pair);
-		else if (isHeld(pair)) held.push_back(pair);
-		ours = ours && isRounded(*scene, pair.id1) && isRounded(*scene, pair.id2);
+		const TrackedInteraction t { I, I->getId1(), I->getId2(), 0 };
+		if (I->isReal()) tracked.push_back(t);
+		else if (areBothFixed(t)) fixedPairs.push_back(t);
+		allRounded = allRounded && isRounded(*scene, t.id1) && isRounded(*scene, t.id2);
 	}
-	seen = scene->interactions->size();
-	colliderRuns = trigger && ours ? trigger->runs : -1;
+	interactionCount = scene->interactions->size();
+	colliderRuns     = trigger && allRounded ? trigger->runs : -1;
 }
 
-void ContactLoop::look(Pair& pair, const CollisionTrigger& trigger) const
+/// As InteractionLoop does for one pair. A pair without points and history needs no law until the collider runs.
+void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& trigger) const
 {
-	const Real approach = trigger.approach(pair.id1, pair.id2);
-	if (approach < pair.shut) return;
-	const shared_ptr<Interaction>& I = pair.interaction;
-	const Body &                   b1 = *(*scene->bodies)[pair.id1], &b2 = *(*scene->bodies)[pair.id2];
+	const Real approach = trigger.approach(t.id1, t.id2);
+	if (approach < t.separation) return;
+	const shared_ptr<Interaction>& I = t.interaction;
+	const Body &                   b1 = *(*scene->bodies)[t.id1], &b2 = *(*scene->bodies)[t.id2];
 	I->functorCache.geom->go(b1.shape, b2.shape, *b1.state, *b2.state, Vector3r::Zero(), false, I);
-	const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
-	const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
-	const bool          law  = !geom.contactPoints.empty() || !phys.isIdle(); // else it does nothing until the collider runs
-	if (law && !I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
-	pair.shut = phys.isIdle() ? geom.gap - approach : 0;
+	const ManifoldGeom& geom     = *static_cast<ManifoldGeom*>(I->geom.get());
+	const ManifoldPhys& phys     = *static_cast<ManifoldPhys*>(I->phys.get());
+	const bool          needsLaw = !geom.contactPoints.empty() || !phys.isIdle();
+	if (needsLaw && !I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
+	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }
 
 void ContactLoop::action()
 {
 	const CollisionTrigger* trigger = findEngine<CollisionTrigger>(*scene);
-	if (!isCurrent(trigger)) return lookAtAll(trigger);
-	timber::forAll(int(pairs.size()), [&](int k) { look(pairs[k], *trigger); });
+	if (!isCurrent(trigger)) return runInteractionLoop(trigger);
+	timber::forAll(int(tracked.size()), [&](int k) { updateContact(tracked[k], *trigger); });
 }
 
 } // namespace yade

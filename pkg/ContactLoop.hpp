@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The loop over contacts, without what YADE's does again in each step and without pairs that cannot touch.
+/// The loop over interactions, without the pairs that cannot be in contact.
+///
+/// * The wrapped InteractionLoop runs when the collider has run, or when interactions were added or erased. It creates geometry and physics,
+///   erases interactions, and selects the functors of each pair.
+/// * In all other steps, these functors are called directly.
+/// * A pair is skipped as long as the approach of its bodies since the collider ran (CollisionTrigger) is less than their separation.
+/// * The result is that of the InteractionLoop, bit for bit.
+/// * Pairs of two fixed bodies have neither geometry nor physics. If one of the bodies is freed, the InteractionLoop runs.
+/// * Without a CollisionTrigger, or with shapes other than RoundedPolyhedron, the InteractionLoop runs in each step.
 #pragma once
 #include <pch.hpp>
 
@@ -8,30 +16,30 @@ namespace yade {
 class CollisionTrigger;
 
 class ContactLoop : public GlobalEngine {
-	struct Pair {
+	struct TrackedInteraction {
 		shared_ptr<Interaction> interaction;
 		Body::id_t              id1, id2;
-		Real                    shut; ///< it cannot touch while its bodies' approach since the collider ran is less [m]
+		Real                    separation; ///< no contact while the approach since the collider ran is less than this [m]
 	};
-	std::vector<Pair> pairs; ///< those that have geometry and physics
-	std::vector<Pair> held; ///< those of two held bodies, which have none
-	size_t            seen = 0; ///< interactions in the container when the wrapped loop ran
-	long              colliderRuns = -1; ///< by then; < 0: the wrapped loop must run in each step
+	std::vector<TrackedInteraction> tracked; ///< with geometry and physics
+	std::vector<TrackedInteraction> fixedPairs; ///< of two fixed bodies
+	size_t                          interactionCount = 0; ///< when the InteractionLoop ran
+	long                            colliderRuns     = -1; ///< when the InteractionLoop ran; < 0: it must run in each step
 
-	bool isHeld(const Pair&) const;
+	bool areBothFixed(const TrackedInteraction&) const;
 	bool isCurrent(const CollisionTrigger*) const;
-	void lookAtAll(const CollisionTrigger*);
-	void look(Pair&, const CollisionTrigger&) const;
+	void runInteractionLoop(const CollisionTrigger*);
+	void updateContact(TrackedInteraction&, const CollisionTrigger&) const;
 
 public:
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ContactLoop, GlobalEngine,
-		"Wraps an :yref:`InteractionLoop`, which runs when the collider has run or pairs came or went. In all other steps the functors that it has found for each pair are called at once, and only where bodies may touch: "
-		"a pair is left alone as long as its bodies have moved against each other by less than the gap between them. The result is that of the InteractionLoop, which may stand here by itself. "
-		"The InteractionLoop runs in each step of a scene that has no :yref:`CollisionTrigger` before it, is periodic, or has pairs of other shapes than :yref:`RoundedPolyhedron`. One with callbacks must stand by itself.",
+		"Wraps an :yref:`InteractionLoop`, which runs only when the collider has run or when interactions were added or erased. In all other steps the functors of each pair are called directly, "
+		"and pairs are skipped while their bodies have approached by less than the gap between them. The result is that of the InteractionLoop, which can replace this engine. "
+		"The InteractionLoop runs in each step if the scene has no :yref:`CollisionTrigger` before it, or pairs of shapes other than :yref:`RoundedPolyhedron`. An InteractionLoop with callbacks must not be wrapped.",
 		((shared_ptr<Engine>, loop, , , "The InteractionLoop. [-]"))
-		((long, runs, 0, Attr::readonly, "How often the InteractionLoop ran. [-]")));
+		((long, runs, 0, Attr::readonly, "Number of runs of the InteractionLoop. [-]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(ContactLoop);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactPhysics.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
@@ -14,7 +15,7 @@ namespace {
 	/// A fixed body counts as infinitely heavy.
 	Real massOf(const Body& body) { return isFree(*body.state) ? body.state->mass : std::numeric_limits<Real>::infinity(); }
 
-	void setPair(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
+	void setProperties(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
 	{
 		phys.mass         = timber::reduced(massOf(b1), massOf(b2));
 		phys.friction     = std::min(friction1, friction2);
@@ -23,7 +24,7 @@ namespace {
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
 	}
 
-	/// Contact stiffness that an element brings along, if it is of snow. [N/m]
+	/// Contact stiffness of an element of snow; infinite for other elements. [N/m]
 	Real snowStiffness(const Material& material, const Body& body)
 	{
 		const auto snow = dynamic_cast<const SnowMat*>(&material);
@@ -35,30 +36,56 @@ namespace {
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
 	}
 
-	timber::BodyMotion motionOf(const State& s) { return { s.pos, s.vel, s.angVel }; }
+	timber::BodyKinematics kinematics(const State& s) { return { s.pos, s.vel, s.angVel }; }
 
-	/// Returns false when the pair is out of reach for good: no points, nothing lost, bounding boxes apart.
-	template <class Phys> bool lawStep(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
+	/// Elastic step of a pair. Returns false when the interaction ends: no contact points, bounding boxes apart.
+	template <class Phys> bool elasticForces(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
 	{
 		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
 		Phys&               phys = *static_cast<Phys*>(p);
 		const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-		if (geom.contactPoints.empty() && phys.states.empty()) {
+		if (geom.contactPoints.empty() && phys.records.empty()) {
 			phys.lostEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
-		const auto law  = phys.law();
-		phys.lostEnergy = timber::elasticPair(law, phys.properties(), motionOf(*b1.state), motionOf(*b2.state), scene->dt, form, I->isFresh(scene), geom.contactPoints, phys.states);
+		const timber::PairProperties pair = phys.properties();
+		phys.lostEnergy = timber::elasticPair(phys.law(), { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) }, geom.contactPoints, phys.records);
 		return true;
 	}
 
 } // namespace
 
-boost::python::list ManifoldPhys::pyStates() const
+void ManifoldPhys::validate() const
+{
+	require(mass > 0, "ManifoldPhys.mass", mass, "> 0");
+	requireNonNegative("ManifoldPhys.friction", friction);
+	requirePositive("ManifoldPhys.shearRatio", shearRatio);
+	requireNonNegative("ManifoldPhys.dampingRatio", dampingRatio);
+	requirePositive("ManifoldPhys.overlapLimit", overlapLimit);
+}
+
+void TimberPhys::validate() const
+{
+	ManifoldPhys::validate();
+	requirePositive("TimberPhys.modulus", modulus);
+	requirePositive("TimberPhys.radius", radius);
+}
+
+void SnowPhys::validate() const
+{
+	ManifoldPhys::validate();
+	requirePositive("SnowPhys.stiffness", stiffness);
+}
+
+void Ip2_TimberMat_TimberMat_TimberPhys::validate() const { requireNonNegative("Ip2_TimberMat_TimberMat_TimberPhys.dampingRatio", dampingRatio); }
+
+void Ip2_ElementMat_ElementMat_SnowPhys::validate() const { requireNonNegative("Ip2_ElementMat_ElementMat_SnowPhys.dampingRatio", dampingRatio); }
+
+boost::python::list ManifoldPhys::pyPoints() const
 {
 	boost::python::list all;
-	for (const timber::PointState& s : states)
-		all.append(boost::python::make_tuple(s.id.bits, Real(s.normal), Vector3r(s.shear), Vector3r(s.dashpot)));
+	for (const timber::PointRecord& p : records)
+		all.append(boost::python::make_tuple(p.id.bits, Real(p.normal), Vector3r(p.shear), Vector3r(p.dashpot)));
 	return all;
 }
 
@@ -69,7 +96,7 @@ void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, cons
 	const Body &          b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	shared_ptr<TimberPhys> phys(new TimberPhys);
 	const Real            poisson = (t1.poisson + t2.poisson) / 2;
-	setPair(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
+	setProperties(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
 	phys->radius  = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
 	I->phys       = phys;
@@ -80,19 +107,19 @@ void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, cons
 	if (I->phys) return;
 	const Body &         b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	shared_ptr<SnowPhys> phys(new SnowPhys);
-	setPair(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
+	setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
 	phys->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
 	I->phys         = phys;
 }
 
 bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
 {
-	return lawStep<TimberPhys>(g.get(), p.get(), I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
+	return elasticForces<TimberPhys>(g.get(), p.get(), I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
 }
 
 bool Law2_ManifoldGeom_SnowPhys_Linear::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
 {
-	return lawStep<SnowPhys>(g.get(), p.get(), I, scene, timber::NormalForm::Closed);
+	return elasticForces<SnowPhys>(g.get(), p.get(), I, scene, timber::NormalForm::Closed);
 }
 
 } // namespace yade

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a pair of bodies shares (Ip2) and the elastic part of the contact laws (Law2). Dashpots, sliding and the
-/// forces on the bodies: ContactForces.
+/// Properties and history of a pair in contact (IPhys), made by Ip2, and the elastic part of the contact laws (Law2). Dashpots, friction
+/// and the forces on the bodies: ContactForces.
 #pragma once
 #include <ContactGeometry.hpp>
 #include <Materials.hpp>
@@ -8,39 +8,41 @@
 
 namespace boost {
 namespace serialization {
-	template <class Archive> void serialize(Archive& ar, timber::PointState& s, const unsigned int)
+	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
-		ar & BOOST_SERIALIZATION_NVP(s.id.bits);
-		ar & boost::serialization::make_nvp("excess", s.excess) & boost::serialization::make_nvp("overlap", s.overlap);
-		ar & boost::serialization::make_nvp("stiffness", s.stiffness) & boost::serialization::make_nvp("normal", s.normal) & boost::serialization::make_nvp("energy", s.energy) & boost::serialization::make_nvp("closing", s.closing);
-		ar & boost::serialization::make_nvp("shear", s.shear) & boost::serialization::make_nvp("dashpot", s.dashpot);
-		ar & boost::serialization::make_nvp("response", s.normalResponse) & boost::serialization::make_nvp("shearResponse", s.shearResponse) & boost::serialization::make_nvp("responseMass", s.responseMass);
+		ar & make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
+		ar & make_nvp("normal", p.normal) & make_nvp("energy", p.energy) & make_nvp("shear", p.shear) & make_nvp("dashpot", p.dashpot) & make_nvp("closing", p.closing);
+		ar & make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
 	}
+	/// PointStep is not saved: it ends with its step.
+	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int) { ar & make_nvp("history", static_cast<timber::PointHistory&>(p)); }
 }
 }
 
 namespace yade {
 
-/// Common to all contact laws: pair properties and the history of each contact point.
+/// Base of all contact laws' IPhys.
 class ManifoldPhys : public IPhys {
 public:
-	/// Nothing is pressed, and nothing was lost in the last step.
-	bool                   isIdle() const { return states.empty() && lostEnergy == 0; }
-	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit }; }
+	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
+	void validate() const;
+	/// No contact points, and no energy released in the last step.
+	bool                   isIdle() const { return records.empty() && lostEnergy == 0; }
+	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio }; }
 	/// Contact points as dictionaries, see ``yade_timber.contacts``.
-	boost::python::list pyStates() const;
+	boost::python::list pyPoints() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, IPhys, "Properties of a pair in contact and the history of its points.",
-		((Real, mass, NaN, , "Equivalent mass of the two elements. [kg] (paper, Eq. 43)"))
-		((Real, friction, NaN, , "Coulomb friction coefficient. [-]"))
-		((Real, shearRatio, NaN, , "K_s / K_n. [-] (paper, Eq. 40)"))
-		((Real, dampingRatio, 1, , "Share of critical damping, C = 2 ratio sqrt(m K). [-] (paper, Eqs. 41-42: 1)"))
-		((Real, overlapLimit, NaN, , "Overlap beyond which the normal force stays constant: the cores touch. [m]"))
-		((vector<timber::PointState>, states, , Attr::hidden, "History of the contact points, sorted by feature id. [-]"))
-		((Real, lostEnergy, 0, Attr::readonly, "Elastic energy that went in the last step because a loaded point ceased to exist, minus that of points born under load. [J]")),
+		((Real, mass, NaN, Attr::triggerPostLoad, "Equivalent mass of the two elements. [kg] (paper, Eq. 43)"))
+		((Real, friction, NaN, Attr::triggerPostLoad, "Coulomb friction coefficient. [-]"))
+		((Real, shearRatio, NaN, Attr::triggerPostLoad, "K_s / K_n. [-] (paper, Eq. 40)"))
+		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping, C = 2 ratio sqrt(m K). [-] (paper, Eqs. 41-42: 1)"))
+		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: the cores touch. [m]"))
+		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by feature id. [-]"))
+		((Real, lostEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,
-		.add_property("points", &ManifoldPhys::pyStates, "Forces at the contact points on body 2, world frame: list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
+		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ManifoldPhys, IPhys);
@@ -49,11 +51,13 @@ REGISTER_SERIALIZABLE(ManifoldPhys);
 
 class TimberPhys : public ManifoldPhys {
 public:
+	void postLoad(TimberPhys&) { validate(); }
+	void validate() const;
 	timber::HertzLaw law() const { return { modulus, radius }; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberPhys, ManifoldPhys, "Hertz contact between two timber elements.",
-		((Real, modulus, NaN, , "Equivalent Young's modulus. [Pa] (paper, Eq. 35)"))
-		((Real, radius, NaN, , "Relative radius of curvature, from spheres of the elements' volumes. [m] (paper, Eq. 36)")),
+		((Real, modulus, NaN, Attr::triggerPostLoad, "Equivalent Young's modulus. [Pa] (paper, Eq. 35)"))
+		((Real, radius, NaN, Attr::triggerPostLoad, "Relative radius of curvature, from spheres of the elements' volumes. [m] (paper, Eq. 36)")),
 		createIndex();
 	);
 	// clang-format on
@@ -63,10 +67,12 @@ REGISTER_SERIALIZABLE(TimberPhys);
 
 class SnowPhys : public ManifoldPhys {
 public:
+	void postLoad(SnowPhys&) { validate(); }
+	void validate() const;
 	timber::LinearLaw law() const { return { stiffness }; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowPhys, ManifoldPhys, "Linear contact of snow with snow or timber.",
-		((Real, stiffness, NaN, , "K_n of each contact point. [N/m] (paper, Table 1)")),
+		((Real, stiffness, NaN, Attr::triggerPostLoad, "K_n of each contact point. [N/m] (paper, Table 1)")),
 		createIndex();
 	);
 	// clang-format on
@@ -76,22 +82,26 @@ REGISTER_SERIALIZABLE(SnowPhys);
 
 class Ip2_TimberMat_TimberMat_TimberPhys : public IPhysFunctor {
 public:
+	void postLoad(Ip2_TimberMat_TimberMat_TimberPhys&) { validate(); }
+	void validate() const;
 	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
 	FUNCTOR2D(TimberMat, TimberMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_TimberMat_TimberMat_TimberPhys, IPhysFunctor, "Timber on timber (paper, section 3.1 (1)).",
-		((Real, dampingRatio, 1, , "Share of critical damping. [-] (paper, Eqs. 41-42: 1)")));
+		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping. [-] (paper, Eqs. 41-42: 1)")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Ip2_TimberMat_TimberMat_TimberPhys);
 
 class Ip2_ElementMat_ElementMat_SnowPhys : public IPhysFunctor {
 public:
+	void postLoad(Ip2_ElementMat_ElementMat_SnowPhys&) { validate(); }
+	void validate() const;
 	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
 	FUNCTOR2D(ElementMat, ElementMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_ElementMat_ElementMat_SnowPhys, IPhysFunctor, "Snow on snow or timber (paper, section 3.1 (2)): stiffness by the mass of the snow element, the lighter one of two.",
-		((Real, dampingRatio, 1, , "Share of critical damping. [-] (paper, Table 1: 1)")));
+		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping. [-] (paper, Table 1: 1)")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Ip2_ElementMat_ElementMat_SnowPhys);

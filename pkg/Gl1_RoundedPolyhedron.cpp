@@ -38,7 +38,7 @@ void Gl1_RoundedPolyhedron::go(const shared_ptr<Shape>& shape, const shared_ptr<
 	const Vector3r&           color = shape->color;
 	if (!wire && !shape->wire) {
 		glColor3d(color.x(), color.y(), color.z());
-		glPolygonOffset(1, 1); // edges in front of their faces
+		glPolygonOffset(1, 1); // draws the edges in front of their faces
 		glEnable(GL_POLYGON_OFFSET_FILL);
 		drawFaces(body);
 		glDisable(GL_POLYGON_OFFSET_FILL);

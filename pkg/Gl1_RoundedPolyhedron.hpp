@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The elements in YADE's own viewer.
+/// Drawing of the elements in YADE's viewer.
 #pragma once
 #ifdef YADE_OPENGL
 #include <Shape.hpp>
@@ -16,7 +16,7 @@ public:
 };
 REGISTER_SERIALIZABLE(Gl1_RoundedPolyhedron);
 
-/// A viewer that was there before this module lists its drawing functors anew (renderer: what yade.qt.Renderer() returns).
+/// Lets a viewer that was opened before this module was imported list its drawing functors again. renderer: yade.qt.Renderer().
 void refreshViewer(const boost::python::object& renderer);
 
 } // namespace yade

@@ -13,8 +13,8 @@ namespace {
 
 	Vector3r loadColor(Real load) { return load < 0.5 ? Vector3r(blue + 2 * load * (yellow - blue)) : Vector3r(yellow + (2 * load - 1) * (red - yellow)); }
 
-	/// Mean of the spring points on the first body, world frame. [m]
-	Vector3r place(const TimberJoint& joint, const State& state)
+	/// Centre of the springs' anchors on the first body, world frame. [m]
+	Vector3r positionOf(const TimberJoint& joint, const State& state)
 	{
 		Vector3r sum = Vector3r::Zero();
 		for (const Vector3r& a : joint.anchors1)
@@ -44,6 +44,12 @@ namespace {
 	}
 }
 
+void GlExtra_TimberJoints::validate() const
+{
+	if (!(size > 0)) throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
+	if (!(cross > 0)) throw std::invalid_argument("GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
+}
+
 void GlExtra_TimberJoints::render()
 {
 	const auto scenePtr = Omega::instance().getScene();
@@ -55,7 +61,7 @@ void GlExtra_TimberJoints::render()
 		for (const shared_ptr<TimberJoint>& j : engine->joints) {
 			const Body* b = bodyAt(*scenePtr, j->id1);
 			if (!b || j->anchors1.empty()) continue;
-			const Vector3r x = place(*j, *b->state);
+			const Vector3r x = positionOf(*j, *b->state);
 			if (j->isFinished()) drawCross(x, cross);
 			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size())) drawDot(x, amber, 1.5 * size);
 			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);

@@ -7,11 +7,13 @@ namespace yade {
 
 class UniformGravity : public GlobalEngine {
 public:
+	void postLoad(UniformGravity&) { validate(); }
+	void validate() const;
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(UniformGravity, GlobalEngine,
-		"Adds m g to every free body. YADE's GravityEngine adds on several threads, and the sums on bodies then depend on their number by rounding.",
-		((Vector3r, gravity, Vector3r(0, 0, -9.81), , "Acceleration of gravity. [m/s2]")));
+		"Adds m g to every free body. Unlike YADE's GravityEngine it runs on one thread, so that sums do not depend on the number of threads by rounding.",
+		((Vector3r, gravity, Vector3r(0, 0, -9.81), Attr::triggerPostLoad, "Acceleration of gravity. [m/s2]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(UniformGravity);

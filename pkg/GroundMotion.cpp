@@ -1,51 +1,57 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <GroundMotion.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((GroundMotionEngine));
 
-void GroundMotionEngine::postLoad(GroundMotionEngine&)
+void GroundMotionEngine::validate() const
 {
-	if (acceleration.empty()) return;
-	if (!(step > 0)) throw std::invalid_argument("GroundMotionEngine.step = " + std::to_string(step) + ": it must be > 0");
+	requireFinite("GroundMotionEngine.start", start);
+	requireFinite("GroundMotionEngine.scale", scale);
+	if (acceleration.empty() && std::isnan(step)) return; // default-constructed
+	requirePositive("GroundMotionEngine.step", step);
 	for (size_t k = 0; k < acceleration.size(); ++k)
-		if (!acceleration[k].allFinite()) throw std::invalid_argument("GroundMotionEngine.acceleration[" + std::to_string(k) + "] is not finite");
+		if (!acceleration[k].allFinite()) throw std::invalid_argument("GroundMotionEngine.acceleration[" + std::to_string(k) + "]: it must be finite");
 }
 
 Vector3r GroundMotionEngine::at(Real time) const
 {
-	const Real place = (time - start) / step;
-	if (acceleration.empty() || !(place >= 0) || place > acceleration.size() - 1) return Vector3r::Zero();
-	const size_t k     = math::min(size_t(place), acceleration.size() - 1);
-	const Real   share = place - k;
-	const Vector3r next = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];
-	return scale * ((1 - share) * acceleration[k] + share * next);
+	const Real sample = (time - start) / step;
+	if (acceleration.empty() || !(sample >= 0) || sample > acceleration.size() - 1) return Vector3r::Zero();
+	const size_t   k      = math::min(size_t(sample), acceleration.size() - 1);
+	const Real     weight = sample - k;
+	const Vector3r next   = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];
+	return scale * ((1 - weight) * acceleration[k] + weight * next);
 }
 
-Real GroundMotionEngine::strongest(Real from, Real until) const
+Real GroundMotionEngine::peakBetween(Real from, Real until) const
 {
-	Real most = math::max(at(from).norm(), at(until).norm());
+	Real peak = math::max(at(from).norm(), at(until).norm());
 	for (Real k = math::max(Real(0), math::ceil((from - start) / step)); k < acceleration.size() && start + k * step < until; ++k) // linear between samples
-		most = math::max(most, math::abs(scale) * acceleration[size_t(k)].norm());
-	return most;
+		peak = math::max(peak, math::abs(scale) * acceleration[size_t(k)].norm());
+	return peak;
 }
 
-Vector3r GroundMotionEngine::freeMomentum() const
-{
-	Vector3r sum = Vector3r::Zero();
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && isFree(*b->state)) sum += b->state->mass * b->state->vel;
-	return sum;
+namespace {
+	/// Momentum of the free bodies. [kg m/s]
+	Vector3r freeMomentum(const Scene& scene)
+	{
+		Vector3r sum = Vector3r::Zero();
+		for (const shared_ptr<Body>& b : *scene.bodies)
+			if (b && isFree(*b->state)) sum += b->state->mass * b->state->vel;
+		return sum;
+	}
 }
 
-Real GroundMotionEngine::workNow() const { return work - scene->dt * lastAcceleration.dot(lastMomentum + freeMomentum()) / 2; }
+Real GroundMotionEngine::workUntilNow(const Scene& of) const { return work - of.dt * lastAcceleration.dot(lastMomentum + freeMomentum(of)) / 2; }
 
 void GroundMotionEngine::action()
 {
-	work             = workNow();
-	lastMomentum     = freeMomentum();
+	work             = workUntilNow(*scene);
+	lastMomentum     = freeMomentum(*scene);
 	lastAcceleration = at(scene->time);
 	addBodyForce(*scene, -lastAcceleration);
 }

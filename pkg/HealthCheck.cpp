@@ -1,31 +1,67 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
+#include <SceneCheck.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((HealthCheck));
 
-void HealthCheck::postLoad(HealthCheck&)
+void HealthCheck::validate() const
 {
-	if (every < 1) throw std::invalid_argument("HealthCheck.every = " + std::to_string(every) + ": it must be > 0");
+	require(every >= 1, "HealthCheck.every", every, ">= 1");
+	require(speedLimit > 0, "HealthCheck.speedLimit", speedLimit, "> 0");
+}
+
+/// doSort: bodies were added or replaced since the collider ran.
+bool HealthCheck::hasSceneChanged() const
+{
+	const auto isSame = [](const Engine* checked, const shared_ptr<Engine>& now) { return checked == now.get(); };
+	return scene->doSort || checkedEngines.size() != scene->engines.size() || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
+}
+
+void HealthCheck::checkBodies() const
+{
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b) checkBody(*b);
+}
+
+/// Engines store data of the bodies that is wrong in another scene.
+void HealthCheck::checkScene()
+{
+	const shared_ptr<Scene>& current = Omega::instance().getScene();
+	if (!checkedEngines.empty() && checkedScene.lock() != current)
+		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = yade_timber.engines(...) again");
+	checkBodies();
+	checkEngines(*scene);
+	checkContacts(*scene);
+	checkedScene = current;
+	checkedEngines.clear();
+	for (const shared_ptr<Engine>& e : scene->engines)
+		checkedEngines.push_back(e.get());
+}
+
+/// Parts of a body are replaced between checks of the scene only; numbers of its state may change at any time.
+void HealthCheck::checkState(const Body& b) const
+{
+	const State& s = *b.state;
+	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0)) checkBody(b);
+	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) return;
+	checkBodies(); // another cause than the time step
+	std::ostringstream what;
+	what << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity " << s.vel.transpose()
+	     << " m/s; the time step " << scene->dt << " s is probably too large";
+	throw std::runtime_error(what.str());
 }
 
 void HealthCheck::action()
 {
-	if (scene->iter % every != 0) return;
+	const bool changed = hasSceneChanged();
+	if (!changed && scene->iter % every != 0) return;
 	if (!(scene->dt > 0)) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be > 0");
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b) continue;
-		if (b->isClump()) throw std::runtime_error("body " + std::to_string(b->getId()) + " is a clump: make one convex polyhedron of it, or join its parts");
-		if (b->state->blockedDOFs != State::DOF_NONE && b->state->blockedDOFs != State::DOF_ALL)
-			throw std::runtime_error("body " + std::to_string(b->getId()) + " has some degrees of freedom blocked: contacts know free and fixed bodies only");
-		const State& s = *b->state;
-		if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) continue;
-		std::ostringstream what;
-		what << "body " << b->getId() << " left the physical range at step " << scene->iter << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity " << s.vel.transpose()
-		     << " m/s; the time step " << scene->dt << " s is probably too large";
-		throw std::runtime_error(what.str());
-	}
+	if (changed) checkScene();
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b) checkState(*b);
 }
 
 } // namespace yade

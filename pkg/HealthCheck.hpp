@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Stops a run whose numbers are no longer physical.
+/// Stops a run whose scene cannot be computed or whose numbers are no longer physical.
 #pragma once
 #include <pch.hpp>
 
 namespace yade {
 
 class HealthCheck : public GlobalEngine {
+	std::vector<const Engine*> checkedEngines; ///< list of engines at the last check of the scene
+	boost::weak_ptr<Scene>     checkedScene;
+
+	bool hasSceneChanged() const;
+	void checkScene();
+	void checkBodies() const;
+	void checkState(const Body&) const;
+
 public:
-	void postLoad(HealthCheck&);
+	void postLoad(HealthCheck&) { validate(); }
+	void validate() const;
 	void action() override;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine, "Stops a run with an error that names the body and the step when a position or velocity is not finite or a speed is beyond all physics.",
-		((int, every, 100, Attr::triggerPostLoad, "Steps between checks. [-]"))
-		((Real, speedLimit, 200, , "Largest believable speed of a body. [m/s]")));
+	YADE_CLASS_BASE_DOC_ATTRS(HealthCheck, GlobalEngine,
+		"Stops a run with an error before a step that cannot be computed. Must come before the collider. "
+		"When bodies were added or the list of engines was changed it checks that the list is complete, in order and of this scene, that all pairs of shapes and materials have functors, and that materials and masses are valid. "
+		"Then and at an interval it checks that positions and velocities are finite and speeds plausible.",
+		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
+		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(HealthCheck);

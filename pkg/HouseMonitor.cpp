@@ -2,6 +2,7 @@
 #include <HouseMonitor.hpp>
 #include <Gravity.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 #include <pkg/common/GravityEngines.hpp>
 
 namespace yade {
@@ -9,9 +10,9 @@ namespace yade {
 YADE_PLUGIN((HouseMonitor));
 
 namespace {
-	/// Names of energies(), in its order.
+	/// Names of energies(), in the same order.
 	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts" };
-	/// What is told of a level, and its unit.
+	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
 	/// Acceleration of gravity, this package's or YADE's. [m/s2]
@@ -21,36 +22,61 @@ namespace {
 		const auto* theirs = findEngine<GravityEngine>(scene);
 		return theirs ? theirs->gravity : Vector3r(Vector3r::Zero());
 	}
+
+	/// [J]
+	Real kineticEnergy(const Scene& scene)
+	{
+		Real sum = 0;
+		for (const shared_ptr<Body>& b : *scene.bodies) {
+			if (!b || !isFree(*b->state)) continue;
+			sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel)) / 2;
+		}
+		return sum;
+	}
+
+	/// Relative to the reference positions, at the half step to which the velocities belong. [J]
+	Real gravityEnergy(const Scene& scene)
+	{
+		const Vector3r gravity = gravityOf(scene);
+		Real           sum     = 0;
+		for (const shared_ptr<Body>& b : *scene.bodies) {
+			if (!b || !isFree(*b->state)) continue;
+			const State& s = *b->state;
+			sum -= s.mass * gravity.dot(s.pos - s.refPos - scene.dt / 2 * s.vel);
+		}
+		return sum;
+	}
+
+	/// Number of joints without a spring left.
+	int brokenJoints(const Scene& scene)
+	{
+		const JointEngine* engine = findEngine<JointEngine>(scene);
+		if (!engine) return 0;
+		return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isFinished(); }));
+	}
+
+	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
+	std::vector<Real> energies(const Scene& scene)
+	{
+		const ContactForces*      c    = findEngine<ContactForces>(scene);
+		const JointEngine*        j    = findEngine<JointEngine>(scene);
+		const GroundMotionEngine* g    = findEngine<GroundMotionEngine>(scene);
+		const Real                half = scene.dt / 2;
+		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower(scene) : 0,
+			     g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
+	}
 }
 
-void HouseMonitor::postLoad(HouseMonitor&)
+void HouseMonitor::validate() const
 {
+	requireNonNegative("HouseMonitor.interval", interval);
+	requirePositive("HouseMonitor.tiltDrift", tiltDrift);
 	for (Real height : heights)
-		if (!(height > 0)) throw std::invalid_argument("HouseMonitor: heights must be > 0");
-	if (levels.size() != bodies.size()) throw std::invalid_argument("HouseMonitor: bodies and levels must have the same length");
-}
-
-Real HouseMonitor::kineticEnergy() const
-{
-	Real sum = 0;
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b || !isFree(*b->state)) continue;
-		sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel)) / 2;
-	}
-	return sum;
-}
-
-/// Relative to the reference positions, at the half step to which the velocities belong.
-Real HouseMonitor::gravityEnergy() const
-{
-	const Vector3r gravity = gravityOf(*scene);
-	Real           sum     = 0;
-	for (const shared_ptr<Body>& b : *scene->bodies) {
-		if (!b || !isFree(*b->state)) continue;
-		const State& s = *b->state;
-		sum -= s.mass * gravity.dot(s.pos - s.refPos - scene->dt / 2 * s.vel);
-	}
-	return sum;
+		requirePositive("HouseMonitor.heights", height);
+	for (int level : levels)
+		require(level >= 0, "HouseMonitor.levels", level, ">= 0");
+	const bool isComplete = !levels.empty() && !bodies.empty(); // attributes may be set one after the other
+	require(!isComplete || levels.size() == bodies.size(), "HouseMonitor.levels: length", levels.size(), "that of HouseMonitor.bodies; set both with updateAttrs()");
 }
 
 Vector3r HouseMonitor::meanDisplacement(int level) const
@@ -67,30 +93,11 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 	return count > 0 ? Vector3r(sum / count) : sum;
 }
 
-int HouseMonitor::brokenJoints() const
+/// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
+boost::python::dict HouseMonitor::pyEnergy() const
 {
-	const JointEngine* engine = findEngine<JointEngine>(*scene);
-	if (!engine) return 0;
-	return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isFinished(); }));
-}
-
-std::vector<Real> HouseMonitor::energies() const
-{
-	const ContactForces*      c    = findEngine<ContactForces>(*scene);
-	const JointEngine*        j    = findEngine<JointEngine>(*scene);
-	const GroundMotionEngine* g    = findEngine<GroundMotionEngine>(*scene);
-	const Real                half = scene->dt / 2;
-	return { kineticEnergy(), gravityEnergy(), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower() : 0, g ? g->workNow() : 0,
-		     c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
-}
-
-boost::python::dict HouseMonitor::pyEnergy()
-{
-	scene = Omega::instance().getScene().get();
-	for (const shared_ptr<Engine>& e : scene->engines)
-		e->scene = scene; // until its first step, an engine of a loaded scene points to the scene of before
 	boost::python::dict     all;
-	const std::vector<Real> values = energies();
+	const std::vector<Real> values = energies(*Omega::instance().getScene());
 	for (size_t k = 0; k < values.size(); ++k)
 		all[energyTerms[k]] = values[k];
 	return all;
@@ -101,8 +108,8 @@ boost::python::list HouseMonitor::pyColumns() const
 	boost::python::list names;
 	names.append("time [s]");
 	for (size_t level = 1; level <= heights.size(); ++level)
-		for (const auto& [what, unit] : levelColumns)
-			names.append(what + std::to_string(level) + unit);
+		for (const auto& [name, unit] : levelColumns)
+			names.append(name + std::to_string(level) + unit);
 	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
 		names.append(name);
 	for (const char* name : energyTerms)
@@ -130,9 +137,9 @@ void HouseMonitor::record()
 		below = above;
 	}
 	const JointEngine* joints = findEngine<JointEngine>(*scene);
-	rows.push_back(brokenJoints());
+	rows.push_back(brokenJoints(*scene));
 	rows.push_back(joints ? joints->breaks.size() : 0);
-	const std::vector<Real> terms = energies();
+	const std::vector<Real> terms = energies(*scene);
 	rows.insert(rows.end(), terms.begin(), terms.end());
 }
 

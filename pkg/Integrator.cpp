@@ -18,8 +18,8 @@ namespace {
 	}
 }
 
-/// Velocity, place and angular momentum of a free body after the step.
-void SymplecticIntegrator::push(Body::id_t id, State& s) const
+/// Kick and drift of a free body: velocity, angular momentum and position at the end of the step.
+void SymplecticIntegrator::kickAndDrift(Body::id_t id, State& s) const
 {
 	const Real dt = scene->dt;
 	s.vel += dt / s.mass * unblocked(scene->forces.getForce(id), s.blockedDOFs, State::DOF_X);
@@ -27,8 +27,8 @@ void SymplecticIntegrator::push(Body::id_t id, State& s) const
 	s.pos += dt * s.vel;
 }
 
-/// A held body goes on with its velocities, which somebody else may set; released, it has the angular momentum that belongs to them.
-void SymplecticIntegrator::carryOn(State& s) const
+/// Motion of a fixed body with its prescribed velocities. Its angular momentum follows them, so that it is right once the body is released.
+void SymplecticIntegrator::moveFixed(State& s) const
 {
 	s.pos += scene->dt * s.vel;
 	s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
@@ -36,8 +36,8 @@ void SymplecticIntegrator::carryOn(State& s) const
 	if (speed > 0) s.ori = (Quaternionr(AngleAxisr(speed * scene->dt, s.angVel / speed)) * s.ori).normalized();
 }
 
-/// Orientations and angular velocities of up to as many bodies as a Number has lanes.
-template <class Number> void SymplecticIntegrator::turn(State* const* states, size_t count) const
+/// Orientations and angular velocities of at most as many bodies as a Number has lanes.
+template <class Number> void SymplecticIntegrator::rotate(State* const* states, size_t count) const
 {
 	const auto all = [&](auto member) {
 		using Vector = std::remove_reference_t<decltype(member(**states))>;
@@ -45,36 +45,36 @@ template <class Number> void SymplecticIntegrator::turn(State* const* states, si
 	};
 	const auto orientation = all([](State& s) -> auto& { return s.ori.coeffs(); });
 	const timber::Vec3Of<Number> momentum = all([](State& s) -> auto& { return s.angMom; }).vectors(), inertia = all([](State& s) -> auto& { return s.inertia; }).vectors();
-	timber::QuatOf<Number> turned(orientation.vectors());
-	all([](State& s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(turned, momentum, inertia, scene->dt));
-	orientation.set(turned.coeffs());
+	timber::QuatOf<Number> rotated(orientation.vectors());
+	all([](State& s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
+	orientation.set(rotated.coeffs());
 }
 
-/// The bodies from the given id on, as many as there are lanes.
-void SymplecticIntegrator::move(Body::id_t first) const
+/// Motion of the bodies from the given id on, as many as there are lanes.
+void SymplecticIntegrator::moveGroup(Body::id_t first) const
 {
-	State* turning[timber::laneCount];
+	State* free[timber::laneCount];
 	size_t count = 0;
 	const Body::id_t end = math::min(first + timber::laneCount, int(scene->bodies->size()));
 	for (Body::id_t id = first; id < end; ++id) {
 		const shared_ptr<Body>& b = (*scene->bodies)[id];
 		if (!b) continue;
 		if (!isFree(*b->state)) {
-			carryOn(*b->state);
+			moveFixed(*b->state);
 			continue;
 		}
-		push(id, *b->state);
-		turning[count++] = b->state.get();
+		kickAndDrift(id, *b->state);
+		free[count++] = b->state.get();
 	}
-	if (count == 1) turn<double>(turning, count);
-	if (count > 1) turn<timber::Lanes>(turning, count);
+	if (count == 1) rotate<double>(free, count);
+	if (count > 1) rotate<timber::Lanes>(free, count);
 }
 
 void SymplecticIntegrator::action()
 {
 	scene->forces.sync();
 	const int groups = int(timber::groupsOf(scene->bodies->size()));
-	timber::forAll(groups, [this](int group) { move(group * timber::laneCount); }, timber::laneCount);
+	timber::forAll(groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);
 }
 
 } // namespace yade

@@ -6,18 +6,18 @@
 namespace yade {
 
 class SymplecticIntegrator : public GlobalEngine {
-	void push(Body::id_t, State&) const;
-	void carryOn(State&) const;
-	template <class Number> void turn(State* const* states, size_t count) const;
-	void move(Body::id_t first) const;
+	void kickAndDrift(Body::id_t, State&) const;
+	void moveFixed(State&) const;
+	template <class Number> void rotate(State* const* states, size_t count) const;
+	void moveGroup(Body::id_t first) const;
 
 public:
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC(SymplecticIntegrator, GlobalEngine,
 		"Leapfrog for rigid bodies: positions at full, velocities and angular momenta at half steps. The free rotation within a step is composed of exact rotations about the principal axes "
-		"(Dullweber, Leimkuhler and McLachlan 1997): second order, time-reversible, symplectic, and it keeps the angular momentum exactly. It replaces NewtonIntegrator, which gains energy in free rotation. "
-		"No numerical damping. Blocked degrees of freedom get no force; a body with all of them blocked keeps its velocity and angular velocity, and moves with them.");
+		"(Dullweber, Leimkuhler and McLachlan 1997): second order, time-reversible, symplectic, with exact conservation of angular momentum. It replaces NewtonIntegrator, whose energy grows in free rotation. "
+		"No numerical damping. Forces do not act on blocked degrees of freedom. A body with all of them blocked moves with its prescribed velocity and angular velocity.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(SymplecticIntegrator);

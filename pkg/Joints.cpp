@@ -1,35 +1,64 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <Joints.hpp>
 #include <kernel/threads.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((TimberJoint)(JointBreak)(JointEngine));
 
 namespace {
-	/// Velocity of a spring's end on body 2 as seen from body 1, with which the spring's normal turns. [m/s]
-	Vector3r partingVelocity(const State& s1, const State& s2, const Vector3r& end2)
+	timber::BodyKinematics kinematics(const State& s) { return { s.pos, s.vel, s.angVel }; }
+
+	/// Stiffness and strength may be missing (NaN) as long as a joint has no springs: attributes are set one after the other.
+	void requireGiven(bool hasSprings, const char* attribute, Real value, bool mayBeInfinite)
 	{
-		return s2.vel + s2.angVel.cross(end2 - s2.pos) - s1.vel - s1.angVel.cross(end2 - s1.pos);
+		if (!hasSprings && std::isnan(value)) return;
+		require(value > 0 && (mayBeInfinite || std::isfinite(value)), attribute, value, mayBeInfinite ? "> 0" : "finite and > 0");
 	}
+
+	void requireAnchors(const char* attribute, const vector<Vector3r>& anchors)
+	{
+		for (const Vector3r& x : anchors)
+			require(x.allFinite(), attribute, x.transpose(), "finite");
+	}
+}
+
+void TimberJoint::validate() const
+{
+	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
+	requireGiven(hasSprings, "TimberJoint.kn", kn, false);
+	requireGiven(hasSprings, "TimberJoint.ks", ks, false);
+	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
+	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
+	requireAnchors("TimberJoint.anchors1", anchors1);
+	requireAnchors("TimberJoint.anchors2", anchors2);
+	if (!hasSprings) return;
+	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(), "that of anchors1");
+	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(), "that of anchors1");
 }
 
 void TimberJoint::postLoad(TimberJoint&)
 {
-	if (anchors1.empty()) return;
-	if (anchors2.empty()) return; // attributes are set one after the other
-	if (broken.empty()) broken.resize(anchors1.size(), 0);
-	if (anchors1.size() != anchors2.size() || broken.size() != anchors1.size()) {
-		anchors1.clear(); // what is refused has been set already: a joint that does not fit together holds nothing
-		anchors2.clear();
-		broken.clear();
-		throw std::invalid_argument("TimberJoint: anchors1, anchors2 and broken must have the same length");
-	}
-	if (!(kn > 0 && ks > 0 && strength > 0)) throw std::invalid_argument("TimberJoint: kn, ks and strength must be > 0 (the strength may be infinite)");
+	validate();
+	if (anchors1.empty() || anchors2.empty()) return;
+	broken.resize(anchors1.size(), 0);
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
 	for (size_t k = 0; k < broken.size(); ++k)
-		if (broken[k]) forces[k] = stretches[k] = Vector3r::Zero();
+		if (broken[k]) breakSpring(k);
+}
+
+void TimberJoint::breakSpring(size_t spring)
+{
+	broken[spring] = 1;
+	forces[spring] = stretches[spring] = Vector3r::Zero();
+}
+
+void TimberJoint::breakAll()
+{
+	for (size_t k = 0; k < broken.size(); ++k)
+		breakSpring(k);
 }
 
 timber::JointStiffness TimberJoint::stiffness() const
@@ -63,7 +92,8 @@ boost::python::list TimberJoint::pySprings() const
 
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
-	if (joint->anchors1.empty() || joint->anchors1.size() != joint->anchors2.size()) throw std::invalid_argument("JointEngine.append: a joint needs anchors1 and anchors2");
+	if (!joint || joint->anchors1.empty() || joint->anchors2.empty()) throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
+	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
 }
@@ -91,96 +121,96 @@ void JointEngine::collectAxes()
 		if (b) axes[b->getId()] = b->state->ori.toRotationMatrix();
 }
 
-void JointEngine::breakSpring(size_t index, size_t spring, const State& s1, const State& s2)
+timber::JointPlacement JointEngine::placement(const TimberJoint& joint) const
 {
-	static const char* const     names[] = { "tension", "compression", "shear" };
-	TimberJoint&                 joint   = *joints[index];
-	Vector3r &                   force = joint.forces[spring], &way = joint.stretches[spring];
-	const auto                   f = timber::springForce<double>(joint.stiffness(), way, axes[joint.id1] * joint.normal);
-	const shared_ptr<JointBreak> entry(new JointBreak);
-	entry->time   = scene->time;
-	entry->joint  = int(index);
-	entry->spring = int(spring);
-	entry->cause  = names[int(timber::breakCause(f))];
-	entry->force  = force.norm();
-	breaks.push_back(entry);
-	const Vector3r end2 = s2.pos + axes[joint.id2] * joint.anchors2[spring];
-	released += f.energy - scene->dt / 2 * force.dot(partingVelocity(s1, s2, end2));
-	joint.broken[spring] = 1;
-	force                = Vector3r::Zero();
-	way                  = Vector3r::Zero();
+	return { axes[joint.id1], axes[joint.id2], Body::byId(joint.id2, scene)->state->pos - Body::byId(joint.id1, scene)->state->pos };
 }
 
-/// Stretches the joint's springs to the bodies' placement.
-timber::JointPull JointEngine::pullOf(TimberJoint& joint) const
+timber::JointPull JointEngine::pull(TimberJoint& joint) const
 {
-	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
-	if (!b1 || !b2) { // taken out of the scene, and its joints with it
-		joint.broken.assign(joint.broken.size(), 1);
-		joint.forces.assign(joint.broken.size(), Vector3r::Zero());
-		joint.stretches.assign(joint.broken.size(), Vector3r::Zero());
-		return {};
-	}
-	const timber::JointPlacement place { axes[joint.id1], axes[joint.id2], b2->state->pos - b1->state->pos };
-	return timber::pullSprings(joint.stiffness(), place, joint.normal, joint.anchors1, joint.anchors2, joint.broken, joint.stretches, joint.forces);
+	if (bodyAt(*scene, joint.id1) && bodyAt(*scene, joint.id2)) return timber::pullSprings(joint.stiffness(), placement(joint), joint.normal, joint.springs());
+	joint.breakAll(); // a body was erased
+	return {};
 }
 
-bool JointEngine::isOverloaded(size_t index) const
-{
-	const TimberJoint& joint = *joints[index];
-	return joint.perJoint ? pulls[index].sum > joint.strength : pulls[index].largest > joint.strength * joint.strength;
-}
-
-/// Breaks what is overloaded; what is left pulls on.
-void JointEngine::breakSprings(size_t index)
-{
-	TimberJoint& joint = *joints[index];
-	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
-	for (size_t k = 0; k < joint.broken.size(); ++k)
-		if (!joint.broken[k] && (joint.perJoint || joint.forces[k].squaredNorm() > joint.strength * joint.strength)) breakSpring(index, k, s1, s2);
-	pulls[index] = pullOf(joint);
-}
-
-void JointEngine::stretchAll()
+void JointEngine::pullAll()
 {
 	const int count = int(joints.size());
 	pulls.assign(count, timber::JointPull());
 	timber::forAll(count, [this](int k) {
-		if (!joints[k]->isFinished()) pulls[k] = pullOf(*joints[k]);
+		if (!joints[k]->isFinished()) pulls[k] = pull(*joints[k]);
 	});
 }
 
-/// Breaks and sums in the order of the joints, so that threads change nothing.
+/// Breaks the overloaded springs of a joint and logs them; the other springs are pulled again.
+void JointEngine::breakSprings(size_t index)
+{
+	static const char* const names[] = { "tension", "compression", "shear" };
+	TimberJoint&             joint   = *joints[index];
+	const timber::JointMotion motion { kinematics(*Body::byId(joint.id1, scene)->state), kinematics(*Body::byId(joint.id2, scene)->state), scene->dt };
+	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint), joint.normal, joint.springs(), motion)) {
+		const shared_ptr<JointBreak> entry(new JointBreak);
+		entry->time   = scene->time;
+		entry->joint  = int(index);
+		entry->spring = int(found.spring);
+		entry->cause  = names[int(found.cause)];
+		entry->force  = found.force;
+		breaks.push_back(entry);
+		released += found.energy;
+		joint.breakSpring(found.spring);
+	}
+	pulls[index] = pull(joint);
+}
+
+/// Breaks and sums in the order of the joints: results do not depend on the number of threads.
 void JointEngine::sumPulls()
 {
 	elastic = 0;
 	sums.clear(axes.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
-		if (isOverloaded(k)) breakSprings(k);
-		const timber::JointPull& pull = pulls[k];
-		if (pull.energy == 0) continue; // finished, or not stretched at all
 		const TimberJoint& joint = *joints[k];
+		if (timber::isOverloaded(joint.strengthRule(), pulls[k])) breakSprings(k);
+		const timber::JointPull& pull = pulls[k];
+		if (pull.energy == 0) continue; // all springs broken or unstretched
 		elastic += pull.energy;
 		sums.add(joint.id1, pull.force, pull.torqueA);
 		sums.add(joint.id2, -pull.force, pull.torqueB);
 	}
 }
 
-Real JointEngine::elasticPower() const
+Real JointEngine::elasticPower(const Scene& of) const
 {
 	Real power = 0;
 	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(*scene, j->id1), *b2 = bodyAt(*scene, j->id2);
-		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k)
-			if (!j->broken[k]) power += j->forces[k].dot(partingVelocity(*b1->state, *b2->state, b2->state->pos + b2->state->ori * j->anchors2[k]));
+		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
+		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
+			if (j->broken[k]) continue;
+			const State &  s1 = *b1->state, &s2 = *b2->state;
+			const Vector3r end = s2.pos + s2.ori * j->anchors2[k];
+			power += j->forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
+		}
 	}
 	return power;
+}
+
+void JointEngine::addSprings(const Scene& of, std::vector<timber::PointSpring>& springs) const
+{
+	for (const shared_ptr<TimberJoint>& j : joints) {
+		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
+		const Real  stiffness = math::max(j->stiffness().normal, j->stiffness().shear);
+		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
+			if (j->broken[k]) continue;
+			const State &  s1 = *b1->state, &s2 = *b2->state;
+			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
+			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, Vector3r::UnitZ(), stiffness, stiffness });
+		}
+	}
 }
 
 void JointEngine::action()
 {
 	collectAxes();
-	stretchAll();
+	pullAll();
 	sumPulls();
 	sums.handOver(*scene);
 }

@@ -5,11 +5,11 @@
 
 namespace yade {
 
-/// Common base: YADE finds the functor of two different materials in either order only through a base class.
+/// Common base: YADE dispatches a pair of different materials in either order only through a base class.
 class ElementMat : public Material {
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "What elements are made of; use :yref:`TimberMat` or :yref:`SnowMat`.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not a material by itself.",
 		((Real, friction, 0.5, Attr::triggerPostLoad, "Coulomb friction coefficient; a pair has the smaller one of its two materials. [-]")),
 		createIndex();
 	);
@@ -20,7 +20,8 @@ REGISTER_SERIALIZABLE(ElementMat);
 
 class TimberMat : public ElementMat {
 public:
-	void postLoad(TimberMat&);
+	void postLoad(TimberMat&) { validate(); }
+	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberMat, ElementMat, "Timber, or any other stiff material in Hertz contact (paper, section 3.1).",
 		((Real, young, 90e3 * 9.8e4, Attr::triggerPostLoad, "Young's modulus: 90e3 kgf/cm2, with the paper's 9.8 N per kgf. [Pa] (paper, section 3.1)"))
@@ -34,7 +35,8 @@ REGISTER_SERIALIZABLE(TimberMat);
 
 class SnowMat : public ElementMat {
 public:
-	void postLoad(SnowMat&);
+	void postLoad(SnowMat&) { validate(); }
+	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 (2)).",
 		((Real, stiffnessPerMass, 3.948e4, Attr::triggerPostLoad, "Contact stiffness, normal and tangential, per kilogram of the snow element. [N/m/kg] (paper, Table 1)")),

@@ -12,8 +12,8 @@ namespace {
 
 	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
 
-	/// Interactions of bodies that are near each other, in the order of their body ids: the container's own order is no property of the scene.
-	std::vector<Interaction*> inOrder(const Scene& scene)
+	/// Interactions of near bodies, ordered by their ids: the order of the container depends on the run's history.
+	std::vector<Interaction*> interactionsById(const Scene& scene)
 	{
 		std::vector<Interaction*> found;
 		for (const shared_ptr<Interaction>& i : *scene.interactions)
@@ -39,6 +39,7 @@ boost::python::tuple packedPlacements()
 
 boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 {
+	if (!engine) throw std::invalid_argument("packed_joints: engine = None: it must be a JointEngine");
 	std::vector<float>        loads;
 	std::vector<std::uint8_t> broken;
 	for (const shared_ptr<TimberJoint>& j : engine->joints) {
@@ -52,16 +53,16 @@ boost::python::tuple packedContacts()
 {
 	std::vector<std::int32_t> pairs;
 	std::vector<float>        positions, forces;
-	for (const Interaction* i : inOrder(*Omega::instance().getScene())) {
+	for (const Interaction* i : interactionsById(*Omega::instance().getScene())) {
 		const auto geom = dynamic_cast<const ManifoldGeom*>(i->geom.get());
 		const auto phys = dynamic_cast<const ManifoldPhys*>(i->phys.get());
 		if (!geom || !phys) continue;
 		for (const timber::ContactPoint& point : geom->contactPoints) {
-			const auto state = std::find_if(phys->states.begin(), phys->states.end(), [&](const timber::PointState& s) { return s.id == point.id; });
-			if (state == phys->states.end()) continue;
+			const auto record = std::find_if(phys->records.begin(), phys->records.end(), [&](const timber::PointRecord& p) { return p.id == point.id; });
+			if (record == phys->records.end()) continue;
 			pairs.insert(pairs.end(), { i->getId1(), i->getId2() });
 			append(positions, point.position);
-			append(forces, state->normal * point.normal + state->shear + state->dashpot);
+			append(forces, record->normal * point.normal + record->shear + record->dashpot);
 		}
 	}
 	return boost::python::make_tuple(bytes(pairs), bytes(positions), bytes(forces));

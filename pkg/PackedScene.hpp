@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The scene as packed numbers, one call for all bodies: attribute by attribute a frame of a house costs Python milliseconds.
+/// The scene as packed arrays. A frame of a house takes one call instead of milliseconds of attribute access in Python.
 #pragma once
 #include <Joints.hpp>
 
@@ -12,7 +12,7 @@ boost::python::tuple packedPlacements();
 /// and of uint8, the number of broken springs. [-]
 boost::python::tuple packedJoints(const shared_ptr<JointEngine>&);
 
-/// (pairs, positions, forces) of all points that touch, by body ids: bytes of int32 (n, 2) [-], float32 (n, 3) [m] and float32 (n, 3),
+/// (pairs, positions, forces) of all contact points, ordered by body ids: bytes of int32 (n, 2) [-], float32 (n, 3) [m] and float32 (n, 3),
 /// force of the last step on the second body [N]; world frame.
 boost::python::tuple packedContacts();
 

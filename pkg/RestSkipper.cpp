@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <GroundMotion.hpp>
-#include <bodies.hpp>
 #include <RestSkipper.hpp>
+#include <bodies.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((RestSkipper));
 
-void RestSkipper::postLoad(RestSkipper&)
+void RestSkipper::validate() const
 {
-	if (grain < 1) throw std::invalid_argument("RestSkipper.grain = " + std::to_string(grain) + ": it must be > 0");
+	require(stride >= 1, "RestSkipper.stride", stride, ">= 1");
+	requirePositive("RestSkipper.restTime", restTime);
+	requireNonNegative("RestSkipper.speed", speed);
+	requireNonNegative("RestSkipper.displacement", displacement);
+	requireNonNegative("RestSkipper.growth", growth);
+	requireNonNegative("RestSkipper.groundThreshold", groundThreshold);
 }
 
-vector<Vector3r> RestSkipper::places() const
+vector<Vector3r> RestSkipper::positions() const
 {
 	vector<Vector3r> all(scene->bodies->size(), Vector3r::Zero());
 	for (const shared_ptr<Body>& b : *scene->bodies)
@@ -20,70 +26,70 @@ vector<Vector3r> RestSkipper::places() const
 	return all;
 }
 
-Real RestSkipper::fastest() const
+Real RestSkipper::largestSpeed() const
 {
-	Real most = 0;
+	Real largest = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && isFree(*b->state)) most = math::max(most, b->state->vel.norm() + b->state->angVel.norm());
-	return most;
+		if (b && isFree(*b->state)) largest = math::max(largest, b->state->vel.norm() + b->state->angVel.norm());
+	return largest;
 }
 
-Real RestSkipper::farthest(const vector<Vector3r>& from) const
+Real RestSkipper::largestDisplacement(const vector<Vector3r>& from) const
 {
-	Real most = 0;
+	Real largest = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) most = math::max(most, (b->state->pos - from[b->getId()]).norm());
-	return most;
+		if (b) largest = math::max(largest, (b->state->pos - from[b->getId()]).norm());
+	return largest;
 }
 
-void RestSkipper::watchAnew()
+void RestSkipper::restart()
 {
-	start   = places();
-	watched = 0;
-	middle.clear();
+	startPositions  = positions();
+	observedStrides = 0;
+	middlePositions.clear();
 }
 
-long RestSkipper::grainsOfHalf() const { return math::max(1L, std::lround(hold / (2 * grain * scene->dt))); }
+long RestSkipper::stridesPerHalf() const { return math::max(1L, std::lround(restTime / (2 * stride * scene->dt))); }
 
-/// Ways are compared, not speeds: light members tremble by what the sweeps over the dashpots leave over, and go nowhere.
-void RestSkipper::watch()
+/// Displacements are compared, not speeds: residuals of the contact solver make light members vibrate on the spot.
+void RestSkipper::observe()
 {
-	if (start.size() != scene->bodies->size() || fastest() > speed || farthest(start) > way) return watchAnew();
-	const long half = grainsOfHalf();
-	++watched;
-	const bool halfway = middle.empty() && watched >= half;
-	const bool grows   = !middle.empty() && watched >= 2 * half && farthest(middle) > growth * early; // its second half may be the first of a rest
+	if (startPositions.size() != scene->bodies->size() || largestSpeed() > speed || largestDisplacement(startPositions) > displacement) return restart();
+	const long half = stridesPerHalf();
+	++observedStrides;
+	const bool halfway = middlePositions.empty() && observedStrides >= half;
+	const bool grows   = !middlePositions.empty() && observedStrides >= 2 * half && largestDisplacement(middlePositions) > growth * firstHalfDisplacement;
 	if (!halfway && !grows) return;
-	if (grows) start = middle;
-	middle  = places();
-	early   = farthest(start);
-	watched = half;
+	if (grows) startPositions = middlePositions; // the second half becomes the first one of a new observation
+	middlePositions       = positions();
+	firstHalfDisplacement = largestDisplacement(startPositions);
+	observedStrides       = half;
 }
 
-bool RestSkipper::resting() const { return !middle.empty() && watched >= 2 * grainsOfHalf(); }
+bool RestSkipper::isResting() const { return !middlePositions.empty() && observedStrides >= 2 * stridesPerHalf(); }
 
-bool RestSkipper::groundIsQuiet() const
+bool RestSkipper::isGroundAtRest() const
 {
 	const auto* motion = findEngine<GroundMotionEngine>(*scene);
-	return !motion || motion->strongest(scene->time, scene->time + (grain + 1) * scene->dt) <= quiet;
+	return !motion || motion->peakBetween(scene->time, scene->time + (stride + 1) * scene->dt) <= groundThreshold;
 }
 
-/// Neither the step `last` nor where YADE's O.run(n) or O.stopAtTime ends is skipped over: YADE stops at just that step, or never.
-bool RestSkipper::mayGoOn() const
+/// YADE ends O.run(n) and O.stopAtTime at exactly that step or never: neither they nor the step `last` may be skipped.
+bool RestSkipper::isEndBeyondStride() const
 {
-	const long next = scene->iter + grain;
+	const long next     = scene->iter + stride;
 	const auto isBefore = [next](long end) { return end <= 0 || next < end; };
-	return isBefore(last) && isBefore(scene->stopAtIter) && (scene->stopAtTime <= 0 || scene->time + grain * scene->dt < scene->stopAtTime);
+	return isBefore(last) && isBefore(scene->stopAtIter) && (scene->stopAtTime <= 0 || scene->time + stride * scene->dt < scene->stopAtTime);
 }
 
 void RestSkipper::action()
 {
-	if (scene->iter % grain != 0) return;
-	watch();
-	if (!resting() || !groundIsQuiet() || !mayGoOn()) return;
-	scene->iter += grain - 1; // the step that ends now makes it a whole grain
-	scene->time += (grain - 1) * scene->dt;
-	skipped += (grain - 1) * scene->dt;
+	if (scene->iter % stride != 0) return;
+	observe();
+	if (!isResting() || !isGroundAtRest() || !isEndBeyondStride()) return;
+	scene->iter += stride - 1; // YADE adds the computed step
+	scene->time += (stride - 1) * scene->dt;
+	skipped += (stride - 1) * scene->dt;
 }
 
 } // namespace yade

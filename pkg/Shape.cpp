@@ -9,61 +9,68 @@ namespace yade {
 YADE_PLUGIN((RoundedPolyhedron)(Bo1_RoundedPolyhedron_Aabb));
 
 namespace {
-	/// The numbers that make a geometry. NaN among them, which no map can order, is refused first.
-	std::vector<Real> key(const vector<Vector3r>& vertices, Real radius)
+	/// Radius and coordinates. Coordinates that are not finite are refused first: NaN has no order in a map.
+	std::vector<Real> keyOf(const vector<Vector3r>& vertices, Real radius)
 	{
 		std::vector<Real> numbers { radius };
 		for (const Vector3r& v : vertices) {
-			if (!v.allFinite()) timber::Polyhedron::fromVertices(vertices); // says which
+			if (!v.allFinite()) timber::Polyhedron::fromVertices(vertices); // throws with the vertex
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);
 		}
 		return numbers;
 	}
 
-	/// Geometries by what makes them; those that no element has any more are dropped now and then.
+	/// Geometries by radius and vertices. Unused ones are removed when the map has grown.
 	class SharedGeometries {
 		using Geometry = const timber::RoundedPolyhedron;
-		std::mutex                                           guard;
-		std::map<std::vector<Real>, boost::weak_ptr<Geometry>> known;
-		size_t                                               crowded = 1000;
+		std::mutex                                             guard;
+		std::map<std::vector<Real>, boost::weak_ptr<Geometry>> geometries;
+		size_t                                                 sizeLimit = 1000; ///< at which unused ones are removed
 
-		void tidy()
+		void removeUnused()
 		{
-			if (known.size() < crowded) return;
-			for (auto k = known.begin(); k != known.end();)
-				k = k->second.expired() ? known.erase(k) : std::next(k);
-			crowded = 2 * known.size() + 1000;
+			if (geometries.size() < sizeLimit) return;
+			for (auto k = geometries.begin(); k != geometries.end();)
+				k = k->second.expired() ? geometries.erase(k) : std::next(k);
+			sizeLimit = 2 * geometries.size() + 1000;
 		}
 
 	public:
-		shared_ptr<Geometry> find(const vector<Vector3r>& vertices, Real radius)
+		shared_ptr<Geometry> findOrMake(const vector<Vector3r>& vertices, Real radius)
 		{
 			const std::lock_guard<std::mutex> lock(guard);
-			tidy();
-			const std::vector<Real> name = key(vertices, radius);
-			const auto              place = known.find(name);
-			shared_ptr<Geometry>    found = place == known.end() ? nullptr : place->second.lock();
+			removeUnused();
+			const std::vector<Real> key   = keyOf(vertices, radius);
+			const auto              place = geometries.find(key);
+			shared_ptr<Geometry>    found = place == geometries.end() ? nullptr : place->second.lock();
 			if (found) return found;
-			found       = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
-			known[name] = found; // what is refused does not come here
+			found           = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			geometries[key] = found;
 			return found;
 		}
 	};
-	SharedGeometries geometries;
+	SharedGeometries sharedGeometries;
+}
+
+void RoundedPolyhedron::validate() const
+{
+	if (!(radius >= 0 && std::isfinite(radius)))
+		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius) + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
 {
+	validate();
 	if (vertices.empty()) return; // default-constructed
-	if (!(radius >= 0)) throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius) + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
-	geometry = geometries.find(vertices, radius);
-	radius   = geometry->radius;
-	volume   = timber::massProperties(geometry->sharp).volume;
+	const auto made = sharedGeometries.findOrMake(vertices, radius);
+	volume          = timber::massProperties(made->sharp).volume;
+	radius          = made->radius;
+	geometry        = made;
 }
 
 boost::python::tuple RoundedPolyhedron::massProperties() const
 {
-	if (vertices.empty()) throw std::runtime_error("RoundedPolyhedron.massProperties: it has no vertices");
+	if (vertices.empty()) throw std::runtime_error("RoundedPolyhedron.massProperties: the shape has no vertices");
 	const timber::MassProperties p = timber::massProperties(geometry->sharp);
 	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia), Quaternionr(timber::principalAxes(p.inertia)));
 }
@@ -80,27 +87,31 @@ boost::python::list RoundedPolyhedron::faces() const
 	return all;
 }
 
-/// Steps that a fast body's box lasts, and how many times wider than a slow one's its margin gets for that.
-constexpr int  boxSteps  = 32;
-constexpr Real boxWidest = 20;
+constexpr int  fastBodySteps  = 32; ///< for which the box of a fast body is sufficient
+constexpr Real maxMarginRatio = 20; ///< of the margin of a fast body to that of a slow one
 
 Real boxMargin(const Body& b, Real margin, Real dt)
 {
 	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
 	if (!shape) return 0;
-	const State& s   = *b.state;
-	const Real   way = dt * (s.vel.norm() + timber::turningSpeed(s.ori.conjugate() * s.angVel, shape->geometry->span));
-	return math::max(margin, math::min(boxWidest * margin, boxSteps * way));
+	const State& s            = *b.state;
+	const Real   displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
+	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
+}
+
+void Bo1_RoundedPolyhedron_Aabb::validate() const
+{
+	if (!(margin >= 0 && std::isfinite(margin))) throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
 }
 
 void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)
 {
 	const timber::RoundedPolyhedron& body = *static_cast<RoundedPolyhedron*>(shape.get())->geometry;
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
-	const Matrix3r turn = se3.orientation.toRotationMatrix();
-	Vector3r       low  = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;
+	const Matrix3r rotation = se3.orientation.toRotationMatrix();
+	Vector3r       low      = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;
 	for (const Vector3r& v : body.core.vertices) {
-		const Vector3r x = turn * v;
+		const Vector3r x = rotation * v;
 		low              = low.cwiseMin(x);
 		high             = high.cwiseMax(x);
 	}

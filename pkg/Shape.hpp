@@ -8,10 +8,13 @@ namespace yade {
 
 class RoundedPolyhedron : public Shape {
 public:
-	/// From the attributes, made by postLoad. Equal elements share it: what a step reads of a house's shapes stays small.
+	/// Made from the attributes by postLoad. Equal elements share one geometry, which saves memory traffic in each step.
 	shared_ptr<const timber::RoundedPolyhedron> geometry { new timber::RoundedPolyhedron };
 	Real                      volume = 0; ///< of the sharp polyhedron [m3]
 
+	/// Throws for an attribute outside its range.
+	void validate() const;
+	/// Makes the geometry. Changes nothing if it throws.
 	void postLoad(RoundedPolyhedron&);
 	/// (volume, centroid, inertia matrix about it for unit density, quaternion of the principal axes), frame of the vertices.
 	boost::python::tuple massProperties() const;
@@ -21,10 +24,10 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RoundedPolyhedron, Shape,
 		"Convex polyhedron with rounded vertices and edges (paper, section 2.2): its faces moved inwards by :yref:`radius<RoundedPolyhedron.radius>`, plus a ball of that radius. "
-		"The vertices are in the body frame: origin in the centroid, axes along the principal axes; ``yade_timber.polyhedron`` makes such a body from vertices in the world frame. "
-		"Raises an error for vertices that are no corners of a convex polyhedron.",
-		((vector<Vector3r>, vertices, , Attr::triggerPostLoad, "Corners of the sharp polyhedron, body frame. [m]"))
-		((Real, radius, 0, Attr::triggerPostLoad, "Rounding radius; 0 takes 10 % of the shortest edge. [m] (paper, section 2.2)"))
+		"The vertices are in the body frame: origin in the centroid, axes along the principal axes. ``yade_timber.polyhedron`` makes such a body from vertices in the world frame. "
+		"Raises an error if a vertex is not a corner of the convex hull.",
+		((vector<Vector3r>, vertices, , Attr::triggerPostLoad, "Corners of the sharp polyhedron, 4 to 64, body frame. [m]"))
+		((Real, radius, 0, Attr::triggerPostLoad, "Rounding radius, >= 0; 0 takes 10 % of the shortest edge. [m] (paper, section 2.2)"))
 		((string, name, , , "Name of the element, for reports. [-]"))
 		((string, kind, , , "Kind of the element: column, beam, brace, ... [-]")),
 		createIndex();,
@@ -36,17 +39,19 @@ public:
 };
 REGISTER_SERIALIZABLE(RoundedPolyhedron);
 
-/// Distance by which the bounding box of an element is larger than the element, on all sides: `margin`, or more for one that is fast,
-/// so that it does not leave its box within a few steps; 0 for other shapes, whose boxes others make. dt: time step [s]. [m]
+/// Margin of an element's bounding box on all sides: `margin` [m], or more for a fast body, so that it stays in its box for several steps.
+/// 0 for other shapes, whose boxes are made elsewhere. dt: time step [s]. Returns [m].
 Real boxMargin(const Body& b, Real margin, Real dt);
 
 class Bo1_RoundedPolyhedron_Aabb : public BoundFunctor {
 public:
+	void validate() const;
+	void postLoad(Bo1_RoundedPolyhedron_Aabb&) { validate(); }
 	void go(const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*) override;
 	FUNCTOR1D(RoundedPolyhedron);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Bo1_RoundedPolyhedron_Aabb, BoundFunctor, "Axis-aligned bounding box of a :yref:`RoundedPolyhedron`.",
-		((Real, margin, 5e-3, , "Distance by which the box is larger on all sides, so that the collider need not run in every step, see :yref:`CollisionTrigger`; up to twenty times as much for bodies that are fast. [m]"))
+		((Real, margin, 5e-3, Attr::triggerPostLoad, "Margin of the box on all sides, >= 0; up to twenty times as much for fast bodies. It reduces the number of runs of the collider, see :yref:`CollisionTrigger`. [m]"))
 	);
 	// clang-format on
 };

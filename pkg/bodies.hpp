@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Small questions about YADE's bodies and engines, and sums of forces.
+/// Helpers for YADE's bodies and engines, and sums of forces.
 #pragma once
 #include <pch.hpp>
 
 namespace yade {
 
-/// Not held in all its degrees of freedom.
+/// Whether a body is not fixed: at least one degree of freedom is not blocked.
 inline bool isFree(const State& s) { return s.blockedDOFs != State::DOF_ALL; }
 
-/// The body of that id, or null when there is none (any more).
+/// The body of that id; null if it does not exist or was erased.
 inline Body* bodyAt(const Scene& scene, Body::id_t id)
 {
 	const BodyContainer& bodies = *scene.bodies;
@@ -30,8 +30,8 @@ inline void addBodyForce(Scene& scene, const Vector3r& acceleration)
 		if (b && isFree(*b->state)) scene.forces.addForce(b->getId(), b->state->mass * acceleration);
 }
 
-/// Forces and torques about the centres, by body id. YADE's container adds them up in the order of its threads; sums made
-/// here, and handed over once, do not depend on them.
+/// Forces and torques about the centres, by body id. YADE's container sums them in the order of its threads. Sums made
+/// here and handed over once do not depend on the number of threads.
 struct BodyForces {
 	std::vector<Vector3r> force, torque; ///< [N, N m]
 

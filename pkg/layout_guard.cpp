@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <pch.hpp>
 
+#include <core/InteractionLoop.hpp>
 #include <layout_guard.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/GravityEngines.hpp>
@@ -26,8 +27,8 @@ template <typename Owner, typename Access> Field makeField(const char* owner, co
 {
 	using Member = std::decay_t<decltype(member(std::declval<Owner&>()))>;
 	const auto read = [member](const py::object& object, long shift) {
-		const auto* place = reinterpret_cast<const char*>(&member(py::extract<Owner&>(object)()));
-		return readAt(reinterpret_cast<const Member*>(place + shift));
+		const auto* address = reinterpret_cast<const char*>(&member(py::extract<Owner&>(object)()));
+		return readAt(reinterpret_cast<const Member*>(address + shift));
 	};
 	const auto write
 	        = [member](const py::object& object, const py::object& value) { member(py::extract<Owner&>(object)()) = py::extract<Member>(value)(); };
@@ -38,9 +39,9 @@ template <typename Owner, typename Access> Field makeField(const char* owner, co
 #define VALUE(Owner, name) makeField<Owner>(#Owner, #name, "", [](Owner& o) -> auto& { return o.name; })
 #define POINTER(Owner, name, Pointee) makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
 
-/// Members that this package's C++ touches, and each class's last one; those that Python cannot read (State::blockedDOFs,
+/// Members that this package's C++ uses, and the last one of each class. Members without a Python attribute (State::blockedDOFs,
 /// Interaction::functorCache) lie between others. The first difference ends the check, so State's
-/// references (pos, ori), which are followed when read, come after its plain members.
+/// references (pos, ori), which are dereferenced when read, come after its plain members.
 const std::vector<Field>& fields()
 {
 	static const std::vector<Field> table {
@@ -56,12 +57,13 @@ const std::vector<Field>& fields()
 		VALUE(Engine, dead), VALUE(Engine, ompThreads),
 		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter), VALUE(Scene, stopAtTime),
 		VALUE(Scene, doSort), POINTER(Collider, boundDispatcher, BoundDispatcher), VALUE(GravityEngine, gravity),
+		POINTER(InteractionLoop, geomDispatcher, IGeomDispatcher), POINTER(InteractionLoop, physDispatcher, IPhysDispatcher), POINTER(InteractionLoop, lawDispatcher, LawDispatcher),
 	};
 	return table;
 }
 // clang-format on
 
-/// [(class, attribute, class pointed to or "")], in the order in which they are to be checked.
+/// [(class, attribute, class pointed to or "")], in the order of the check.
 py::list listFields()
 {
 	py::list names;
@@ -76,26 +78,32 @@ void writeField(int index, const py::object& object, const py::object& value) { 
 
 std::uintptr_t address(const py::object& object) { return reinterpret_cast<std::uintptr_t>(py::extract<Serializable*>(object)()); }
 
-/// Make `next` the current scene and return the one before; getScene()'s reference is used because setScene() is inline and would
-/// assume Omega's layout.
+/// Makes `next` the current scene and returns the previous one. setScene() is inline and would assume Omega's layout, so the reference
+/// that getScene() returns is used.
 shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
 {
 	auto& current = const_cast<shared_ptr<Scene>&>(Omega::instance().getScene());
 	return std::exchange(current, next);
 }
 
-/// Address of a scene's energy tracker, the last of the containers that Scene points to: if it is in its place, so are they.
+/// Address of a scene's energy tracker, the last of the containers that Scene points to: if its offset is right, so are theirs.
 std::uintptr_t energyAddress(Scene& scene) { return reinterpret_cast<std::uintptr_t>(scene.energy.get()); }
 
-/// What Scene holds outside its Python attributes: (number of engines, bodies and interactions, force on body 0 [N]).
+/// Contents of Scene without Python attributes: (number of engines, bodies and interactions, force on body 0 [N]).
 py::tuple readContainers(Scene& scene)
 {
 	scene.forces.sync();
 	return py::make_tuple(scene.engines.size(), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
 }
 
-/// Number of functors that make a collider's bounding boxes.
+/// Number of a collider's functors for bounding boxes.
 size_t countBoundFunctors(const Collider& collider) { return collider.boundDispatcher->functors.size(); }
+
+/// Numbers of an InteractionLoop's Ig2, Ip2 and Law2 functors.
+py::tuple countContactFunctors(const InteractionLoop& loop)
+{
+	return py::make_tuple(loop.geomDispatcher->functors.size(), loop.physDispatcher->functors.size(), loop.lawDispatcher->functors.size());
+}
 
 } // namespace
 
@@ -108,5 +116,6 @@ void defineLayoutGuard()
 	py::def("energy_address", &energyAddress, (py::arg("scene")));
 	py::def("read_containers", &readContainers, (py::arg("scene")));
 	py::def("count_bound_functors", &countBoundFunctors, (py::arg("collider")));
+	py::def("count_contact_functors", &countContactFunctors, (py::arg("loop")));
 	py::def("address", &address, (py::arg("object")));
 }

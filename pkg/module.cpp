@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The Python module _yade_timber. Loading it defines the guard's functions only; host.py calls register_classes() once the guard is content.
+// The Python module _yade_timber. Loading it defines functions only; host.py calls register_classes() once the layout is verified.
 #include <pch.hpp>
 
 #include <Gl1_RoundedPolyhedron.hpp>
 #include <PackedScene.hpp>
+#include <SceneCheck.hpp>
 #include <build_info.hpp>
+#include <chrono>
 #include <layout_guard.hpp>
+#include <thread>
 
 namespace {
 
-/// Hand this module's classes, and only them, to YADE's registration; they appear in yade.wrapper. Returns their names.
-/// Omega::loadPlugins() registers every name in ClassFactory's list, so the names YADE knows already step aside meanwhile.
+/// Registers this module's classes, and only them, with YADE; they appear in yade.wrapper. Returns their names.
+/// Omega::loadPlugins() registers every name in ClassFactory's list, so names that YADE knows already are removed meanwhile.
 boost::python::list registerClasses()
 {
 	auto& names = yade::ClassFactory::instance().pluginClasses;
@@ -27,6 +30,26 @@ boost::python::list registerClasses()
 	return registered;
 }
 
+/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps.
+void finishStep()
+{
+	yade::Omega&   omega    = yade::Omega::instance();
+	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
+	const long     before   = omega.getScene()->iter;
+	while (omega.isRunning() && omega.getScene()->iter == before) // stop() must not come before the run's thread has started
+		std::this_thread::sleep_for(std::chrono::microseconds(20));
+	omega.stop();
+	omega.createSimulationLoop();
+	PyEval_RestoreThread(released);
+}
+
+/// Checks a body of the scene whose shape, material or state was replaced. Collider and HealthCheck then check the whole scene.
+void checkReplacedPart(const yade::Body& body)
+{
+	yade::checkBody(body);
+	yade::Omega::instance().getScene()->doSort = true;
+}
+
 std::string buildRecord() { return TIMBER_BUILD_RECORD; }
 
 } // namespace
@@ -36,6 +59,8 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	defineLayoutGuard();
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
+	boost::python::def("finish_step", &finishStep);
+	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

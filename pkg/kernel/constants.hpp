@@ -1,63 +1,85 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Every tolerance of the kernel: what it means, its unit, and what changing it does.
+/// Tolerances and limits of the kernel: meaning, unit, and the effect of a larger or smaller value.
 #pragma once
+#include <cstddef>
 
 namespace timber {
 
-/// Rounding radius as a share of the shortest edge (paper, section 2.2). [-]
+// --- shapes ---
+
+/// Rounding radius as a fraction of the shortest edge (paper, section 2.2). [-]
 constexpr double radiusShare = 0.10;
 
-/// Admissible largest extent of a polyhedron. [m] Products of three lengths, squared, must neither overflow nor vanish; no
-/// element of a house comes near either end.
+/// Maximum number of vertices of a polyhedron. [-] The search for the axis of least overlap takes a time that grows with the third power of
+/// this number: a step of a pair with overlapping cores takes 0.02 ms with 12 vertices, 0.8 ms with 64 and 10 ms with 128. A prism of 32 sides
+/// is admissible. Larger: slow steps, and shapes take seconds to construct; smaller: fewer admissible shapes.
+constexpr std::size_t maxVertices = 64;
+constexpr std::size_t maxFaces = 2 * maxVertices - 4; ///< of a polyhedron with maxVertices (Euler's formula) [-]
+
+/// Admissible extent of a polyhedron. [m] Within these bounds the squared product of three lengths neither overflows nor underflows.
 constexpr double smallestSize = 1e-6, largestSize = 1e6;
 
-/// Points closer to a plane than this share of the polyhedron's size lie in it. [-]
-/// Larger: single-precision vertices still make planar faces; smaller: nearly flat corners are kept as corners.
+/// Points closer to a plane than this fraction of the polyhedron's size lie in the plane. [-]
+/// Larger: nearly flat corners are lost; smaller: vertices in single precision no longer give planar faces.
 constexpr double planarShare = 1e-6;
 
-/// Where faces are neither plane to planarShare nor clearly bent (vertices typed to the millimetre), they are made plane
-/// with a tolerance of up to this share of the polyhedron's size. [-]
-/// Larger: more warped input is accepted, its core less true to it; smaller: it is refused.
+/// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. It is used only if the faces do not close with a
+/// smaller value. [-]
+/// Larger: more warped input is accepted and the core deviates more from it; smaller: it is refused.
 constexpr double warpShare = 1e-3;
 
-/// Two places closer than this are the same place: a vertex over a face's border, a crossing at an edge's end,
-/// two vertices on each other. [m] Below any construction tolerance and far above rounding noise, so that a flush
-/// contact is decided by rule and not by the last bit. It sets how far a member slides before the rule lets go.
+// --- contact points ---
+
+/// Two positions closer than this coincide: a vertex above the border of a face, a crossing at the end of an edge, two vertices. [m]
+/// It is below any construction tolerance and far above rounding errors, so that flush contacts do not depend on rounding.
+/// Larger: a member slides farther beyond a border before it loses the support of a face; smaller: rounding decides about flush contacts.
 constexpr double flushTolerance = 1e-4;
 
-/// Edges whose directions differ by less (sine of the angle) are parallel and have no crossing point. [-]
-/// Larger drops real crossings; smaller lets the crossing point of nearly parallel edges jump along them.
+/// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this. [-]
+/// Larger: crossings are lost; smaller: the crossing of nearly parallel edges jumps along them.
 constexpr double parallelSine = 5e-3;
 
-/// Candidate features are kept for a pair until it has moved by this length. [m]
-/// Larger: rarer searches, more candidates evaluated in each step. Results do not depend on it.
+/// Overlapping cores: minimum cosine between the normal of a contact point and the axis of least overlap. [-]
+/// Larger: fewer points, or the single point of the cores instead; smaller: points with normals across the axis, which rounding decides.
+constexpr double deepNormalCosine = 0.5;
+
+// --- cache of candidate features; none of these values changes a result ---
+
+/// Skin of the candidate search, as in Verlet lists: the candidates stay valid while the pair moves by less than this. [m]
+/// Larger: fewer searches, more candidates in each step.
 constexpr double candidateSkin = 4e-3;
 
-/// The same for a pair that has hardly moved in quietSteps steps: little but what meets is evaluated. [m] A search spares its cost within
-/// some 20 steps, or 40 with that which follows when the pair moves on.
-constexpr double quietSkin = candidateSkin / 20;
-constexpr int quietSteps = 100;
-static_assert(quietSkin * quietSkin > 2 * flushTolerance * flushTolerance, "a skin covers what a flush support reaches beyond a corner");
+/// Skin for pairs at rest: those whose displacement changed by less than half of it in restInterval updates. [m]
+/// Larger: more candidates in each step; smaller: more searches. A search pays off within about 20 updates, or 40 with the one that follows
+/// when the pair moves again.
+constexpr double restSkin = candidateSkin / 20;
+constexpr int restInterval = 100; ///< [updates]
+static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance, "the skin must cover the distance of a flush support from a corner");
 
-/// How often a pair that is near but has no points is asked whether an axis shows it to be apart: once in so many uses. Asking costs
-/// some five uses, and many such pairs are not apart (only patterns that are left out meet). Results do not depend on it. [-]
-constexpr int axisUses = 24;
+/// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs about five updates, and
+/// many such pairs have none (vertex-edge contacts, which are off by default).
+/// Larger: separated pairs are recognised later; smaller: more tests.
+constexpr int axisInterval = 24;
 
-/// Crossings of edges with a smaller angle (sine) run along the edges when the pair moves; as candidates they are judged by distance alone. [-]
-/// Larger: more candidates; smaller: crossings shift by more than the first order that the search allows for. Results do not depend on it.
-constexpr double steadySine = 0.2;
+/// Candidates: the crossing of two edges is extrapolated to first order in the motion if the sine of their angle exceeds this; otherwise
+/// the distance of the edges decides alone. [-]
+/// Larger: more candidates; smaller: the shift of a crossing exceeds the first-order bound.
+constexpr double crossingSine = 0.2;
 
-/// Least size of the place at which a pair's motion is judged, in skins: it keeps the turn that is allowed small (0.04 rad). [-]
-/// Larger: searches after smaller turns. Results do not depend on it.
-constexpr double leastRegion = 25;
+/// Minimum radius of the region in which the motion of a pair is bounded, in skins. [-] It limits the rotation between two searches to
+/// its inverse, 0.04 rad.
+/// Larger: a search after smaller rotations; smaller: the small-angle bounds of the search no longer hold.
+constexpr double minRegionSkins = 25;
 
-/// Overlapping cores: points whose normal makes a larger angle with the axis of least overlap do not count. [-]
-/// Larger: fewer points, one along the axis in their stead; 0: points across the axis, decided by rounding.
-constexpr double outwardCosine = 0.5;
+// --- contact solver ---
 
-/// Changes in the first sweep of a step count from this share of the tolerance on, those in later sweeps from the tolerance itself. [-]
-/// 1: stiff loaded members (braces under snow, the foot of a stack, steps of 2.5e-4 s) tremble by what the first sweep leaves over,
-/// since the start's error does not die; 1e-4: by so much less (1e-8 of a stack's weight); 0: two sweeps of what rests to the last bit.
+/// Convergence threshold of the first sweep of a step, as a share of the tolerance of the later sweeps. [-]
+/// 1: the error of the warm start does not decay, and stiff loaded members (braces under snow, the foot of a stack, at steps of 2.5e-4 s)
+/// jitter; 1e-4: the jitter is smaller by that factor (1e-8 of a stack's weight); 0: a second sweep even where all is at rest.
 constexpr double firstSweepShare = 1e-8;
+
+/// Steps for which the response (inverse effective mass) of a contact point is reused. [-]
+/// A member that rotates at 10 rad/s has rotated by 0.03 rad by then; more steps save nothing.
+constexpr int responseSteps = 32;
 
 } // namespace timber

@@ -1,42 +1,50 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a step does with all points of a pair, laneCount of them at a time: elastic forces, rows for the dashpots' solver, total
-/// forces and energies.
+/// One step of all contact points of a pair, SIMD-vectorised:
+///     1. elasticPair(): elastic forces for the new contact points (contact loop);
+///     2. prepareContacts(): constraints for the solver, warm start included;
+///     3. storeForces(): forces on the bodies, history and energies from the solver's impulses.
 #pragma once
 #include "contact_law.hpp"
 
 namespace timber {
 
-/// Where a body is and how it moves.
-struct BodyMotion {
-	const Vec3 &position, &velocity, &spin; ///< world [m, m/s, rad/s]
+/// Input of the elastic step. Velocities of a and b are those of the last step, which led to the present positions.
+struct PairStep {
+	const PairProperties& pair;
+	BodyKinematics a, b;
+	double h; ///< length of the step [s]
+	NormalForm form = NormalForm::Closed;
+	bool placedInContact = false; ///< the pair is new and its bodies were placed as they are: new points have their whole overlap, not initialOverlap()
 };
 
-/// Elastic step of all points. States follow their features; those of features that no longer meet go.
-/// placed: the pair is new, its bodies were put where they are, overlap and all; else a new point starts with bornOverlap().
-/// Velocities of a and b: those that led to the present placement, a step of length h [s] ago.
-/// Returns the energy lost with points that ceased to exist, less what points born under load took of it. [J]
-template <class Law>
-double elasticPair(const Law& law, const PairProperties& pair, const BodyMotion& a, const BodyMotion& b, double h, NormalForm form, bool placed,
-        const std::vector<ContactPoint>& points, std::vector<PointState>& states);
+/// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.
+/// points: sorted by id; records: in-out.
+/// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J]
+template <class Law> double elasticPair(const Law& law, const PairStep& step, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
-/// The k-th pair of the solver gets its rows. refresh: whether to find the points' responses anew.
-void prepareContacts(ContactSolver& solver, size_t k, const std::vector<SolverBody>& bodies, const PairProperties& pair, double dampingRatio, double h, bool refresh,
-        const std::vector<ContactPoint>& points, std::vector<PointState>& states);
+/// The solver's view of a step.
+struct SolverStep {
+	ContactSolver& solver;
+	const std::vector<SolverBody>& bodies;
+	double h; ///< length of the step [s]
+};
 
-/// Total force and torques of a pair's points, each torque about the body's own centre. [N, N m]
+/// Constraints of the k-th pair of the solver. refresh: recompute the points' responses.
+void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+
+/// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {
 	Vec3 onB = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
 };
 
-/// What a step adds to the energies that have been dissipated, and the elastic energies now. [J]
+/// Energies dissipated in a step, and elastic energies at its placement. [J]
 struct PairEnergies {
 	double dashpotNormal = 0, dashpotShear = 0, friction = 0;
 	double elasticNormal = 0, elasticShear = 0;
-	double elasticPower = 0; ///< rate at which the springs' energy grows with the velocities after the step [W]
+	double elasticPower = 0; ///< rate of change of the elastic energy at the velocities after the step [W]
 };
 
-/// Takes the solved rows of the k-th pair over into its states. energies: added to, if they are asked for.
-PairForce storeForces(const ContactSolver& solver, size_t k, const std::vector<SolverBody>& bodies, const PairProperties& pair, double h, std::vector<PointState>& states,
-        PairEnergies* energies);
+/// Stores the impulses of the k-th pair in its records. energies: added to, unless null.
+PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, std::vector<PointRecord>& records, PairEnergies* energies);
 
 } // namespace timber

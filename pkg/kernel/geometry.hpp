@@ -1,67 +1,75 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Small questions about points, segments and one convex polyhedron, all in the polyhedron's frame.
+/// Geometric queries for one convex polyhedron, in its frame, and for segments.
 #pragma once
 #include "simd.hpp"
 #include "polyhedron.hpp"
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace timber {
 
-template <class Number> Number height(const HalfSpace& plane, const Vec3Of<Number>& x) { return wide<Number>(plane.normal).dot(x) - Number(plane.offset); }
+/// Distance of a point from a plane, > 0 outside. [m]
+template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3Of<Number>& x) { return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset); }
 
-/// The foot of x lies in the face or beyond its border by at most `limit` (negative: inside it by as much) [m]. At a
-/// corner the distance along the bisector counts, too, over sqrt(2): nothing new at a right corner, but a foot beyond a
-/// sharp tip stays near it.
-template <class Number> auto isOverFace(const Face& face, const Vec3Of<Number>& x, Number limit)
+/// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative: inside them) [m].
+/// Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This changes nothing at a right angle, and keeps the
+/// projection near an acute corner.
+template <class Number> auto projectsOntoFace(const Face& face, const Vec3Of<Number>& x, Number limit)
 {
-	const Number none = 0.;
-	auto over = none <= none, beyond = none < none;
-	for (const HalfSpace& border : face.borders) {
-		const Number distance = height(border, x);
-		over = both(over, distance <= limit);
-		if (!any(over)) return over;
-		beyond = either(beyond, distance > none);
+	const Number zero = 0.;
+	auto inside = zero <= zero, beyond = zero < zero;
+	for (const HalfSpace& side : face.sidePlanes) {
+		const Number distance = signedDistance(side, x);
+		inside = logicalAnd(inside, distance <= limit);
+		if (!any(inside)) return inside;
+		beyond = logicalOr(beyond, distance > zero);
 	}
-	if (!any(both(over, beyond))) return over;
-	for (const HalfSpace& tip : face.tips)
-		over = both(over, either(beyond == (none < none), height(tip, x) <= Number(M_SQRT2) * limit));
-	return over;
-}
-
-/// x lies in all half-spaces but that of the given face, which is not asked; `limit` may reach beyond them or stay inside. [m]
-template <class Number> auto isInside(const Polyhedron& body, int face, const Vec3Of<Number>& x, Number limit)
-{
-	const Number none = 0.;
-	auto inside = none <= none;
-	for (int f = 0; f < int(body.faces.size()); ++f)
-		if (f != face) inside = both(inside, height(body.faces[f].plane, x) <= limit);
+	if (!any(logicalAnd(inside, beyond))) return inside;
+	for (const HalfSpace& bevel : face.bevelPlanes)
+		inside = logicalAnd(inside, logicalOr(beyond == (zero < zero), signedDistance(bevel, x) <= Number(M_SQRT2) * limit));
 	return inside;
 }
 
-/// The face that looks most along a direction.
-inline int faceLooking(const Polyhedron& body, const Vec3& direction)
+/// Whether x lies inside all faces' planes except that of `excludedFace`. limit: tolerance outside the planes (negative: inside them) [m].
+template <class Number> auto isInsideOtherFaces(const Polyhedron& body, int excludedFace, const Vec3Of<Number>& x, Number limit)
 {
-	const auto looksLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
-	return int(std::max_element(body.faces.begin(), body.faces.end(), looksLess) - body.faces.begin());
+	assert(excludedFace >= 0 && excludedFace < int(body.faces.size()));
+	const Number zero = 0.;
+	auto inside = zero <= zero;
+	for (int f = 0; f < int(body.faces.size()); ++f)
+		if (f != excludedFace) inside = logicalAnd(inside, signedDistance(body.faces[f].plane, x) <= limit);
+	return inside;
 }
 
-/// Least and greatest coordinate along a direction. [m]
-inline std::pair<double, double> extent(const Polyhedron& body, const Vec3& direction)
+/// The face whose normal is closest to a direction.
+inline int supportFace(const Polyhedron& body, const Vec3& direction)
 {
-	double least = std::numeric_limits<double>::infinity(), most = -least;
+	assert(isUnitVector(direction));
+	const auto isLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
+	return int(std::max_element(body.faces.begin(), body.faces.end(), isLess) - body.faces.begin());
+}
+
+struct Interval {
+	double min, max; ///< [m]
+};
+
+/// Projection of a polyhedron onto an axis through the origin.
+inline Interval projectionInterval(const Polyhedron& body, const Vec3& axis)
+{
+	Interval interval { std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
 	for (const Vec3& v : body.vertices) {
-		least = std::min(least, v.dot(direction));
-		most = std::max(most, v.dot(direction));
+		interval.min = std::min(interval.min, v.dot(axis));
+		interval.max = std::max(interval.max, v.dot(axis));
 	}
-	return { least, most };
+	return interval;
 }
 
 /// Shortest distance of two segments, each from its tail along its span. [m]
 inline double segmentDistance(const Vec3& tailA, const Vec3& spanA, const Vec3& tailB, const Vec3& spanB)
 {
+	assert(spanA.squaredNorm() > 0 && spanB.squaredNorm() > 0);
 	const Vec3 w = tailA - tailB;
 	const double aa = spanA.squaredNorm(), bb = spanB.squaredNorm(), ab = spanA.dot(spanB), aw = spanA.dot(w), bw = spanB.dot(w);
 	const double det = aa * bb - ab * ab;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "islands.hpp"
+#include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace timber {
@@ -11,11 +13,13 @@ int Islands::root(int body)
 	return body;
 }
 
-/// The body that tells which island a pair belongs to.
-int Islands::bodyOf(const Link& link) { return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second; }
+/// The body that identifies the island of a pair.
+int Islands::representative(const Link& link) { return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second; }
 
 void Islands::find(size_t bodies, const std::vector<Link>& pairs)
 {
+	[[maybe_unused]] const auto isValid = [bodies](int body) { return size_t(body >= 0 ? body : ~body) < bodies; };
+	assert(std::all_of(pairs.begin(), pairs.end(), [&](const Link& link) { return link == noLink || (link.first != link.second && isValid(link.first) && isValid(link.second)); }));
 	if (bodies == parent.size() && pairs == links) return;
 	links = pairs;
 	parent.resize(bodies);
@@ -26,7 +30,7 @@ void Islands::find(size_t bodies, const std::vector<Link>& pairs)
 	starts.assign(1, 0);
 	for (const Link& link : links) {
 		if (link == noLink) continue;
-		int& island = islandOf[bodyOf(link)];
+		int& island = islandOf[representative(link)];
 		if (island < 0) {
 			island = int(starts.size()) - 1;
 			starts.push_back(0);
@@ -37,7 +41,7 @@ void Islands::find(size_t bodies, const std::vector<Link>& pairs)
 	order.resize(starts.back());
 	std::vector<size_t> next = starts;
 	for (size_t k = 0; k < links.size(); ++k)
-		if (links[k] != noLink) order[next[islandOf[bodyOf(links[k])]]++] = int(k);
+		if (links[k] != noLink) order[next[islandOf[representative(links[k])]]++] = int(k);
 }
 
 } // namespace timber

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Bodies that no chain of contacts joins (two houses on the ground) are islands: each is solved by itself, so that they do
-/// not influence each other, not even by rounding, threads may share the work, and a street costs what its houses cost.
+/// Islands: sets of free bodies connected by contacts (each house on the ground is one). The solver takes each island by itself, so that
+/// islands do not influence each other, not even by rounding, and threads may share them.
 #pragma once
 #include <cstddef>
 #include <utility>
@@ -8,9 +8,9 @@
 
 namespace timber {
 
-/// Two bodies in contact, ~body of a fixed one: it joins nothing.
+/// Two bodies in contact; a fixed body is given as ~body: it connects nothing.
 using Link = std::pair<int, int>;
-/// A pair that does not touch: both ends the same free body, which no pair has.
+/// A pair without contact points. No pair has the same free body twice.
 constexpr Link noLink { 0, 0 };
 
 class Islands {
@@ -24,19 +24,19 @@ public:
 		int operator[](size_t k) const { return first[k]; }
 	};
 
-	/// Islands of these pairs in the order of their first ones; all bodies are < `bodies`.
+	/// Islands of these pairs, in the order of their first pairs. Body indices are < bodies.
 	void find(size_t bodies, const std::vector<Link>& pairs);
 	size_t count() const { return starts.empty() ? 0 : starts.size() - 1; }
 	Island operator[](size_t k) const { return { order.data() + starts[k], order.data() + starts[k + 1] }; }
 
 private:
-	std::vector<Link> links; ///< for which the islands were found
-	std::vector<int> order; ///< pairs by island
-	std::vector<size_t> starts; ///< in `order`, and its end
-	std::vector<int> parent, islandOf; ///< of each body, while islands are sought
+	std::vector<Link> links; ///< input of the last search
+	std::vector<int> order; ///< indices of the pairs, island by island
+	std::vector<size_t> starts; ///< of the islands in `order`, and its end
+	std::vector<int> parent, islandOf; ///< of each body: parent in the disjoint-set forest, island of its root
 
 	int root(int body);
-	int bodyOf(const Link&);
+	int representative(const Link&);
 };
 
 } // namespace timber

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// One spring of a breakable joint (paper, sections 2.4 and 3.2), anchored in both bodies.
-/// Signs: the normal runs from body A to body B; the force is that on A, B gets the opposite.
+/// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/Joints.hpp).
+/// Signs: the normal points from body A to body B; forces act on A, B gets the opposite.
+/// A step:
+///     1. pullSprings() stretches the springs to the bodies' placement;
+///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
+///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and pulls again.
 #pragma once
-#include "simd.hpp"
+#include "kinematics.hpp"
 #include <vector>
 
 namespace timber {
 
+/// Of one spring.
 struct JointStiffness {
 	double normal, shear; ///< K_pn, K_ps [N/m]
 };
 
 template <class Number> struct SpringForce {
 	Vec3Of<Number> force; ///< on A, world [N]
-	Number normal; ///< along the joint's normal, > 0 in tension [N]
+	Number normal; ///< component along the joint's normal, > 0 in tension [N]
 	Number energy; ///< stored [J]
 };
 
@@ -21,37 +26,63 @@ template <class Number> struct SpringForce {
 /// stretch: anchor of B minus anchor of A, world [m]. With equal stiffnesses the normal does not matter.
 template <class Number> SpringForce<Number> springForce(const JointStiffness& k, const Vec3Of<Number>& stretch, const Vec3& normal)
 {
-	const Vec3Of<Number> n = wide<Number>(normal), shear = Number(k.shear) * stretch;
+	const Vec3Of<Number> n = broadcast<Number>(normal), shear = Number(k.shear) * stretch;
 	const Number along = stretch.dot(n), square = Number(k.shear) * stretch.squaredNorm(), extra = k.normal - k.shear, half = 0.5;
 	if (k.normal == k.shear) return { shear, Number(k.normal) * along, half * square };
 	return { shear + extra * along * n, Number(k.normal) * along, half * (square + extra * along * along) };
 }
 
-/// Where a joint's two bodies are: matrices from their frames to the world, and from the centre of A to that of B [m].
+/// Placement of a joint's two bodies: rotation matrices from their frames to the world, and the vector from the centre of A to that of B [m].
 struct JointPlacement {
 	const Mat3 &axesA, &axesB;
-	Vec3 apart;
+	Vec3 distance;
 };
 
-/// What all springs of a joint do that are left; forces on A, torques about the bodies' own centres.
+/// A joint's springs, one entry each. Vectors of the same length.
+struct JointSprings {
+	const std::vector<Vec3>&anchorsA, &anchorsB; ///< in the bodies' frames [m]
+	const std::vector<int>& broken; ///< 1 for a broken spring, else 0
+	std::vector<Vec3>& stretches; ///< anchor of B minus anchor of A, world; zero for a broken spring [m]
+	std::vector<Vec3>& forces; ///< on A, world; zero for a broken spring [N]
+};
+
+/// Sums over a joint's unbroken springs; forces on A, torques about the bodies' own centres.
 struct JointPull {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
 	double energy = 0; ///< [J]
-	double largest = 0; ///< square of the largest spring force [N2]
-	double sum = 0; ///< of the sizes of the spring forces [N]
+	double largestSquared = 0; ///< square of the largest spring force [N2]
+	double sum = 0; ///< of the magnitudes of the spring forces [N]
 };
 
-/// Stretches a joint's springs to the bodies' placement. anchors: in the bodies' frames; normal: in that of A; stretches, forces (on A): in the
-/// world, zero for broken springs.
-JointPull pullSprings(const JointStiffness& k, const JointPlacement& place, const Vec3& normal, const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB,
-        const std::vector<int>& broken, std::vector<Vec3>& stretches, std::vector<Vec3>& forces);
+/// Stretches and forces of a joint's springs. normal: in the frame of A; out: stretches and forces of the springs.
+JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs);
 
-/// What broke a spring: the larger of its two components, and the sign of the normal one.
+/// Strength of a joint (section 3.2).
+struct JointStrength {
+	double limit; ///< P_max [N]
+	bool perJoint; ///< whether the limit is that of the joint: all springs break when the sum of their forces exceeds it. Else each spring has the limit
+};
+bool isOverloaded(const JointStrength& strength, const JointPull& pull);
+
+/// Cause of a break: the larger component of the spring's force, and the sign of the normal one.
 enum class BreakCause { Tension, Compression, Shear };
-inline BreakCause breakCause(const SpringForce<double>& f)
-{
-	if (f.force.squaredNorm() > 2 * f.normal * f.normal) return BreakCause::Shear;
-	return f.normal > 0 ? BreakCause::Tension : BreakCause::Compression;
-}
+BreakCause breakCause(const SpringForce<double>& f);
+
+struct SpringBreak {
+	size_t spring; ///< index in the joint
+	BreakCause cause;
+	double force; ///< magnitude [N]
+	double energy; ///< released: stored at the middle of the last step [J]
+};
+
+/// Motion of a joint's bodies; velocities are those of the last step.
+struct JointMotion {
+	BodyKinematics a, b;
+	double h; ///< length of the step [s]
+};
+
+/// Breaks of an overloaded joint, in the order of its springs. springs: as pullSprings() left them.
+std::vector<SpringBreak> springBreaks(
+        const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion);
 
 } // namespace timber

@@ -2,197 +2,221 @@
 #include "manifold.hpp"
 #include "feature_search.hpp"
 #include "geometry.hpp"
+#include "separating_axis.hpp"
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 namespace timber {
+
+// Update of a manifold:
+//   1. Early out: the pair had no points, and the cached separating axis shows a gap. Return the gap as safe displacement.
+//   2. Search the candidate features again if the pair has moved beyond the margin of the last search (feature_search.cpp).
+//   3. If the cores may overlap, find the axis of least overlap (separating_axis.cpp).
+//   4. Test the candidates: vertices against one face, or edge against edge, in SIMD batches; other patterns one by one.
+//   5. Deep contact without a point: add one point in the overlap region, along the axis of least overlap.
+//   6. No points at all: look for a separating axis for step 1 of the next update.
+// All geometry is in the frame of A until a point is stored.
 namespace {
 
-	/// What two features make of each other, in the frame of A.
+	/// Contact of two features, frame of A.
 	template <class Number> struct FeatureContact {
-		Vec3Of<Number> onA; ///< point on core A
+		Vec3Of<Number> pointA; ///< on core A [m]
 		Vec3Of<Number> normal; ///< unit, from A to B
-		Number distance; ///< of the cores along the normal, negative when they overlap [m]
+		Number distance; ///< of the cores along the normal, < 0 where they overlap [m]
 	};
 
-	/// Contact points of a pair, as they are found.
-	class Points {
-		const Pair& pair;
-		const Mat3& turnA;
-		const Vec3& originA;
-		std::vector<ContactPoint>& all;
+	/// Collects the contact points of a pair, in world coordinates.
+	class PointCollector {
+		const ShapePair& pair;
+		const Mat3& rotationA;
+		const Vec3& positionA;
+		std::vector<ContactPoint>& points;
 
-		/// Vertices on each other, or over each other's borders, are one contact although several features name it.
-		/// Crossings are never repeated: they keep their distance from vertices (crossingEdges).
-		bool isRepeated(const ContactPoint& next) const
+		/// Coincident vertices, and vertices above each other's borders, are found as several pairs of features but are one contact.
+		/// Crossings of edges keep a distance from vertices (edgeEdgeContact) and are never duplicates.
+		bool isDuplicate(const ContactPoint& next) const
 		{
-			const FeatureKind meeting = next.id.kind();
-			if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::EdgeEdge) return false;
-			const bool onEdge = meeting == FeatureKind::VertexEdge || meeting == FeatureKind::EdgeVertex;
-			return std::any_of(all.begin(), all.end(), [&](const ContactPoint& p) {
-				if (onEdge ? p.id.kind() == FeatureKind::EdgeEdge : p.id.kind() != FeatureKind::VertexFace) return false;
+			const FeatureKind kind = next.id.kind();
+			if (kind == FeatureKind::VertexFace || kind == FeatureKind::EdgeEdge) return false;
+			const bool isVertexEdge = kind == FeatureKind::VertexEdge || kind == FeatureKind::EdgeVertex;
+			return std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) {
+				if (isVertexEdge ? p.id.kind() == FeatureKind::EdgeEdge : p.id.kind() != FeatureKind::VertexFace) return false;
 				return (p.position - next.position).squaredNorm() < 4 * flushTolerance * flushTolerance && p.normal.dot(next.normal) > 0.9;
 			});
 		}
 
 	public:
-		Points(const Pair& p, const Mat3& turn, const Vec3& origin, std::vector<ContactPoint>& points)
+		PointCollector(const ShapePair& p, const Mat3& rotation, const Vec3& position, std::vector<ContactPoint>& out)
 		        : pair(p)
-		        , turnA(turn)
-		        , originA(origin)
-		        , all(points)
+		        , rotationA(rotation)
+		        , positionA(position)
+		        , points(out)
 		{
 		}
-		/// Takes over, of the pairs of features named from `first` on, those that are `on`: in the middle of the overlap, in the world.
-		template <class Number, class Condition> void add(const FeatureId* first, size_t count, Condition on, const FeatureContact<Number>& meet)
+		/// Adds the `valid` ones of a batch of contacts. first: their ids.
+		template <class Number, class Condition> void add(const FeatureId* first, size_t count, Condition valid, const FeatureContact<Number>& contact)
 		{
-			const Number overlap = Number(pair.touch()) - meet.distance;
-			const Vec3Of<Number> middle = meet.onA + (Number(pair.a.radius) - overlap / Number(2.)) * meet.normal;
-			const Vec3Of<Number> place = wide<Number>(originA) + wide<Number>(turnA) * middle, normal = wide<Number>(turnA) * meet.normal;
+			const Number overlap = Number(pair.contactDistance()) - contact.distance;
+			const Vec3Of<Number> middle = contact.pointA + (Number(pair.a.radius) - overlap / Number(2.)) * contact.normal;
+			const Vec3Of<Number> position = broadcast<Number>(positionA) + broadcast<Number>(rotationA) * middle, normal = broadcast<Number>(rotationA) * contact.normal;
 			for (size_t i = 0; i < count; ++i) {
-				if (!lane(on, i)) continue;
-				const ContactPoint next { first[i], lane(place, i), lane(normal, i), lane(overlap, i) };
-				if (!isRepeated(next)) all.push_back(next);
+				if (!lane(valid, i)) continue;
+				const ContactPoint next { first[i], lane(position, i), lane(normal, i), lane(overlap, i) };
+				if (!isDuplicate(next)) points.push_back(next);
 			}
 		}
 	};
 
-	/// Vertices x against a face, both in the face's frame. Cores apart: the foot must lie in the face, or over its border
-	/// but nearer to the border than to the face (else the face behind the border answers, too). Cores overlapping: only
-	/// the face that looks along the axis of least overlap answers, so that all points push the pair apart.
-	template <class Number> auto verticesOnFace(const Pair& pair, const RoundedPolyhedron& body, int facing, int face, const Vec3Of<Number>& x, Number& distance)
+	/// Whether vertices x are in contact with a face of a body, in the body's frame.
+	/// Separated cores: the vertex projects onto the face, or beyond a side but closer to the side than to the face. Otherwise the adjacent
+	/// face would give a second point. Overlapping cores: only the support face along the axis of least overlap counts.
+	template <class Number>
+	auto isVertexOnFace(const ShapePair& pair, const RoundedPolyhedron& body, int supportFace, int face, const Vec3Of<Number>& x, Number& distance)
 	{
 		const Face& f = body.core.faces[face];
-		const Number border = pair.borderLimit(), none = 0.;
-		distance = height(f.plane, x);
-		auto on = both(distance < Number(pair.touch()), distance > Number(-(pair.deep() ? body.coreHalfThickness : flushTolerance)));
-		if (!any(on)) return on;
-		on = both(on, isOverFace(f, x, pair.deep() ? border : least(border, distance)));
-		if (!pair.deep()) return on;
-		return face == facing ? both(on, either(distance >= none, isInside(body.core, face, x, border))) : none < none;
+		const Number side = pair.sideTolerance(), zero = 0.;
+		distance = signedDistance(f.plane, x);
+		auto valid = logicalAnd(distance < Number(pair.contactDistance()), distance > Number(-(pair.isDeep() ? body.coreHalfThickness : flushTolerance)));
+		if (!any(valid)) return valid;
+		valid = logicalAnd(valid, projectsOntoFace(f, x, pair.isDeep() ? side : min(side, distance)));
+		if (!pair.isDeep()) return valid;
+		return face == supportFace ? logicalAnd(valid, logicalOr(distance >= zero, isInsideOtherFaces(body.core, face, x, side))) : zero < zero;
 	}
 
-	/// Up to laneCount vertices of one body against the same face of the other.
-	template <class Number> auto verticesMeetFace(const Pair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& meet)
+	/// Up to laneCount vertices of one body against the same face of the other. Returns which of them are in contact.
+	template <class Number> auto vertexFaceContact(const ShapePair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& contact)
 	{
 		using Vec = Vec3Of<Number>;
-		const bool ofB = first->kind() == FeatureKind::VertexFace;
-		const RoundedPolyhedron &body = ofB ? pair.b : pair.a, &other = ofB ? pair.a : pair.b;
-		const int face = ofB ? first->b() : first->a();
-		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[ofB ? first[i].a() : first[i].b()]; }).vectors();
-		const Vec inA = ofB ? own : pair.toA<Number>(own);
-		const auto on = verticesOnFace<Number>(pair, body, ofB ? pair.facingB : pair.facingA, face, ofB ? pair.toB<Number>(own) : inA, meet.distance);
-		if (!any(on)) return on;
+		const bool isFaceOfB = first->kind() == FeatureKind::VertexFace;
+		const RoundedPolyhedron &body = isFaceOfB ? pair.b : pair.a, &other = isFaceOfB ? pair.a : pair.b;
+		const int face = isFaceOfB ? first->b() : first->a();
+		assert(size_t(face) < body.core.faces.size());
+		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[isFaceOfB ? first[i].a() : first[i].b()]; }).vectors();
+		const Vec inA = isFaceOfB ? own : pair.toA<Number>(own);
+		const auto valid = isVertexOnFace<Number>(
+		        pair, body, isFaceOfB ? pair.supportFaceB : pair.supportFaceA, face, isFaceOfB ? pair.toB<Number>(own) : inA, contact.distance);
+		if (!any(valid)) return valid;
 		const Vec3& outward = body.core.faces[face].plane.normal;
-		meet.normal = wide<Number>(ofB ? Vec3(-(pair.rotation * outward)) : outward);
-		meet.onA = ofB ? inA : Vec(inA - meet.distance * meet.normal);
-		return on;
+		contact.normal = broadcast<Number>(isFaceOfB ? Vec3(-(pair.rotation * outward)) : outward);
+		contact.pointA = isFaceOfB ? inA : Vec(inA - contact.distance * contact.normal);
+		return valid;
 	}
 
-	/// Up to laneCount edges of A, each against one of B. The crossing must lie inside both edges, farther from their ends than the border
-	/// rule reaches.
-	template <class Number> auto crossingEdges(const Pair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& meet)
+	/// Up to laneCount edges of A, each against an edge of B. The crossing must be inside both edges, farther from their ends than the
+	/// flush tolerance, where the vertices are in contact instead. Returns which of them are in contact.
+	template <class Number> auto edgeEdgeContact(const ShapePair& pair, const FeatureId* first, size_t count, FeatureContact<Number>& contact)
 	{
 		using Vec = Vec3Of<Number>;
 		const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
-		const Number none = 0.;
+		const Number zero = 0.;
 		const auto edgeA = [&](size_t i) { return &coreA.edges[first[i].a()]; };
 		const auto edgeB = [&](size_t i) { return &coreB.edges[first[i].b()]; };
 		const Group<Number, const Edge> a(count, edgeA), b(count, edgeB);
 		const Vec tailA = Group<Number, const Vec3>(count, [&](size_t i) { return &coreA.vertices[edgeA(i)->tail]; }).vectors();
 		const Vec tailB = pair.toA<Number>(Group<Number, const Vec3>(count, [&](size_t i) { return &coreB.vertices[edgeB(i)->tail]; }).vectors());
-		const Vec alongA = a.get(&Edge::along), alongB = wide<Number>(pair.rotation) * b.get(&Edge::along);
-		const Crossing<Number> c = crossing<Number>(tailA, alongA, tailB, alongB);
-		auto on = c.sine >= Number(parallelSine);
-		if (!any(on)) return on;
+		const Vec directionA = a.get(&Edge::direction), directionB = broadcast<Number>(pair.rotation) * b.get(&Edge::direction);
+		const Crossing<Number> c = crossing<Number>(tailA, directionA, tailB, directionB);
+		auto valid = c.sine >= Number(parallelSine);
+		if (!any(valid)) return valid;
 		const Number end = Number(flushTolerance) / c.sine;
-		on = both(on, both(both(c.alongA > end, c.alongA < a.get(&Edge::length) - end), both(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
-		if (!any(on)) return on;
-		meet.normal = where(c.across.dot(a.get(&Edge::outward)) < none, Vec(-c.across), c.across);
-		on = both(on, meet.normal.dot(Vec(wide<Number>(pair.rotation) * b.get(&Edge::outward))) < none); // else B's edge is on the far side of B
-		meet.onA = tailA + c.alongA * alongA;
-		meet.distance = meet.normal.dot(Vec(tailB + c.alongB * alongB - meet.onA));
-		return both(on, both(meet.distance < Number(pair.touch()), meet.distance > Number(-(pair.deep() ? pair.depthLimit() : flushTolerance))));
+		valid = logicalAnd(valid, logicalAnd(logicalAnd(c.alongA > end, c.alongA < a.get(&Edge::length) - end), logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
+		if (!any(valid)) return valid;
+		contact.normal = select(c.normal.dot(a.get(&Edge::outward)) < zero, Vec(-c.normal), c.normal);
+		valid = logicalAnd(valid, contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < zero); // otherwise on the far side of B
+		contact.pointA = tailA + c.alongA * directionA;
+		contact.distance = contact.normal.dot(Vec(tailB + c.alongB * directionB - contact.pointA));
+		return logicalAnd(valid,
+		        logicalAnd(contact.distance < Number(pair.contactDistance()), contact.distance > Number(-(pair.isDeep() ? pair.depthLimit() : flushTolerance))));
 	}
 
-	/// A vertex is the nearest part of its body in direction `towards` (unit) if no edge from it leads that way.
-	bool isExtreme(const Polyhedron& body, int vertex, const Vec3& towards, double slope)
+	/// Whether a vertex is the support point of its body along a direction (unit): no edge from it rises by more than `slope` (cosine).
+	bool isSupportVertex(const Polyhedron& body, int vertex, const Vec3& direction, double slope)
 	{
+		assert(isUnitVector(direction));
 		for (const Edge& e : body.edges) {
 			if (e.tail != vertex && e.head != vertex) continue;
-			const double rise = e.along.dot(towards);
+			const double rise = e.direction.dot(direction);
 			if ((e.tail == vertex ? rise : -rise) > slope) return false;
 		}
 		return true;
 	}
 
-	/// Vertex x of `from` against an edge of `body`; `from`'s frame is turned by `turn` into the edge's frame.
-	bool vertexOnEdge(const Pair& pair, const Polyhedron& from, const Mat3& turn, int vertex, const Polyhedron& body, const Edge& edge, const Vec3& x, Vec3& foot)
+	/// Whether a vertex of one body is in contact with an edge of the other, in the frame of the edge's body.
+	/// rotation: from the frame of the vertex's body to that of the edge. x: position of the vertex [m]. foot (out): closest point of the edge.
+	bool isVertexOnEdge(const ShapePair& pair, const Polyhedron& vertexBody, const Mat3& rotation, int vertex, const Polyhedron& edgeBody, const Edge& edge,
+	        const Vec3& x, Vec3& foot)
 	{
-		const Vec3& tail = body.vertices[edge.tail];
-		const double along = (x - tail).dot(edge.along);
+		const Vec3& tail = edgeBody.vertices[edge.tail];
+		const double along = (x - tail).dot(edge.direction);
 		if (along < -flushTolerance || along > edge.length + flushTolerance) return false;
 		for (const int f : { edge.left, edge.right })
-			if (isOverFace<double>(body.faces[f], x, pair.borderLimit())) return false; // the face answers
-		foot = tail + along * edge.along;
+			if (projectsOntoFace<double>(edgeBody.faces[f], x, pair.sideTolerance())) return false; // vertex-face contact
+		foot = tail + along * edge.direction;
 		const Vec3 towards = foot - x;
 		const double distance = towards.norm();
-		if (distance >= pair.touch() || distance <= 0 || towards.dot(edge.outward) >= 0) return false;
-		return isExtreme(from, vertex, turn.transpose() * towards / distance, flushTolerance / pair.touch());
+		if (distance >= pair.contactDistance() || distance <= 0 || towards.dot(edge.outward) >= 0) return false;
+		return isSupportVertex(vertexBody, vertex, rotation.transpose() * towards / distance, flushTolerance / pair.contactDistance());
 	}
 
-	/// From a point on core A to one on core B.
-	bool meetBetween(const Vec3& onA, const Vec3& onB, FeatureContact<double>& meet)
+	/// Contact of two points on the cores, which do not coincide.
+	bool pointPointContact(const Vec3& pointA, const Vec3& pointB, FeatureContact<double>& contact)
 	{
-		const Vec3 way = onB - onA;
-		meet.onA = onA;
-		meet.distance = way.norm();
-		meet.normal = way / meet.distance;
+		const Vec3 difference = pointB - pointA;
+		contact.pointA = pointA;
+		contact.distance = difference.norm();
+		assert(contact.distance > 0);
+		contact.normal = difference / contact.distance;
 		return true;
 	}
 
-	bool vertexMeetsEdge(const Pair& pair, int vertex, int edge, FeatureContact<double>& meet)
+	bool vertexEdgeContact(const ShapePair& pair, int vertex, int edge, FeatureContact<double>& contact)
 	{
-		const Vec3& x = pair.a.core.vertices[vertex];
+		const Polyhedron &a = pair.a.core, &b = pair.b.core;
+		const Vec3& x = a.vertices[vertex];
 		Vec3 foot;
-		if (!vertexOnEdge(pair, pair.a.core, pair.rotation.transpose(), vertex, pair.b.core, pair.b.core.edges[edge], pair.toB<double>(x), foot)) return false;
-		return meetBetween(x, pair.toA<double>(foot), meet);
+		if (!isVertexOnEdge(pair, a, pair.rotation.transpose(), vertex, b, b.edges[edge], pair.toB<double>(x), foot)) return false;
+		return pointPointContact(x, pair.toA<double>(foot), contact);
 	}
 
-	bool edgeMeetsVertex(const Pair& pair, int edge, int vertex, FeatureContact<double>& meet)
+	bool edgeVertexContact(const ShapePair& pair, int edge, int vertex, FeatureContact<double>& contact)
 	{
-		const Vec3 x = pair.toA<double>(pair.b.core.vertices[vertex]);
+		const Polyhedron &a = pair.a.core, &b = pair.b.core;
+		const Vec3 x = pair.toA<double>(b.vertices[vertex]);
 		Vec3 foot;
-		return vertexOnEdge(pair, pair.b.core, pair.rotation, vertex, pair.a.core, pair.a.core.edges[edge], x, foot) && meetBetween(foot, x, meet);
+		return isVertexOnEdge(pair, b, pair.rotation, vertex, a, a.edges[edge], x, foot) && pointPointContact(foot, x, contact);
 	}
 
-	bool verticesMeet(const Pair& pair, int vertexA, int vertexB, FeatureContact<double>& meet)
+	bool vertexVertexContact(const ShapePair& pair, int vertexA, int vertexB, FeatureContact<double>& contact)
 	{
-		const Vec3 &onA = pair.a.core.vertices[vertexA], onB = pair.toA<double>(pair.b.core.vertices[vertexB]);
-		const Vec3 way = onB - onA;
-		const double distance = way.norm();
-		if (distance >= pair.touch() || distance <= flushTolerance) return false;
-		const double beyond = -flushTolerance / distance; // strictly beyond the ends of all edges: they do not answer
-		return isExtreme(pair.a.core, vertexA, way / distance, beyond) && isExtreme(pair.b.core, vertexB, pair.rotation.transpose() * -way / distance, beyond) && meetBetween(onA, onB, meet);
+		const Polyhedron &a = pair.a.core, &b = pair.b.core;
+		const Vec3 &pointA = a.vertices[vertexA], pointB = pair.toA<double>(b.vertices[vertexB]);
+		const Vec3 difference = pointB - pointA;
+		const double distance = difference.norm();
+		if (distance >= pair.contactDistance() || distance <= flushTolerance) return false;
+		const double slope = -flushTolerance / distance; // strictly beyond the ends of all edges: no vertex-edge contact
+		return isSupportVertex(a, vertexA, difference / distance, slope) && isSupportVertex(b, vertexB, pair.rotation.transpose() * -difference / distance, slope)
+		        && pointPointContact(pointA, pointB, contact);
 	}
 
-	/// The patterns that the paper ignores.
-	bool othersMeet(const Pair& pair, FeatureId id, FeatureContact<double>& meet)
+	/// Patterns::vertexEdge.
+	bool extraPatternContact(const ShapePair& pair, FeatureId id, FeatureContact<double>& contact)
 	{
 		switch (id.kind()) {
-			case FeatureKind::VertexEdge: return vertexMeetsEdge(pair, id.a(), id.b(), meet);
-			case FeatureKind::EdgeVertex: return edgeMeetsVertex(pair, id.a(), id.b(), meet);
-			case FeatureKind::VertexVertex: return verticesMeet(pair, id.a(), id.b(), meet);
+			case FeatureKind::VertexEdge: return vertexEdgeContact(pair, id.a(), id.b(), contact);
+			case FeatureKind::EdgeVertex: return edgeVertexContact(pair, id.a(), id.b(), contact);
+			case FeatureKind::VertexVertex: return vertexVertexContact(pair, id.a(), id.b(), contact);
 			default: return false;
 		}
 	}
 
-	/// How many candidates from `first` on can be worked on together, as far as there are lanes: vertices against one face, or crossing edges.
-	size_t countAlike(const FeatureId* first, const FeatureId* end)
+	/// Number of candidates from `first` on that form a SIMD batch: vertices against one face, or edge against edge.
+	size_t batchSize(const FeatureId* first, const FeatureId* end)
 	{
-		const auto isAlike = [first](FeatureId id) {
+		assert(first < end);
+		const auto isSimilar = [first](FeatureId id) {
 			if (id.kind() != first->kind()) return false;
 			switch (id.kind()) {
 				case FeatureKind::VertexFace: return id.b() == first->b();
@@ -200,87 +224,99 @@ namespace {
 				default: return id.kind() == FeatureKind::EdgeEdge;
 			}
 		};
-		return size_t(std::find_if_not(first + 1, first + std::min<std::ptrdiff_t>(end - first, laneCount), isAlike) - first);
+		return size_t(std::find_if_not(first + 1, first + std::min<std::ptrdiff_t>(end - first, laneCount), isSimilar) - first);
 	}
 
-	/// Points of `count` candidates that are alike.
-	template <class Number> void meetAlike(const Pair& pair, const FeatureId* first, size_t count, Points& points)
+	/// Tests a batch of candidates and adds their contact points.
+	template <class Number> void addBatch(const ShapePair& pair, const FeatureId* first, size_t count, PointCollector& points)
 	{
-		FeatureContact<Number> meet;
-		const auto take = [&](auto on) {
-			if (!any(on)) return;
-			if (pair.deep()) on = both(on, meet.normal.dot(wide<Number>(pair.axis)) >= Number(outwardCosine));
-			points.add(first, count, on, meet);
+		FeatureContact<Number> contact;
+		const auto add = [&](auto valid) {
+			if (!any(valid)) return;
+			if (pair.isDeep()) valid = logicalAnd(valid, contact.normal.dot(broadcast<Number>(pair.axis)) >= Number(deepNormalCosine));
+			points.add(first, count, valid, contact);
 		};
-		const FeatureKind meeting = first->kind();
-		if (meeting == FeatureKind::EdgeEdge) take(crossingEdges(pair, first, count, meet));
-		else if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::FaceVertex) take(verticesMeetFace(pair, first, count, meet));
-		else if constexpr (std::is_same_v<Number, double>) take(othersMeet(pair, *first, meet));
+		const FeatureKind kind = first->kind();
+		if (kind == FeatureKind::EdgeEdge) add(edgeEdgeContact(pair, first, count, contact));
+		else if (kind == FeatureKind::VertexFace || kind == FeatureKind::FaceVertex) add(vertexFaceContact(pair, first, count, contact));
+		else if constexpr (std::is_same_v<Number, double>) add(extraPatternContact(pair, *first, contact));
 	}
 
-	/// Middle of what two bodies have in common along a direction, from the origin of A. [m]
-	double commonMiddle(const Pair& pair, const Vec3& direction)
+	/// Centre of the common part of the projections of both cores onto a direction, from the origin of A. [m]
+	double overlapCentre(const ShapePair& pair, const Vec3& direction)
 	{
-		const auto [leastA, mostA] = extent(pair.a.core, direction);
-		const auto [leastB, mostB] = extent(pair.b.core, pair.rotation.transpose() * direction);
+		const Interval a = projectionInterval(pair.a.core, direction), b = projectionInterval(pair.b.core, pair.rotation.transpose() * direction);
 		const double shift = pair.translation.dot(direction);
-		return (std::max(leastA, leastB + shift) + std::min(mostA, mostB + shift)) / 2;
+		return (std::max(a.min, b.min + shift) + std::min(a.max, b.max + shift)) / 2;
 	}
 
-	/// Cores overlap and no pair of features answers (two plates through each other): one point in their common part,
-	/// along the axis of least overlap.
-	FeatureContact<double> meetCores(const Pair& pair)
+	/// One point in the overlap region of the cores, along the axis of least overlap: for overlapping cores without a pair of features in
+	/// contact, such as two plates through each other.
+	FeatureContact<double> coreCoreContact(const ShapePair& pair)
 	{
+		assert(pair.isDeep() && isUnitVector(pair.axis));
 		const Vec3 half = pair.gap / 2 * pair.axis;
-		Vec3 middle = commonMiddle(pair, pair.axis) * pair.axis;
+		Vec3 middle = overlapCentre(pair, pair.axis) * pair.axis;
 		for (const Vec3& across : { Vec3(pair.axis.unitOrthogonal()), Vec3(pair.rotation * (pair.rotation.transpose() * pair.axis).unitOrthogonal()) })
-			for (const Vec3& direction : { across, Vec3(pair.axis.cross(across)) }) // the mean over both bodies' frames: swapping them changes nothing
-				middle += 0.5 * commonMiddle(pair, direction) * direction;
+			for (const Vec3& direction : { across, Vec3(pair.axis.cross(across)) }) // mean over both bodies' frames: symmetric in A and B
+				middle += 0.5 * overlapCentre(pair, direction) * direction;
 		return { middle - half, pair.axis, pair.gap };
 	}
 
-	/// Gap of the cores on the axis that the cache knows: if it is there, they are apart. Any axis may say so. [m]
-	double gapAlongKnownAxis(const Pair& pair, const CandidateCache& cache)
+	/// Gap between the cores along the cached axis: a lower bound of their distance. [m]
+	double gapAlongCachedAxis(const ShapePair& pair, const CandidateCache& cache)
 	{
-		if (!cache.searched()) return -std::numeric_limits<double>::infinity();
-		return extent(pair.b.core, pair.rotation.transpose() * cache.axis).first + pair.translation.dot(cache.axis) - cache.farA;
+		if (!cache.isSearched()) return -std::numeric_limits<double>::infinity();
+		return projectionInterval(pair.b.core, pair.rotation.transpose() * cache.axis).min + pair.translation.dot(cache.axis) - cache.supportA;
 	}
 
-	/// What of the cores' gap is left to the bodies before points may exist. A flush support reaches beyond a border, at a
-	/// corner by sqrt(2) times its tolerance. [m]
-	double freeWay(const Pair& pair, double gap) { return std::max(0., gap - pair.touch() - 2 * flushTolerance); }
+	/// Relative displacement without a contact point, given a gap between the cores. A flush support extends beyond the border of a face,
+	/// at a corner by sqrt(2) times its tolerance. [m]
+	double safeDisplacement(const ShapePair& pair, double gap) { return std::max(0., gap - pair.contactDistance() - 2 * flushTolerance); }
 
-	/// The pair has no points: looks, now and then, for a face whose normal shows how far it is apart. Returns its freeWay(). [m]
-	double seekAxis(const Pair& pair, CandidateCache& cache)
+	/// Step 6, in one of axisInterval updates: tests the face normals. Returns the safe displacement. [m]
+	double findSeparatingFace(const ShapePair& pair, CandidateCache& cache)
 	{
-		if (cache.uses % axisUses != axisUses / 2) return 0;
+		if (cache.updates % axisInterval != axisInterval / 2) return 0;
 		Vec3 axis;
 		const double gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, axis, -std::numeric_limits<double>::infinity());
-		const double way = freeWay(pair, gap);
-		if (way > 0) {
+		const double displacement = safeDisplacement(pair, gap);
+		if (displacement > 0) {
 			cache.axis = axis;
-			cache.farA = extent(pair.a.core, axis).second;
+			cache.supportA = projectionInterval(pair.a.core, axis).max;
 		}
-		return way;
+		return displacement;
 	}
 
-	/// Candidates for the pair's placement: fewer where it is about as far from that of the search as quietSteps uses ago.
-	void refresh(CandidateCache& cache, const Pair& pair)
+	/// Step 2. A pair at rest is searched with the smaller skin.
+	void updateCandidates(CandidateCache& cache, const ShapePair& pair)
 	{
-		const double motion = cache.searched() ? cache.motion(pair.rotation, pair.translation) : 0;
-		if (!cache.searched() || !(motion <= cache.margin)) return searchCandidates(pair, candidateSkin, cache);
-		if (++cache.uses % quietSteps != 0) return;
-		const bool still = std::abs(motion - cache.motionThen) < quietSkin / 2;
-		cache.motionThen = motion;
-		if (still && cache.skin > quietSkin && !cache.candidates.empty()) searchCandidates(pair, quietSkin, cache);
+		const double motion = cache.isSearched() ? cache.motion(pair.rotation, pair.translation) : 0;
+		if (!cache.isSearched() || !(motion <= cache.margin)) return searchCandidates(pair, candidateSkin, cache);
+		if (++cache.updates % restInterval != 0) return;
+		const bool isAtRest = std::abs(motion - cache.lastMotion) < restSkin / 2;
+		cache.lastMotion = motion;
+		if (isAtRest && cache.skin > restSkin && !cache.candidates.empty()) searchCandidates(pair, restSkin, cache);
 	}
 
-	void lookForOverlap(Pair& pair)
+	/// Step 3.
+	void findLeastOverlap(ShapePair& pair)
 	{
 		pair.gap = coreGap(pair.a.core, pair.b.core, pair.rotation, pair.translation, pair.axis, 0);
-		if (!pair.deep()) return;
-		pair.facingA = faceLooking(pair.a.core, pair.axis);
-		pair.facingB = faceLooking(pair.b.core, pair.rotation.transpose() * -pair.axis);
+		if (!pair.isDeep()) return;
+		pair.supportFaceA = supportFace(pair.a.core, pair.axis);
+		pair.supportFaceB = supportFace(pair.b.core, pair.rotation.transpose() * -pair.axis);
+	}
+
+	/// Step 4.
+	void testCandidates(const ShapePair& pair, const std::vector<FeatureId>& candidates, PointCollector& points)
+	{
+		const FeatureId* const end = candidates.data() + candidates.size();
+		for (const FeatureId* next = candidates.data(); next != end;) {
+			const size_t count = batchSize(next, end);
+			count == 1 ? addBatch<double>(pair, next, count, points) : addBatch<Lanes>(pair, next, count, points);
+			next += count;
+		}
 	}
 
 } // namespace
@@ -288,25 +324,24 @@ namespace {
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points)
 {
-	if (!cache.fits(a, b, patterns)) cache = CandidateCache(a, b, patterns);
-	const bool touched = !points.empty();
+	assert(isAdmissible(poseA) && isAdmissible(poseB));
+	assert(a.radius > 0 && b.radius > 0);
+	if (!cache.matches(a, b, patterns)) cache = CandidateCache(a, b, patterns);
+	const bool wasInContact = !points.empty();
 	points.clear();
-	const Mat3 turnA = poseA.orientation.toRotationMatrix();
-	Pair pair { a, b, turnA.transpose() * poseB.orientation.toRotationMatrix(), turnA.transpose() * (poseB.position - poseA.position), patterns };
-	if (const double way = touched ? 0 : freeWay(pair, gapAlongKnownAxis(pair, cache)); way > 0) return way; // what has touched will most likely touch
-	refresh(cache, pair);
-	if (cache.coresMayMeet && gapAlongKnownAxis(pair, cache) < flushTolerance) lookForOverlap(pair); // apart by far more than rounding: not deep
+	const Mat3 rotationA = poseA.orientation.toRotationMatrix();
+	ShapePair pair { a, b, rotationA.transpose() * poseB.orientation.toRotationMatrix(), rotationA.transpose() * (poseB.position - poseA.position), patterns };
 
-	Points found(pair, turnA, poseA.position, points);
-	const FeatureId* const end = cache.candidates.data() + cache.candidates.size();
-	for (const FeatureId* next = cache.candidates.data(); next != end;) {
-		const size_t count = countAlike(next, end);
-		count == 1 ? meetAlike<double>(pair, next, count, found) : meetAlike<Lanes>(pair, next, count, found);
-		next += count;
-	}
+	if (!wasInContact) // 1.
+		if (const double displacement = safeDisplacement(pair, gapAlongCachedAxis(pair, cache)); displacement > 0) return displacement;
+	updateCandidates(cache, pair); // 2.
+	if (cache.coresMayOverlap && gapAlongCachedAxis(pair, cache) < flushTolerance) findLeastOverlap(pair); // 3. a larger gap exceeds rounding errors
+	PointCollector collector(pair, rotationA, poseA.position, points);
+	testCandidates(pair, cache.candidates, collector); // 4.
 	const FeatureId cores { FeatureKind::CoreCore, 0, 0 };
-	if (points.empty() && pair.deep()) found.add(&cores, 1, true, meetCores(pair));
-	return points.empty() ? seekAxis(pair, cache) : 0;
+	if (points.empty() && pair.isDeep()) collector.add(&cores, 1, true, coreCoreContact(pair)); // 5.
+	assert(std::is_sorted(points.begin(), points.end(), [](const ContactPoint& p, const ContactPoint& q) { return p.id < q.id; }));
+	return points.empty() ? findSeparatingFace(pair, cache) : 0; // 6.
 }
 
 } // namespace timber

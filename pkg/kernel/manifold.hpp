@@ -1,71 +1,73 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3).
 ///
-/// Every point joins a feature of core A to a feature of core B and has the overlap r_A + r_B - distance.
-/// A vertex counts against a face while its foot lies in the core face; two edges count while they cross inside both.
-/// A face on a face thus gets a point per supported vertex and per crossing pair of border edges.
-/// Once the cores overlap (deep contact), only points that push along the axis of least overlap count, or one point in the
-/// common part if there is none: the pair is always pushed apart.
-/// Vertices over a border (the normal case in a house, where members are flush) are decided by `Patterns::flushSupports`.
+/// Each point connects a feature of core A with a feature of core B. Its overlap is r_A + r_B - distance of the features.
+/// Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they cross inside both.
+/// A face resting on a face thus has a point per supported vertex and per crossing of border edges.
+/// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none, one point in
+/// the overlap region is used instead, so that the pair is always pushed apart.
+/// Flush members have vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
 #pragma once
 #include "polyhedron.hpp"
+#include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace timber {
 
-/// Which features of A and B meet. The order is the order of points in a manifold.
+/// Kinds of the features of A and B in contact. Points of a manifold are in this order.
 enum class FeatureKind : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge, EdgeVertex, VertexVertex, CoreCore };
 
-/// Name of a contact point that lasts as long as the same two features meet: history follows it.
+/// Identifies a contact point while the same two features are in contact; the history of a point is stored under its id.
 struct FeatureId {
-	std::uint32_t bits = ~0u; ///< no features yet
+	std::uint32_t bits = ~0u; ///< kind (4 bits), index of A (14), index of B (14); default: no features
 	FeatureId() = default;
-	FeatureId(FeatureKind m, int a, int b)
-	        : bits(std::uint32_t(m) << 28 | std::uint32_t(a) << 14 | std::uint32_t(b))
+	FeatureId(FeatureKind kind, int a, int b)
+	        : bits(std::uint32_t(kind) << 28 | std::uint32_t(a) << 14 | std::uint32_t(b))
 	{
+		assert(a >= 0 && a <= indexMask && b >= 0 && b <= indexMask);
 	}
 	FeatureKind kind() const { return FeatureKind(bits >> 28); }
-	int a() const { return int(bits >> 14 & 0x3fff); }
-	int b() const { return int(bits & 0x3fff); }
+	int a() const { return int(bits >> 14) & indexMask; }
+	int b() const { return int(bits) & indexMask; }
 	bool operator==(FeatureId o) const { return bits == o.bits; }
 	bool operator<(FeatureId o) const { return bits < o.bits; }
+	static constexpr int indexMask = 0x3fff;
 };
 
 struct ContactPoint {
 	FeatureId id;
-	Vec3 position; ///< middle of the overlap, world [m]
-	Vec3 normal; ///< unit, from A to B, world
+	Vec3 position; ///< middle of the overlap, world frame [m]
+	Vec3 normal; ///< unit, from A to B, world frame
 	double overlap; ///< > 0 [m]
 };
 
-/// How the contact patterns of the paper are read.
+/// Contact patterns that the paper leaves open.
 struct Patterns {
-	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex, which the paper ignores
-	bool flushSupports = true; ///< a vertex exactly over the border of a face is supported by it
+	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex contacts, which the paper ignores
+	bool flushSupports = true; ///< a vertex exactly above the border of a face is supported by the face
 	bool operator==(const Patterns& o) const { return vertexEdge == o.vertexEdge && flushSupports == o.flushSupports; }
 };
 
-/// Candidate feature pairs of two bodies and the relative motion that keeps them complete: the body B may move by `margin`
-/// at `centre`, where the bodies are near each other, and turn by `margin` over `region`, together no more than one of them.
-/// A slender member that rocks on its end thus keeps its candidates although its far end moves a lot.
-/// Holds no result: an empty cache gives the same manifold. One of other bodies or patterns counts as empty.
+/// Candidate features of a pair and the relative motion for which they are complete, as the skin of a Verlet list.
+/// The sum of two terms must not exceed `margin`: the displacement of B at `centre`, where the bodies are close, and the rotation of
+/// B times `regionRadius`. A slender member rocking on its end thus keeps its candidates although its far end moves a lot.
+/// The cache never changes a result: an empty one gives the same manifold. It is reset if the bodies or the patterns change.
 struct CandidateCache {
 	unsigned long serialA = 0, serialB = 0; ///< of the bodies
 	Patterns patterns;
 	std::vector<FeatureId> candidates;
 	Mat3 rotation = Mat3::Identity(); ///< of B in the frame of A, at the search
-	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< in the frames of A and B [m]
-	double region = 0; ///< [m]
-	double skin = 0; ///< least margin asked for [m]
-	double margin = -1; ///< [m]; < 0: never searched
-	int uses = 0; ///< since the search, but for those that ended at the known gap
-	double motionThen = 0; ///< motion() at the last look whether the pair keeps still [m]
-	bool coresMayMeet = false; ///< cores may overlap within the margin
-	Vec3 axis = Vec3::Zero(); ///< unit, frame of A: where the cores were farthest apart, at the search or when they were last looked at for it
-	double farA = 0; ///< how far A reaches along it [m]
+	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< the same point at the search, frames of A and B [m]
+	double regionRadius = 0; ///< of the region of contact about the centre [m]
+	double skin = 0; ///< requested by the search [m]
+	double margin = -1; ///< motion up to which the candidates are complete, >= skin; < 0: no search yet [m]
+	int updates = 0; ///< since the search, without those that ended at the separating axis
+	double lastMotion = 0; ///< motion() at the last test for rest [m]
+	bool coresMayOverlap = false; ///< within the margin
+	Vec3 axis = Vec3::Zero(); ///< last axis found of the largest gap between the cores, unit, frame of A
+	double supportA = 0; ///< largest coordinate of core A along the axis [m]
 
 	CandidateCache() = default;
 	CandidateCache(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p)
@@ -74,24 +76,19 @@ struct CandidateCache {
 	        , patterns(p)
 	{
 	}
-	bool fits(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const { return serialA == a.serial && serialB == b.serial && patterns == p; }
-	bool searched() const { return margin >= 0; }
-	/// Since the search. [m]
-	double motion(const Mat3& nowRotation, const Vec3& nowTranslation) const
+	bool matches(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const { return serialA == a.serial && serialB == b.serial && patterns == p; }
+	bool isSearched() const { return margin >= 0; }
+	/// Relative motion since the search, to be compared with the margin. [m]
+	double motion(const Mat3& newRotation, const Vec3& newTranslation) const
 	{
-		const double turned = std::sqrt(0.5 * (nowRotation - rotation).squaredNorm()); // way per radius
-		return (nowRotation * centreB + nowTranslation - centre).norm() + turned * region;
+		const double angle = std::sqrt(0.5 * (newRotation - rotation).squaredNorm()); // displacement per radius
+		return (newRotation * centreB + newTranslation - centre).norm() + angle * regionRadius;
 	}
 };
 
-/// Largest gap between the cores over all separating axes: <= distance when apart, minus the penetration depth when
-/// they overlap. `axis` (unit, from A to B, frame of A) is where it is found. The crossings of edges are not tried once the
-/// gap exceeds `enough`. [m]
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis,
-        double enough = std::numeric_limits<double>::infinity());
-
-/// Contact points with overlap > 0, sorted by id. Both bodies' vertices are in their body frames. Returns by how much the bodies
-/// may surely move against each other before there are any; 0: not known. [m]
+/// Finds the contact points with overlap > 0, sorted by id. The vertices of the bodies are in their body frames; poses are finite.
+/// points (in-out): those of the last update; non-empty means the pair was in contact.
+/// Returns a safe displacement: how far the bodies can move relative to each other before there can be a point; 0: unknown. [m]
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
         CandidateCache& cache, std::vector<ContactPoint>& points);
 

@@ -8,7 +8,7 @@
 
 namespace timber {
 
-/// Input that is no convex polyhedron; the message says which vertex or plane is wrong and why.
+/// The input is not an admissible convex polyhedron. The message names the vertex or plane and the reason.
 struct PolyhedronError : std::invalid_argument {
 	using std::invalid_argument::invalid_argument;
 };
@@ -22,37 +22,37 @@ struct HalfSpace {
 struct Face {
 	HalfSpace plane;
 	std::vector<int> corners; ///< vertex indices, counter-clockwise seen from outside
-	std::vector<HalfSpace> borders; ///< from corner k to k+1; normals in the plane of the face
-	std::vector<HalfSpace> tips; ///< through corner k, across the bisector of its two borders
+	std::vector<HalfSpace> sidePlanes; ///< through corners k and k+1; normal in the face, outwards
+	std::vector<HalfSpace> bevelPlanes; ///< through corner k; normal: bisector of the normals of its two side planes
 };
 
 struct Edge {
 	int tail, head; ///< vertex indices
 	int left, right; ///< faces: tail->head runs counter-clockwise in `left`
 	Vec3 outward; ///< unit bisector of the two face normals
-	Vec3 along; ///< unit, from tail to head
+	Vec3 direction; ///< unit, from tail to head
 	double length; ///< [m]
 };
 
-/// A convex polyhedron in whatever frame its vertices are given in.
+/// A convex polyhedron, in the frame of its vertices.
 struct Polyhedron {
 	std::vector<Vec3> vertices;
 	std::vector<Face> faces;
 	std::vector<Edge> edges;
 
-	/// Polyhedron whose corners are exactly these points [m].
-	/// Points nearly in a plane make one face (planarShare; up to warpShare where the faces would not close otherwise).
-	/// Throws PolyhedronError: fewer than 4 points, NaN, an extent outside smallestSize ... largestSize, two equal, all in a
-	/// plane, one that is no corner of the hull.
+	/// Polyhedron with these corners [m]; each point must be a corner of the convex hull.
+	/// Points within a tolerance of a plane form one face (planarShare; up to warpShare if the faces do not close otherwise).
+	/// Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are not finite; an extent outside
+	/// smallestSize ... largestSize; coincident points; coplanar points; a point that is not a corner.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
-	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if empty, flat or unbounded.
+	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if it is empty, flat or unbounded.
 	static Polyhedron fromHalfSpaces(const std::vector<HalfSpace>& planes);
 
 	double shortestEdge() const; ///< [m]
 	double thickness() const; ///< smallest width over all face normals [m]
 };
 
-/// For unit density: multiply mass and inertia by the density.
+/// Mass properties for unit density.
 struct MassProperties {
 	double volume; ///< [m3]
 	Vec3 centroid; ///< [m]
@@ -60,23 +60,23 @@ struct MassProperties {
 };
 MassProperties massProperties(const Polyhedron& body);
 
-/// Rotation whose columns are the principal axes, right-handed, as close to the given axes as the inertia allows
-/// (identity for an axis-aligned box, also for a cube).
+/// Rotation whose columns are the principal axes, right-handed. Among equivalent choices the one closest to the given axes
+/// (identity for an axis-aligned box and for a cube). inertia: symmetric.
 Mat3 principalAxes(const Mat3& inertia);
 
-/// An inner core plus a ball: the outer faces stay where the sharp polyhedron has them, its vertices become 1/8
-/// spheres and its edges 1/4 cylinders of that radius.
+/// Minkowski sum of an inner core and a ball. The outer faces coincide with those of the sharp polyhedron; vertices become
+/// 1/8 spheres and edges 1/4 cylinders.
 struct RoundedPolyhedron {
-	Polyhedron sharp; ///< the element as drawn
+	Polyhedron sharp; ///< the element with sharp edges
 	Polyhedron core; ///< faces of `sharp` moved inwards by `radius`
-	double radius = 0; ///< [m]
-	Vec3 span = Vec3::Zero(); ///< largest distance of a core vertex from the frame's origin along each axis [m]
-	double reach = 0; ///< distance of the farthest core vertex from the frame's origin [m]
-	unsigned long serial = 0; ///< another one for each that was made from vertices: what was kept for a body is known by it
-	double coreHalfThickness = 0; ///< deepest overlap beyond the cores' contact that a face or edge answers to [m]
+	double radius = 0; ///< rounding radius [m]
+	Vec3 halfExtents = Vec3::Zero(); ///< largest absolute coordinate of the core vertices along each axis [m]
+	double boundingRadius = 0; ///< largest distance of a core vertex from the origin [m]
+	unsigned long serial = 0; ///< unique number of this geometry; identifies it in a CandidateCache
+	double coreHalfThickness = 0; ///< maximum penetration into the core at which a face or edge gives a contact [m]
 
-	/// radius <= 0 takes the paper's 10 % of the shortest edge. Warped faces may become plane in `sharp` (warpShare).
-	/// Throws PolyhedronError if the core vanishes.
+	/// radius <= 0: 10 % of the shortest edge (radiusShare). Warped faces of `sharp` may become planar (warpShare).
+	/// Throws PolyhedronError if no core remains.
 	static RoundedPolyhedron fromSharp(Polyhedron sharp, double radius = 0);
 };
 

@@ -1,53 +1,55 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "manifold.hpp"
+#include "separating_axis.hpp"
 #include <algorithm>
-#include <limits>
+#include <cassert>
 
 namespace timber {
 namespace {
 
-	/// The largest gap so far and the direction (from A to B) where it is. All in the frame of A.
-	class Widest {
+	/// Largest gap so far and its axis, frame of A.
+	class LargestGap {
 	public:
 		double gap = -std::numeric_limits<double>::infinity(); ///< [m]
-		Vec3 axis = Vec3::Zero();
+		Vec3 axis = Vec3::Zero(); ///< unit, from A to B
 
-		Widest(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+		/// Vertices of both cores in the frame of A.
+		LargestGap(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 		        : a(a)
 		        , b(b)
 		{
 		}
-		/// B beyond A along the direction.
-		void along(const Vec3& direction)
+		/// Tests an axis from A to B.
+		void testAxis(const Vec3& direction)
 		{
-			double farA = -std::numeric_limits<double>::infinity(), nearB = -farA;
+			double maxA = -std::numeric_limits<double>::infinity(), minB = -maxA;
 			for (const Vec3& v : a)
-				farA = std::max(farA, v.dot(direction));
+				maxA = std::max(maxA, v.dot(direction));
 			for (const Vec3& v : b)
-				nearB = std::min(nearB, v.dot(direction));
-			take(nearB - farA, direction);
+				minB = std::min(minB, v.dot(direction));
+			update(minB - maxA, direction);
 		}
-		void alongBothWays(const Vec3& direction)
+		/// Tests both signs of an axis.
+		void testBothSigns(const Vec3& direction)
 		{
-			double leastA = std::numeric_limits<double>::infinity(), mostA = -leastA, leastB = leastA, mostB = mostA;
+			double minA = std::numeric_limits<double>::infinity(), maxA = -minA, minB = minA, maxB = maxA;
 			for (const Vec3& v : a) {
 				const double x = v.dot(direction);
-				leastA = std::min(leastA, x);
-				mostA = std::max(mostA, x);
+				minA = std::min(minA, x);
+				maxA = std::max(maxA, x);
 			}
 			for (const Vec3& v : b) {
 				const double x = v.dot(direction);
-				leastB = std::min(leastB, x);
-				mostB = std::max(mostB, x);
+				minB = std::min(minB, x);
+				maxB = std::max(maxB, x);
 			}
-			take(leastB - mostA, direction);
-			take(leastA - mostB, -direction);
+			update(minB - maxA, direction);
+			update(minA - maxB, -direction);
 		}
 
 	private:
 		const std::vector<Vec3>&a, &b;
 
-		void take(double found, const Vec3& direction)
+		void update(double found, const Vec3& direction)
 		{
 			if (found <= gap) return;
 			gap = found;
@@ -57,26 +59,28 @@ namespace {
 
 } // namespace
 
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double enough)
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double sufficientGap)
 {
-	std::vector<Vec3> placed;
-	placed.reserve(b.vertices.size());
+	assert(a.faces.size() >= 4 && b.faces.size() >= 4);
+	assert(isRotation(rotation) && translation.allFinite());
+	std::vector<Vec3> verticesB; // frame of A
+	verticesB.reserve(b.vertices.size());
 	for (const Vec3& v : b.vertices)
-		placed.push_back(rotation * v + translation);
-	Widest widest(a.vertices, placed);
+		verticesB.push_back(rotation * v + translation);
+	LargestGap largest(a.vertices, verticesB);
 	for (const Face& face : a.faces)
-		widest.along(face.plane.normal);
+		largest.testAxis(face.plane.normal);
 	for (const Face& face : b.faces)
-		widest.along(-(rotation * face.plane.normal));
+		largest.testAxis(-(rotation * face.plane.normal));
 	for (const Edge& ea : a.edges)
 		for (const Edge& eb : b.edges) {
-			if (widest.gap > enough) break;
-			const Vec3 n = ea.along.cross(rotation * eb.along);
+			if (largest.gap > sufficientGap) break;
+			const Vec3 n = ea.direction.cross(rotation * eb.direction);
 			const double sine = n.norm();
-			if (sine > 1e-9) widest.alongBothWays(n / sine); // any direction may be tried, but not none
+			if (sine > 1e-9) largest.testBothSigns(n / sine); // parallel edges have no cross product
 		}
-	axis = widest.axis;
-	return widest.gap;
+	axis = largest.axis;
+	return largest.gap;
 }
 
 } // namespace timber

@@ -48,7 +48,7 @@ struct Lanes {
 	friend Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
 	friend Mask operator<=(Lanes a, Lanes b) { return a.v <= b.v; }
 	friend Mask operator>=(Lanes a, Lanes b) { return a.v >= b.v; }
-	friend Lanes root(Lanes a)
+	friend Lanes sqrt(Lanes a)
 	{
 #if defined(__AVX2__)
 		return Lanes(Vector(_mm256_sqrt_pd(a.v)));
@@ -74,24 +74,23 @@ template <> struct NumTraits<timber::Lanes> : GenericNumTraits<double> {
 
 namespace timber {
 
-inline double root(double x) { return std::sqrt(x); }
-inline Lanes sqrt(Lanes x) { return root(x); } // for Eigen's norms
+inline double sqrt(double x) { return std::sqrt(x); }
 
 template <class Number> using Vec3Of = Eigen::Matrix<Number, 3, 1>;
 using Vec3s = Vec3Of<Lanes>;
 
 /// a where the condition holds, b elsewhere. Both are worked out.
-inline double where(bool condition, double a, double b) { return condition ? a : b; }
-inline Lanes where(Lanes::Mask condition, Lanes a, Lanes b) { return Lanes(condition ? a.v : b.v); }
-template <class Condition, class Number> Vec3Of<Number> where(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
+inline double select(bool condition, double a, double b) { return condition ? a : b; }
+inline Lanes select(Lanes::Mask condition, Lanes a, Lanes b) { return Lanes(condition ? a.v : b.v); }
+template <class Condition, class Number> Vec3Of<Number> select(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
 {
-	return { where(condition, a.x(), b.x()), where(condition, a.y(), b.y()), where(condition, a.z(), b.z()) };
+	return { select(condition, a.x(), b.x()), select(condition, a.y(), b.y()), select(condition, a.z(), b.z()) };
 }
 
-inline bool both(bool a, bool b) { return a && b; }
-inline bool either(bool a, bool b) { return a || b; }
-inline Lanes::Mask both(Lanes::Mask a, Lanes::Mask b) { return a & b; }
-inline Lanes::Mask either(Lanes::Mask a, Lanes::Mask b) { return a | b; }
+inline bool logicalAnd(bool a, bool b) { return a && b; }
+inline bool logicalOr(bool a, bool b) { return a || b; }
+inline Lanes::Mask logicalAnd(Lanes::Mask a, Lanes::Mask b) { return a & b; }
+inline Lanes::Mask logicalOr(Lanes::Mask a, Lanes::Mask b) { return a | b; }
 
 /// Whether the condition holds in any lane.
 inline bool any(bool condition) { return condition; }
@@ -108,23 +107,23 @@ inline bool any(Lanes::Mask condition)
 }
 
 /// The same, for costly values: first() and other() are worked out only where they are needed.
-template <class First, class Other> auto chosen(bool condition, First first, Other other) -> decltype(other()) { return condition ? first() : other(); }
-template <class First, class Other> auto chosen(Lanes::Mask condition, First first, Other other) -> decltype(other())
+template <class First, class Other> auto selectLazily(bool condition, First first, Other other) -> decltype(other()) { return condition ? first() : other(); }
+template <class First, class Other> auto selectLazily(Lanes::Mask condition, First first, Other other) -> decltype(other())
 {
-	return any(condition) ? where(condition, first(), other()) : other();
+	return any(condition) ? select(condition, first(), other()) : other();
 }
 
 /// As std::min and std::max.
-template <class Number> Number least(Number a, Number b) { return where(b < a, b, a); }
-template <class Number> Number most(Number a, Number b) { return where(a < b, b, a); }
+template <class Number> Number min(Number a, Number b) { return select(b < a, b, a); }
+template <class Number> Number max(Number a, Number b) { return select(a < b, b, a); }
 
 /// The same vector or matrix in all lanes; of a double's one lane, itself.
-template <class Number> decltype(auto) wide(const Vec3& v)
+template <class Number> decltype(auto) broadcast(const Vec3& v)
 {
 	if constexpr (std::is_same_v<Number, double>) return (v);
 	else return Vec3Of<Number>(Number(v.x()), Number(v.y()), Number(v.z()));
 }
-template <class Number> decltype(auto) wide(const Mat3& m)
+template <class Number> decltype(auto) broadcast(const Mat3& m)
 {
 	if constexpr (std::is_same_v<Number, double>) return (m);
 	else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Loops that threads share. What they compute does not depend on how many there are.
+/// Parallel loops with OpenMP. Results do not depend on the number of threads.
 #pragma once
 #if defined(_OPENMP)
 #include <omp.h>
@@ -7,10 +7,10 @@
 
 namespace timber {
 
-/// Loops over no more bodies, pairs or joints than this run on one thread: waking another one would cost more. [-]
+/// Loops over at most this many bodies, pairs or joints are serial: starting other threads would cost more. [-]
 constexpr int smallLoop = 100;
 
-/// How many threads share a loop.
+/// Threads of a parallel loop.
 inline int threadCount()
 {
 #if defined(_OPENMP)
@@ -20,7 +20,7 @@ inline int threadCount()
 #endif
 }
 
-/// Which of them this is.
+/// Index of this thread in a parallel loop.
 inline int threadNumber()
 {
 #if defined(_OPENMP)
@@ -30,7 +30,7 @@ inline int threadNumber()
 #endif
 }
 
-/// Whether a loop is shared: not within one that is. Even for one thread a parallel region costs as much as a contact.
+/// Whether a loop runs in parallel: not with one thread (a parallel region costs as much as a contact), and not within a parallel loop.
 inline bool hasThreads()
 {
 #if defined(_OPENMP)
@@ -40,8 +40,8 @@ inline bool hasThreads()
 #endif
 }
 
-/// work(k) for all k < count, each over as many bodies, pairs or joints as `each` says. A thread has the same part in each step: what is
-/// in its cache is its own.
+/// work(k) for all k < count, each of which covers `each` bodies, pairs or joints. The schedule is static: a thread has the same items in
+/// each step, and they stay in its cache.
 template <class Work> void forAll(int count, Work work, int each = 1)
 {
 	if (count == 1 || count * each <= smallLoop || !hasThreads()) {

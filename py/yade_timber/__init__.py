@@ -10,7 +10,16 @@ if _host.running():
     import yade.wrapper as _wrapper
 
     _plugin, _class_names = _host.load(__name__, __path__[0])
-    globals().update({_name: getattr(_wrapper, _name) for _name in _class_names})
+    _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
+    globals().update(_classes)
+
+    from .scene import attributes as _attributes, background as _background  # noqa: E402
+
+    _background.guard(_plugin)
+    _attributes.guard(_classes.values())
+
     from .scene.bodies import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401
+    from .scene.engines import engines  # noqa: E402,F401
     from .scene.export import export_scene  # noqa: E402,F401
-    from .scene.engines import connect, contacts, energy, energy_residual, engines, stable_dt  # noqa: E402,F401
+    from .scene.joints import connect  # noqa: E402,F401
+    from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401

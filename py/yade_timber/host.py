@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The running YADE: is this package's module built for it, and do both agree on where YADE's data members are?
+"""Compatibility of the compiled module with the running YADE.
 
-`load()` is what the package calls. It refuses with an ImportError, before any class is registered, when
+`load()` is called at import. It raises an ImportError, before any class is registered, when
 
 1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or Python, or
 2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the reverse.
 """
+import gc
 import importlib
 import json
 import mmap
+import os
+import socketserver
 import sys
+import threading
 from pathlib import Path
 
 RECORD_MARK = b"@timber-build"
@@ -33,14 +37,14 @@ def host_facts() -> dict:
 
 
 def build_record(module_file) -> dict:
-    """What a module file was built for: keys yade, headers, features, python, package. The file is read, not loaded.
+    """Build record of a module file: keys yade, headers, features, python, package. The file is read, not loaded.
 
-    Raises ImportError when the file holds no record.
+    Raises ImportError when the file has no record.
     """
     with open(module_file, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
         start = content.find(RECORD_MARK + b"{")
         if start < 0:
-            raise ImportError(f"{module_file} has no build record, so it is no yade-timber module. {REMEDY}")
+            raise ImportError(f"{module_file} has no build record: it is no yade-timber module. {REMEDY}")
         start += len(RECORD_MARK)
         return json.loads(content[start : content.find(b"}", start) + 1])
 
@@ -62,13 +66,13 @@ def check_value(place: str, expected, actual, record: dict, host: dict) -> None:
     """Raise ImportError unless a value stored at `place` ("Class.attribute (direction)") came back unchanged."""
     if not expected == actual:  # a NaN differs, too
         raise ImportError(
-            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the class is laid out differently in the running YADE "
-            f"{host['yade']} and in the headers ({record['headers']}) that yade-timber was built with. {REMEDY}"
+            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the layout of the class differs between the running YADE "
+            f"{host['yade']} and the headers ({record['headers']}) that yade-timber was built with. {REMEDY}"
         )
 
 
 def _sentinel(wrapper, default, pointee: str, number: int):
-    """A value unlike any other attribute's, of the type of an attribute's default (of class `pointee` for a pointer)."""
+    """A value of the type of an attribute's default (of class `pointee` for a pointer), different for each attribute."""
     if pointee:
         return getattr(wrapper, pointee)()
     if isinstance(default, bool):
@@ -83,10 +87,10 @@ def _sentinel(wrapper, default, pointee: str, number: int):
 
 
 def _store(wrapper, owner: str, attribute: str, value):
-    """An instance of a YADE class with one attribute set by YADE itself; only the constructor may set read-only ones."""
+    """An instance of a YADE class with one attribute set by YADE itself; only the constructor can set read-only ones."""
     try:
         return getattr(wrapper, owner)(**{attribute: value})
-    except AttributeError:  # shorthands (State.pos) are properties, which the constructor does not know
+    except AttributeError:  # shorthands (State.pos) are no keywords of the constructor
         instance = getattr(wrapper, owner)()
         setattr(instance, attribute, value)
         return instance
@@ -95,8 +99,8 @@ def _store(wrapper, owner: str, attribute: str, value):
 def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> int:
     """Round trips through every member in the module's table; returns their number.
 
-    First all reads, then all writes: a write through a wrong layout would spoil memory. `shift` [bytes] displaces every compiled
-    read, which is how a test imitates another layout. Raises ImportError that names class and attribute.
+    Reads come before writes: a write through a wrong layout would corrupt memory. `shift` [bytes] displaces every compiled
+    read, so that a test can simulate another layout. Raises ImportError that names class and attribute.
     """
     table = list(enumerate(plugin.layout_fields()))
     for index, (owner, attribute, pointee) in table:
@@ -115,7 +119,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """Containers that are no Python attributes of their own: a scene's, and a collider's functors. Raises ImportError like check_layout."""
+    """Containers without a Python attribute: those of a scene, and the functors of a collider and an InteractionLoop. Raises ImportError like check_layout."""
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
@@ -131,6 +135,10 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
         check_value(f"Scene.{name}", stored, found, record, host)
     collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
+    loop = wrapper.InteractionLoop(
+        [wrapper.Ig2_Sphere_Sphere_ScGeom()], [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()], []
+    )
+    check_value("InteractionLoop functors", (1, 2, 0), plugin.count_contact_functors(loop), record, host)
 
 
 def load(package: str, directory):
@@ -153,3 +161,23 @@ def load(package: str, directory):
     if viewer is not None and hasattr(plugin, "refresh_viewer"):
         plugin.refresh_viewer(viewer.Renderer())
     return plugin, names
+
+
+def close_servers():
+    """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads that do it.
+
+    YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the other one
+    lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
+    """
+    handlers = {"PythonConsoleSocketEmulator"} | ({"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ else set())
+    servers = [o for o in gc.get_objects() if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers]
+    threads = [threading.Thread(target=_close, args=(server,), daemon=True) for server in servers]
+    for thread in threads:
+        thread.start()
+    return threads
+
+
+def _close(server):
+    """Stop a server of socketserver, which takes up to 0.5 s, and release its port."""
+    server.shutdown()
+    server.server_close()

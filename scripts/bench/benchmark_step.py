@@ -111,10 +111,10 @@ def measure(options, name, start, skipping=False):
     per_step = cpu_per_step if O.numThreads == 1 else wall_per_step
     calls = {kind: in_scene(number, per_step, options.steps) for kind, number in scenes.items()}
     if skipping:
-        calls[HOUSE] = in_scene(scenes[HOUSE], skipping_per_step, STRIDES * skipper.grain)
+        calls[HOUSE] = in_scene(scenes[HOUSE], skipping_per_step, STRIDES * skipper.stride)
         skipped = skipper.skipped
     times = interleaved(calls.items(), options.blocks)
-    if skipping and skipper.skipped - skipped < 0.98 * options.blocks * STRIDES * (skipper.grain - 1) * options.dt:
+    if skipping and skipper.skipped - skipped < 0.98 * options.blocks * STRIDES * (skipper.stride - 1) * options.dt:
         raise RunError("the house was not at rest")
     O.switchToScene(scenes[HOUSE])
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)

@@ -18,13 +18,13 @@ template <class Law> struct Spring {
 	Law law;
 	PairProperties pair;
 	NormalForm form = NormalForm::Closed;
-	PointState state {};
+	PointRecord state {};
 
 	/// overlap at the end of the step [m], tangential displacement of B against A in it [m]; the normal is z.
 	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(), const Vec3& normal = Vec3::UnitZ())
 	{
 		const ContactPoint point { {}, Vec3::Zero(), normal, overlap };
-		elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
+		static_cast<ShearIncrement<double>&>(state) = elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
 	}
 };
 
@@ -132,16 +132,16 @@ template <class Law> void expectBookedWork(const Law& law)
 {
 	const double n = 6e-4, d = 1e-3, energy = law.energy(n), stiffness = law.stiffness(n);
 	for (const double next : { 2e-3, 1e-3, 1e-4, 0., -1e-4, -n / 2 }) {
-		const double work = arrivalForce(energy, stiffness, n, d, next) * (d + next) / 2 + law.force(n + next) * next / 2;
+		const double work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + law.force(n + next) * next / 2;
 		EXPECT_NEAR(work, law.energy(n + next), 10 * rounding * energy) << next;
 	}
 	for (const double next : { -0.51 * n, -0.6 * n, -0.9 * n }) { // parts in the step after that: the spring has done no work, all in all
-		const double grazing = grazingForce(law, n + next, -next), work = arrivalForce(energy, stiffness, n, d, next) * (d + next) / 2 + grazing * next;
+		const double grazing = grazingForce(law, n + next, -next), work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + grazing * next;
 		EXPECT_NEAR(work, 0, 10 * rounding * energy) << next;
 	}
 	for (const double next : { -n, -2 * n, -2 * d })
-		EXPECT_EQ(arrivalForce(energy, stiffness, n, d, next), 0);
-	EXPECT_EQ(arrivalForce(0, 0, 1e-200, 1e-200, 0), 0); // too little to be stored
+		EXPECT_EQ(impactForce(energy, stiffness, n, d, next), 0);
+	EXPECT_EQ(impactForce(0, 0, 1e-200, 1e-200, 0), 0); // too little to be stored
 }
 TEST(NormalSpring, NewPointsAreBookedWithTheWorkThatIsStored)
 {
@@ -157,7 +157,7 @@ TEST(ShearSpring, OpposesTheSlide)
 	EXPECT_NEAR(shearEnergy<double>(spring.state, spring.pair), 0.5 * 4e5 * 1e-10, 1e-18);
 	spring.step(1e-3, 0, { 0, 2e-5, 0 });
 	EXPECT_LT((spring.state.shear - Vec3(-4, -8, 0)).norm(), 1e-12);
-	EXPECT_LT((spring.state.slide - Vec3(0, 2e-5, 0)).norm(), 1e-18);
+	EXPECT_LT((spring.state.slip - Vec3(0, 2e-5, 0)).norm(), 1e-18);
 }
 
 /// The normal part of a displacement does not stretch the tangential spring, whatever the normal.
@@ -177,12 +177,12 @@ TEST(Turning, KeepsTheLengthAndFollowsTheNormal)
 	for (int trial = 0; trial < 1000; ++trial) {
 		const Vec3 n = randomDirection(random), next = (n + 0.3 * randomVector(random, 1)).normalized();
 		const Vec3 shear = 100 * n.unitOrthogonal();
-		const Vec3 result = turned<double>(shear, 0.01 * randomVector(random, 1), next);
+		const Vec3 result = rotatedShear<double>(shear, 0.01 * randomVector(random, 1), next);
 		EXPECT_NEAR(result.norm(), 100, 1e-11); // rescaled to the length: rounding of 100 N
 		EXPECT_NEAR(result.dot(next), 0, 1e-10);
 	}
-	EXPECT_EQ(turned<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
-	EXPECT_EQ(turned<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // nothing left in the plane
+	EXPECT_EQ(rotatedShear<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
+	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // nothing left in the plane
 }
 
 /// A quarter of a turn about the normal, and about an axis in the plane, in small steps.
@@ -195,7 +195,7 @@ TEST(Turning, FollowsAFiniteRotation)
 		Vec3 normal = Vec3::UnitZ();
 		for (int k = 0; k < steps; ++k) {
 			normal = small * normal;
-			shear = turned<double>(shear, axis * (M_PI / 2 / steps), normal);
+			shear = rotatedShear<double>(shear, axis * (M_PI / 2 / steps), normal);
 		}
 		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(), 1e-3); // first order in the step: 10 (pi/2)^2 / steps
 	}
@@ -264,18 +264,18 @@ TEST(ShearSpring, LosesForceWithItsStiffness)
 	EXPECT_NEAR(spring.state.shearEnergyBefore, full.squaredNorm() / (2 * 0.4 * timberLaw.stiffness(4e-3)), 1e-12 * full.squaredNorm());
 }
 
-TEST(Birth, OverlapIsWhatApproachOrEnergyExplain)
+TEST(NewPoint, OverlapIsExplainedByApproachOrEnergy)
 {
-	EXPECT_EQ(bornOverlap(timberLaw, 5e-3, 0, 0), 0); // slid in: no force
-	EXPECT_EQ(bornOverlap(timberLaw, 5e-3, 1e-3, 0), 1e-3);
-	EXPECT_EQ(bornOverlap(timberLaw, 1e-3, 1, 0), 1e-3); // never more than there is
-	EXPECT_NEAR(bornOverlap(timberLaw, 5e-3, 0, timberLaw.energy(2e-3)), 2e-3, 1e-15); // rounding of pow
-	EXPECT_NEAR(bornOverlap(LinearLaw { 1e6 }, 5e-3, 0, 2.), 2e-3, 1e-15); // sqrt(2 E / K)
-	EXPECT_EQ(bornOverlap(timberLaw, 5e-3, 0, -1e-20), 0); // rounding of the energy that is left
+	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, 0), 0); // slid in: no force
+	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 1e-3, 0), 1e-3);
+	EXPECT_EQ(initialOverlap(timberLaw, 1e-3, 1, 0), 1e-3); // never more than there is
+	EXPECT_NEAR(initialOverlap(timberLaw, 5e-3, 0, timberLaw.energy(2e-3)), 2e-3, 1e-15); // rounding of pow
+	EXPECT_NEAR(initialOverlap(LinearLaw { 1e6 }, 5e-3, 0, 2.), 2e-3, 1e-15); // sqrt(2 E / K)
+	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, -1e-20), 0); // rounding of the energy that is left
 }
 
 /// Within a step, a fast light member cannot press more than it has energy for, however far it would go.
-TEST(Birth, AnApproachExplainsNoMoreThanItsEnergy)
+TEST(NewPoint, ApproachIsBoundedByItsEnergy)
 {
 	constexpr double mass = 2.5, h = 4e-4, rounding = 1e-12;
 	for (const double speed : { 0., 0.1, 1., 10., 60. }) {
@@ -289,7 +289,7 @@ TEST(Birth, AnApproachExplainsNoMoreThanItsEnergy)
 	EXPECT_NEAR(approachOverlap(LinearLaw { 1e8 }, 1., 10., 1.), 1e-3, 1e-3 * rounding); // v sqrt(m / K)
 }
 
-TEST(Birth, ExcessShrinksWithTheOverlapAndStaysAway)
+TEST(NewPoint, ExcessShrinksWithTheOverlap)
 {
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 	spring.state.excess = 5e-3;

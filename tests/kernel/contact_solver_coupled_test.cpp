@@ -162,7 +162,7 @@ TEST(Coupled, ImpulseAcrossAnswersThatAlong)
 	p.armB = { side / 2, 0, -side / 2 };
 	p.friction = 1e9;
 	std::vector<HeapPoint> points { p };
-	EXPECT_LE(solveDashpots(bodies, points, 1e-4, 1000, 1e-9), 30); // 22; 42 without
+	EXPECT_LE(solveContacts(bodies, points, 1e-4, 1000, 1e-9), 30); // 22; 42 without
 	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed is left
 }
 
@@ -181,7 +181,7 @@ TEST(Coupled, PairsKeepTheirOrder)
 	const auto after = [&](int passes) {
 		std::vector<SolverBody> bodies = row;
 		std::vector<HeapPoint> fresh = points;
-		solveDashpots(bodies, fresh, 1e-4, passes);
+		solveContacts(bodies, fresh, 1e-4, passes);
 		return bodies;
 	};
 	const std::vector<SolverBody> one = after(1);
@@ -198,7 +198,7 @@ TEST(Coupled, PointsTakeTurnsInBeingTheLast)
 	std::vector<HeapPoint> points(2, central(1e10));
 	points[0].armB.x() = -0.5;
 	points[1].armB.x() = 0.5;
-	solveDashpots(bodies, points, 1e-4, 2);
+	solveContacts(bodies, points, 1e-4, 2);
 	const auto speed = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
 	const double other = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): what one point's answer does to the other
 	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed is left
@@ -221,7 +221,7 @@ TEST(Islands, DoNotInfluenceEachOther)
 		}
 		both.bodies[0] = other.bodies[0] = one.bodies[0];
 		for (Heap* heap : { &one, &other, &both })
-			solveDashpots(heap->bodies, heap->points, 1e-4, 100, 1e-6);
+			solveContacts(heap->bodies, heap->points, 1e-4, 100, 1e-6);
 		for (size_t k = 1; k < both.bodies.size(); ++k) {
 			const SolverBody& alone = int(k) <= shift ? one.bodies[k] : other.bodies[k - size_t(shift)];
 			EXPECT_EQ(both.bodies[k].newVelocity, alone.newVelocity) << seed;
@@ -269,7 +269,7 @@ TEST(Stiff, LightMembersDecideWhenSweepsEnd)
 			points.back().bodyA = k + 1;
 			points.back().bodyB = k + 2;
 		}
-		solveDashpots(bodies, points, h, sweeps, tolerance);
+		solveContacts(bodies, points, h, sweeps, tolerance);
 		return bodies;
 	};
 	const std::vector<SolverBody> converged = solved(10000, 0), found = solved(10000, 1e-3);
@@ -288,7 +288,7 @@ TEST(Stiff, MassRatioOfAMillion)
 	points[1].bodyA = 1;
 	points[1].bodyB = 2;
 	const double before = kineticEnergy(bodies);
-	solveDashpots(bodies, points, 1e-4, 8);
+	solveContacts(bodies, points, 1e-4, 8);
 	EXPECT_LE(kineticEnergy(bodies), before * (1 + rounding));
 	for (const auto& b : bodies)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
@@ -315,7 +315,7 @@ TEST(Islands, AreThoseOfTheStep)
 			ContactSolver once;
 			Islands islands;
 			const size_t before = keptIslands.count();
-			EXPECT_EQ(solveDashpots(kept, keptIslands, bodies, points, 1e-3, 30, 1e-6), solveDashpots(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
+			EXPECT_EQ(solveContacts(kept, keptIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
 			ASSERT_EQ(keptIslands.count(), islands.count()) << seed << " after " << before;
 			for (size_t k = 0; k < islands.count(); ++k)
 				ASSERT_TRUE(std::equal(keptIslands[k].begin(), keptIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;

@@ -41,7 +41,7 @@ TEST(SinglePair, ElasticAndOtherForcesWork)
 	bodies[0].newVelocity.z() = 0.4;
 	bodies[1].newVelocity.z() = -1.3;
 	std::vector<HeapPoint> points { central(c, e) };
-	solveDashpots(bodies, points, h, 1);
+	solveContacts(bodies, points, h, 1);
 	const double x = h * c / m, theta = 0.5 + x / (12 + 2 * x);
 	const double impulse = (h * e - h * c * ((1 - theta) * -1.5 + theta * -1.7)) / (1 + theta * x);
 	EXPECT_NEAR(points[0].impulse.z(), impulse, 10 * rounding); // impulses of some N s
@@ -60,7 +60,7 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 	p.friction = 0.9;
 	p.impulse = { 1, 2, 3 }; // a guess plays no part
 	std::vector<HeapPoint> points { p };
-	solveDashpots(bodies, points, h, 0);
+	solveContacts(bodies, points, h, 0);
 	const Vec3 force(40 - cs * -0.1, -10 - cs * 0.2, 900 + cn * 1.5);
 	EXPECT_LT((points[0].impulse - h * force).norm(), rounding * h * force.norm());
 	EXPECT_LT((bodies[0].newVelocity - Vec3(0.1, 0, 0.5) + h * force / 2).norm(), rounding);
@@ -87,7 +87,7 @@ struct Pressed {
 		p.friction = friction;
 		p.normalStiffness = p.shearStiffness = stiffness;
 		std::vector<HeapPoint> all(points, p);
-		solveDashpots(bodies, all, h, sweeps);
+		solveContacts(bodies, all, h, sweeps);
 		velocity = bodies[1].newVelocity;
 		displacement += h * velocity;
 		shear = limitedShear<double>(shear, friction, all[0].impulse.z() / h);
@@ -164,7 +164,7 @@ TEST(SinglePair, LeverArms)
 	p.friction = 0;
 	std::vector<HeapPoint> points { p };
 	const double h = 1e-3, m = 1 / (1 / 3. + 0.16 / 0.3), x = h * 500 / m; // effective mass of the point
-	solveDashpots(bodies, points, h, 1);
+	solveContacts(bodies, points, h, 1);
 	const double speed = bodies[1].newVelocity.z() - 0.4 * bodies[1].newSpin.y();
 	EXPECT_NEAR(speed, -2 * (1 - x / 3) / (1 + 2 * x / 3 + x * x / 6), 10 * rounding);
 	EXPECT_NEAR(bodies[1].newSpin.y(), -0.4 * points[0].impulse.z() / 0.3, 10 * rounding);
@@ -175,7 +175,7 @@ TEST(Limits, NoTension)
 	for (const int sweeps : { 0, 1, 4 }) {
 		std::vector<SolverBody> bodies { body(1, Vec3::Zero()), body(1, { 0, 0, 5 }) };
 		std::vector<HeapPoint> points { central(1e4, 10) };
-		solveDashpots(bodies, points, 1e-4, sweeps);
+		solveContacts(bodies, points, 1e-4, sweeps);
 		EXPECT_EQ(points[0].impulse, Vec3::Zero());
 		EXPECT_EQ(bodies[1].newVelocity, Vec3(0, 0, 5));
 	}
@@ -189,7 +189,7 @@ TEST(Limits, SlidingHasTheForceOfFriction)
 		HeapPoint p = central(20, 100);
 		p.elasticShear = { 80, 0, 0 };
 		std::vector<HeapPoint> points { p };
-		solveDashpots(bodies, points, 1e-4, sweeps);
+		solveContacts(bodies, points, 1e-4, sweeps);
 		const double normal = points[0].impulse.z();
 		EXPECT_NEAR(normal, 1e-2, 1e-4); // the normal dashpot answers to the push of the spring: x / 2 = 0.2 %
 		EXPECT_LT((points[0].impulse - normal * Vec3(0.5, 0, 1)).norm(), rounding);
@@ -203,7 +203,7 @@ TEST(Limits, SpringAndDashpotTogetherRespectCoulomb)
 		HeapPoint p = central(200, 100);
 		p.elasticShear = { 10, 0, 0 };
 		std::vector<HeapPoint> points { p };
-		solveDashpots(bodies, points, 1e-4, sweeps);
+		solveContacts(bodies, points, 1e-4, sweeps);
 		EXPECT_NEAR(points[0].impulse.head<2>().norm(), 0.5 * points[0].impulse.z(), rounding);
 		EXPECT_GT(points[0].impulse.x(), 0); // against the slide
 		EXPECT_LT(points[0].impulse.y(), 0);

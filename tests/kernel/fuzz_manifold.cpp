@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iostream>
 #include <kernel/manifold.hpp>
+#include <kernel/separating_axis.hpp>
 #include "shapes.hpp"
 
 using namespace timber;
@@ -128,7 +129,7 @@ void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& p
 	Vec3 axis;
 	const double gap = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
 	const double limit = a.radius + b.radius + std::max({ -gap, a.coreHalfThickness, b.coreHalfThickness, 1e-4 });
-	const double noise = 1e-12 * (a.reach + b.reach); // cores that just touch in a pattern that is off have no point
+	const double noise = 1e-12 * (a.boundingRadius + b.boundingRadius); // cores that just touch in a pattern that is off have no point
 	require(gap >= -noise || !points.empty(), "overlapping cores without a point");
 	for (size_t k = 0; k < points.size(); ++k) {
 		const ContactPoint& p = points[k];
@@ -152,7 +153,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 		CandidateCache cache;
 		std::vector<ContactPoint> points, fresh;
 		for (int step = 0; step < 3; ++step) {
-			const Pose poseB { bytes.vector() * (a.reach + b.reach), bytes.rotation() };
+			const Pose poseB { bytes.vector() * (a.boundingRadius + b.boundingRadius), bytes.rotation() };
 			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0; // placements are checked by the caller
 			updateManifold(a, b, poseA, poseB, patterns, cache, points);
 			check(a, b, poseA, poseB, points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Pairs and heaps of bodies with contact points, for the tests of the dashpots. SI units.
+/// Pairs and heaps of bodies with contact points, for the tests of the contact solver. SI units.
 #pragma once
 #include "shapes.hpp"
 #include <algorithm>
@@ -35,9 +35,9 @@ inline HeapPoint central(double damping, double elastic = 0)
 	return p;
 }
 
-/// One step of points whose pairs stand next to each other, by a solver and islands that may have done others before. Returns the number of
-/// passes, of the island that took most.
-inline int solveDashpots(ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+/// One step of points sorted by pairs, by a solver and islands that may have been used before. Returns the number of
+/// sweeps of the island that took most.
+inline int solveContacts(ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	using Place = std::vector<HeapPoint>::iterator;
 	std::vector<std::pair<Place, Place>> pairs; // points of each
@@ -50,7 +50,7 @@ inline int solveDashpots(ContactSolver& solver, Islands& islands, std::vector<So
 	islands.find(bodies.size(), links);
 	int most = 0;
 	for (size_t island = 0; island < islands.count(); ++island) {
-		solver.clear(sweeps);
+		solver.begin(sweeps);
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
 			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));
@@ -58,23 +58,23 @@ inline int solveDashpots(ContactSolver& solver, Islands& islands, std::vector<So
 				const PointResponse response = responseAt(bodies[size_t(p->bodyA)], bodies[size_t(p->bodyB)], p->armA, p->armB, p->normal);
 				p->normalResponse = response.normalResponse;
 				p->shearResponse = response.shearResponse;
-				solver.set<double>(k, size_t(p - first), bodies, *p, h);
+				solver.prepare<double>(k, size_t(p - first), bodies, *p, h);
 			}
 		}
 		most = std::max(most, solver.solve(bodies, tolerance));
 		for (size_t k = 0; k < islands[island].size(); ++k) {
 			const auto [first, last] = pairs[size_t(islands[island][k])];
 			for (Place p = first; p != last; ++p)
-				p->impulse = solver.row(k, size_t(p - first)).impulse;
+				p->impulse = solver.constraint(k, size_t(p - first)).impulse;
 		}
 	}
 	return most;
 }
-inline int solveDashpots(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveContacts(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	ContactSolver solver;
 	Islands islands;
-	return solveDashpots(solver, islands, bodies, points, h, sweeps, tolerance);
+	return solveContacts(solver, islands, bodies, points, h, sweeps, tolerance);
 }
 
 /// Relative normal velocity after the step of a pair that closes with speed v and feels only its dashpot.
@@ -82,7 +82,7 @@ inline double after(double massA, double massB, double speed, double damping, do
 {
 	std::vector<SolverBody> bodies { body(massA, Vec3::Zero()), body(massB, { 0, 0, -speed }) };
 	std::vector<HeapPoint> points { central(damping) };
-	solveDashpots(bodies, points, h, sweeps);
+	solveContacts(bodies, points, h, sweeps);
 	return (bodies[1].newVelocity - bodies[0].newVelocity).z();
 }
 
@@ -109,7 +109,7 @@ struct Heap {
 			add(random, a, b, damping, friction, elastic);
 		}
 	}
-	void solve(double h, int sweeps) { solveDashpots(bodies, points, h, sweeps); }
+	void solve(double h, int sweeps) { solveContacts(bodies, points, h, sweeps); }
 
 private:
 	void add(Random& random, bool fixed)

@@ -70,7 +70,7 @@ std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPol
 	std::vector<ContactPoint> points;
 	updateManifold(a, b, {}, before, patterns, cache, points);
 	updateManifold(a, b, {}, after, patterns, cache, points);
-	EXPECT_EQ(cache.uses, 1); // no other search
+	EXPECT_EQ(cache.updates, 1); // no second search
 	EXPECT_TRUE(identical(points, contacts(a, b, {}, after, patterns)));
 	return points;
 }
@@ -200,47 +200,48 @@ TEST(CandidateCache, CrossingsOfDeepEdgesRunFar)
 	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine), 2e-3); // to first order; (pitch / sine)^2 = 2 %
 }
 
-/// Pairs that tremble for longer than quietSteps, and then move: what a still pair does not look at must come back in time.
-TEST(CandidateCache, PairsThatWereQuiet)
+/// Pairs vibrate for longer than restInterval and then move: the features left out at rest must become candidates in time.
+TEST(CandidateCache, PairsAfterRest)
 {
 	const auto beam = roundedBox({ 1, 0.12, 0.12 }), post = roundedBox({ 0.105, 0.105, 0.9 });
-	int inContact = 0, quiet = 0, fewer = 0;
+	int inContact = 0, atRest = 0, fewer = 0;
 	for (unsigned seed = 0; seed < 40; ++seed) {
 		Random random(seed);
 		Pose poseB { { uniform(random, -0.4, 0.4), uniform(random, -0.02, 0.02), 0.5099 }, about(randomDirection(random), seed % 2 == 0 ? 0 : 1e-3) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		size_t most = 0;
-		for (int step = 0; step < 4 * quietSteps; ++step) {
-			const bool trembles = step % (2 * quietSteps) < 3 * quietSteps / 2;
-			const double way = trembles ? 1e-7 : std::pow(10, uniform(random, -6, -2.5));
-			poseB.position += way * randomDirection(random);
-			poseB.orientation = (about(randomDirection(random), way) * poseB.orientation).normalized();
+		for (int step = 0; step < 4 * restInterval; ++step) {
+			const bool vibrates = step % (2 * restInterval) < 3 * restInterval / 2;
+			const double displacement = vibrates ? 1e-7 : std::pow(10, uniform(random, -6, -2.5));
+			poseB.position += displacement * randomDirection(random);
+			poseB.orientation = (about(randomDirection(random), displacement) * poseB.orientation).normalized();
 			updateManifold(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }, cache, points);
 			ASSERT_TRUE(identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }))) << "seed " << seed << " step " << step;
 			inContact += !points.empty();
 			if (cache.skin == candidateSkin) most = std::max(most, cache.candidates.size());
-			else ++quiet, fewer += cache.candidates.size() < most;
+			else ++atRest, fewer += cache.candidates.size() < most;
 		}
 	}
 	EXPECT_GT(inContact, 8000);
-	EXPECT_GT(quiet, 1000);
-	EXPECT_GT(fewer, quiet / 2);
+	EXPECT_GT(atRest, 1000);
+	EXPECT_GT(fewer, atRest / 2);
 }
 
-/// A pair that settles before it keeps still gets fewer candidates, too.
-TEST(CandidateCache, PairsThatSettled)
+/// The skin is also reduced for a pair that settles before it comes to rest.
+TEST(CandidateCache, PairsAfterSettlement)
 {
 	const auto beam = roundedBox({ 1, 0.12, 0.12 }), post = roundedBox({ 0.105, 0.105, 0.9 });
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	for (int step = 0; step < 3 * quietSteps; ++step)
-		updateManifold(beam, post, {}, { { 0, 0, 0.51 - 2e-6 * std::min(step, 3 * quietSteps / 2) }, Quat::Identity() }, {}, cache, points);
-	EXPECT_EQ(cache.skin, quietSkin);
+	for (int step = 0; step < 3 * restInterval; ++step)
+		updateManifold(beam, post, {}, { { 0, 0, 0.51 - 2e-6 * std::min(step, 3 * restInterval / 2) }, Quat::Identity() }, {}, cache, points);
+	EXPECT_EQ(cache.skin, restSkin);
 }
 
-/// A cube above another slides past its edge and down: the axis of the search no longer shows the gap, and is replaced within axisUses.
-TEST(CandidateCache, APairThatSlidPastAnEdgeGetsANewAxis)
+/// A cube above another slides past its edge and down: the axis of the search no longer separates the cores. It is replaced within
+/// axisInterval updates.
+TEST(CandidateCache, SeparatingAxisAfterSlidingPastAnEdge)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	const double above = 1e-3, beside = 1.5e-3;
@@ -251,26 +252,27 @@ TEST(CandidateCache, APairThatSlidPastAnEdgeGetsANewAxis)
 	EXPECT_NEAR(gapAt(0.998, 1 + above), above - 2 * flushTolerance, 1e-15);
 	EXPECT_EQ(gapAt(1 + beside, 0.9995), 0);
 	double gap = 0;
-	for (int use = 0; use < axisUses; ++use)
+	for (int update = 0; update < axisInterval; ++update)
 		gap = gapAt(1 + beside, 0.9995);
 	EXPECT_NEAR(gap, beside - 2 * flushTolerance, 1e-15);
 	EXPECT_EQ(gapAt(0.5, 0.9995), 0);
 	EXPECT_FALSE(points.empty());
 }
 
-/// A placement that is no number spoils its own step only.
-TEST(CandidateCache, APlacementThatIsNoNumberIsForgotten)
+/// A pose that is not finite violates the precondition: builds with assertions abort, others recover in the next step.
+TEST(CandidateCache, NonFinitePose)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	updateManifold(cube, cube, {}, { Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity() }, {}, cache, points);
+	const Pose invalid { Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity() };
+	EXPECT_DEBUG_DEATH(updateManifold(cube, cube, {}, invalid, {}, cache, points), "isAdmissible");
 	updateManifold(cube, cube, {}, { { 0, 0, 0.999 }, Quat::Identity() }, {}, cache, points);
 	EXPECT_EQ(points.size(), 4u);
 }
 
-/// A cache of other bodies or patterns counts as empty.
-TEST(CandidateCache, IsThatOfItsBodiesAndPatterns)
+/// The cache is reset when the bodies or the patterns change.
+TEST(CandidateCache, ResetForOtherBodiesOrPatterns)
 {
 	const auto cube = roundedBox({ 1, 1, 1 }), prism = rounded(hexagonalPrismVertices(0.5, 1), 0.02);
 	const Pose above { { 0, 0, 0.999 }, Quat::Identity() };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Overlapping cores, as after an impact: the overlap stays bounded and pushing along the normals separates the pair.
 #include "shapes.hpp"
+#include <kernel/separating_axis.hpp>
 #include <algorithm>
 #include <gtest/gtest.h>
 

@@ -104,7 +104,7 @@ TEST(Core, DerivedLengths)
 	const RoundedPolyhedron column = roundedBox({ 0.105, 0.105, 2.73 });
 	EXPECT_NEAR(column.radius, 0.0105, rounding);
 	EXPECT_NEAR(column.coreHalfThickness, 0.042, rounding);
-	EXPECT_NEAR(column.reach, Vec3(0.042, 0.042, 1.3545).norm(), rounding);
+	EXPECT_NEAR(column.boundingRadius, Vec3(0.042, 0.042, 1.3545).norm(), rounding);
 	EXPECT_NEAR(column.sharp.shortestEdge(), 0.105, rounding);
 	EXPECT_NEAR(column.sharp.thickness(), 0.105, rounding);
 }

@@ -36,7 +36,7 @@ TEST(Topology, CountsOfKnownBodies)
 	expectCounts(Polyhedron::fromVertices(pyramidVertices(1, 1)), 5, 8, 5);
 }
 
-TEST(Topology, FacesTurnCounterClockwiseAndBordersPointOut)
+TEST(Topology, FacesTurnCounterClockwiseAndSidePlanesPointOut)
 {
 	const Polyhedron body = Polyhedron::fromVertices(hip.vertices());
 	for (const Face& face : body.faces)
@@ -44,8 +44,8 @@ TEST(Topology, FacesTurnCounterClockwiseAndBordersPointOut)
 			const size_t n = face.corners.size();
 			const Vec3 &p = body.vertices[face.corners[k]], &q = body.vertices[face.corners[(k + 1) % n]], &r = body.vertices[face.corners[(k + 2) % n]];
 			EXPECT_GT((q - p).cross(r - q).dot(face.plane.normal), 0);
-			EXPECT_LT(face.borders[k].normal.dot(r - q), 0);
-			EXPECT_NEAR(face.borders[k].normal.dot(q - p), 0, rounding * 10); // a few m long
+			EXPECT_LT(face.sidePlanes[k].normal.dot(r - q), 0);
+			EXPECT_NEAR(face.sidePlanes[k].normal.dot(q - p), 0, rounding * 10); // a few m long
 		}
 }
 

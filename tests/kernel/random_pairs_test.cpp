@@ -2,6 +2,7 @@
 /// Many random pairs, slivers, plates, needles and sizes of 1:1000 among them: the manifold stays finite, bounded,
 /// sorted and free of the cache, whatever the pair.
 #include "shapes.hpp"
+#include <kernel/separating_axis.hpp>
 #include <kernel/constants.hpp>
 #include <kernel/rotation.hpp>
 #include <algorithm>
@@ -54,8 +55,8 @@ void expectSound(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const P
 		EXPECT_NEAR(p.normal.norm(), 1, 1e-12); // products of unit vectors and rotations
 		EXPECT_GT(p.overlap, 0);
 		EXPECT_LE(p.overlap, limit * (1 + 1e-12));
-		EXPECT_LE((p.position - poseB.position).norm(), b.reach + touch + limit);
-		EXPECT_LE((p.position - poseA.position).norm(), a.reach + touch + limit);
+		EXPECT_LE((p.position - poseB.position).norm(), b.boundingRadius + touch + limit);
+		EXPECT_LE((p.position - poseA.position).norm(), a.boundingRadius + touch + limit);
 		EXPECT_TRUE(k == 0 || points[k - 1].id < p.id);
 	}
 }
@@ -73,7 +74,7 @@ TEST(RandomPairs, TwentyThousand)
 		const Vec3 far = trial % 4 == 0 ? Vec3(1000 * randomDirection(random)) : Vec3(Vec3::Zero());
 		const Pose poseA { far, randomRotation(random) };
 		const Vec3& vertex = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
-		const Pose poseB { far + poseA.orientation * vertex + (b.reach + a.radius) * uniform(random, 0, 1.1) * randomDirection(random), randomRotation(random) };
+		const Pose poseB { far + poseA.orientation * vertex + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random), randomRotation(random) };
 		const auto points = contacts(a, b, poseA, poseB, { trial % 2 == 0, trial % 3 != 0 });
 		const double depth = depthOf(a, b, poseA, poseB);
 		expectSound(a, b, poseA, poseB, depth, points);
@@ -101,7 +102,7 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 		EXPECT_FALSE(points.empty()) << trial;
 		std::set<std::pair<FeatureKind, int>> vertices; // each of them answers to one face
 		for (const auto& p : points) {
-			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // outwardCosine, rounded
+			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // deepNormalCosine, rounded
 			const FeatureKind meeting = p.id.kind();
 			if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::FaceVertex) {
 				EXPECT_TRUE(vertices.insert({ meeting, meeting == FeatureKind::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
@@ -120,11 +121,11 @@ TEST(RandomPairs, CacheHoldsNoResult)
 	for (int walk = 0; walk < 150; ++walk) {
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
 		const Patterns patterns { walk % 2 == 0, walk % 3 != 0 };
-		Pose poseB { a.core.vertices[0] + b.reach * randomDirection(random), randomRotation(random) };
+		Pose poseB { a.core.vertices[0] + b.boundingRadius * randomDirection(random), randomRotation(random) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		for (int step = 0; step < 40; ++step) {
-			poseB.position += 0.02 * std::min(a.reach, b.reach) * randomDirection(random);
+			poseB.position += 0.02 * std::min(a.boundingRadius, b.boundingRadius) * randomDirection(random);
 			poseB.orientation = (about(randomDirection(random), 0.02) * poseB.orientation).normalized();
 			updateManifold(a, b, {}, poseB, patterns, cache, points);
 			const auto fresh = contacts(a, b, {}, poseB, patterns);
@@ -149,15 +150,15 @@ TEST(RandomPairs, GapIsKept)
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
 		const Patterns patterns { trial % 2 == 0, trial % 3 != 0 };
 		const Vec3 direction = randomDirection(random);
-		const Pose poseB { (a.reach + b.reach) * uniform(random, 0.3, 1.2) * direction, randomRotation(random) };
+		const Pose poseB { (a.boundingRadius + b.boundingRadius) * uniform(random, 0.3, 1.2) * direction, randomRotation(random) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		updateManifold(a, b, {}, poseB, patterns, cache, points); // finds the axis
 		const double gap = updateManifold(a, b, {}, poseB, patterns, cache, points);
 		if (gap == 0) continue;
 		++promised;
-		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.reach);
-		const double left = gap - turnedWay(turn, b.span);
+		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.boundingRadius);
+		const double left = gap - rotationDisplacement(turn, b.halfExtents);
 		ASSERT_GE(left, 0);
 		EXPECT_TRUE(contacts(a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns).empty()) << trial;
 		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
@@ -168,18 +169,18 @@ TEST(RandomPairs, GapIsKept)
 }
 
 /// No core vertex goes farther than the bound; a member that spins about its axis is not taken for one that swings.
-TEST(RandomPairs, TurnedWayBoundsAllPoints)
+TEST(RandomPairs, RotationDisplacementBoundsAllPoints)
 {
 	Random random(92);
 	int refused = 0;
 	for (const auto& body : randomBodies(random, 200, refused)) {
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 3));
-		const double bound = turnedWay(turn, body.span);
-		EXPECT_LE(bound, 4 * body.reach);
+		const double bound = rotationDisplacement(turn, body.halfExtents);
+		EXPECT_LE(bound, 4 * body.boundingRadius);
 		for (const Vec3& x : body.core.vertices)
-			EXPECT_LE((turn * x - x).norm(), bound + 1e-12 * body.reach);
+			EXPECT_LE((turn * x - x).norm(), bound + 1e-12 * body.boundingRadius);
 	}
 	const auto column = roundedBox({ 0.12, 0.12, 2.73 });
-	EXPECT_NEAR(turnedWay(about(Vec3::UnitZ(), 0.01), column.span), 0.01 * M_SQRT2 * 0.048, 1e-5);
-	EXPECT_NEAR(turnedWay(about(Vec3::UnitX(), 0.01), column.span), 0.01 * std::hypot(0.048, 1.353), 1e-5);
+	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitZ(), 0.01), column.halfExtents), 0.01 * M_SQRT2 * 0.048, 1e-5);
+	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitX(), 0.01), column.halfExtents), 0.01 * std::hypot(0.048, 1.353), 1e-5);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Gap and least overlap of two convex bodies: closed forms, symmetry, and no direction that would part them sooner.
 #include "shapes.hpp"
+#include <kernel/separating_axis.hpp>
 #include <algorithm>
 #include <gtest/gtest.h>
 

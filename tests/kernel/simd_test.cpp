@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Lanes against doubles: the same formulas must give the same numbers to the last bit, whatever shares the other lanes.
+/// SIMD against scalar code: bitwise identical results, whatever the other lanes contain.
 #include "heap.hpp"
 #include <gtest/gtest.h>
 #include <kernel/geometry.hpp>
@@ -14,11 +14,11 @@ namespace {
 
 const PairProperties properties { 3, 0.4, 1 / 2.8, 4e-3 };
 
-/// A pair that moves, with points of all kinds: growing and shrinking overlaps, grazing and deep ones, pressed and free, at rest and sliding.
+/// A moving pair with points of all kinds: growing and shrinking overlaps, grazing and deep, loaded and free, at rest and sliding.
 struct MovingPair {
 	std::vector<SolverBody> bodies;
 	std::vector<ContactPoint> points;
-	std::vector<PointState> states;
+	std::vector<PointRecord> records;
 
 	MovingPair(unsigned seed, size_t count)
 	{
@@ -33,7 +33,7 @@ struct MovingPair {
 			b.position = randomVector(random, 1);
 		for (size_t k = 0; k < count; ++k) {
 			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1), randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
-			PointState s;
+			PointRecord s;
 			s.id = points[k].id;
 			s.excess = k % 3 == 0 ? uniform(random, 0, 1e-3) : 0;
 			s.overlap = std::pow(10, uniform(random, -9, -2.4));
@@ -41,16 +41,17 @@ struct MovingPair {
 			s.normal = law.force(s.overlap);
 			s.shear = k % 4 == 3 ? Vec3(Vec3::Zero()) : Vec3(uniform(random, 0, 1) * s.normal * points[k].normal.unitOrthogonal());
 			s.dashpot = randomVector(random, 0.1 * s.normal);
-			states.push_back(s);
+			records.push_back(s);
 		}
 	}
-	BodyMotion motion(size_t k) const { return { bodies[k].position, bodies[k].velocity, bodies[k].spin }; }
+	BodyKinematics kinematics(size_t k) const { return { bodies[k].position, bodies[k].velocity, bodies[k].spin }; }
+	PairStep step(NormalForm form = NormalForm::Closed) const { return { properties, kinematics(0), kinematics(1), h, form }; }
 
 	static constexpr double h = 2e-4;
 	const HertzLaw law { 5.25e9, 0.05 };
 };
 
-void expectSame(const PointState& a, const PointState& b)
+void expectSame(const PointRecord& a, const PointRecord& b)
 {
 	EXPECT_EQ(a.excess, b.excess);
 	EXPECT_EQ(a.overlap, b.overlap);
@@ -60,61 +61,61 @@ void expectSame(const PointState& a, const PointState& b)
 	EXPECT_EQ(a.shear, b.shear);
 	EXPECT_EQ(a.dashpot, b.dashpot);
 	EXPECT_EQ(a.closing, b.closing);
-	EXPECT_EQ(a.slide, b.slide);
+	EXPECT_EQ(a.slip, b.slip);
 	EXPECT_EQ(a.shearBefore, b.shearBefore);
 	EXPECT_EQ(a.shearEnergyBefore, b.shearEnergyBefore);
 }
 
 } // namespace
 
-/// Elastic forces: all points of a pair together, and one by one as the formula is tested elsewhere.
+/// Elastic forces: all points of a pair by SIMD, and each by the scalar formula.
 TEST(LanesOfAPair, ElasticForcesAreThoseOfEachPoint)
 {
 	for (const NormalForm form : { NormalForm::Closed, NormalForm::Increment })
 		for (unsigned seed = 0; seed < 60; ++seed) {
 			MovingPair pair(seed, 1 + seed % 11);
-			std::vector<PointState> each = pair.states;
-			EXPECT_EQ(elasticPair(pair.law, properties, pair.motion(0), pair.motion(1), pair.h, form, false, pair.points, pair.states), 0);
+			std::vector<PointRecord> each = pair.records;
+			EXPECT_EQ(elasticPair(pair.law, pair.step(form), pair.points, pair.records), 0);
 			for (size_t k = 0; k < each.size(); ++k) {
 				MovingPair alone(seed, 1 + seed % 11);
 				alone.points = { pair.points[k] };
-				alone.states = { each[k] };
-				elasticPair(pair.law, properties, pair.motion(0), pair.motion(1), pair.h, form, false, alone.points, alone.states);
-				expectSame(alone.states[0], pair.states[k]);
+				alone.records = { each[k] };
+				elasticPair(pair.law, pair.step(form), alone.points, alone.records);
+				expectSame(alone.records[0], pair.records[k]);
 				const Vec3 armA = pair.points[k].position - pair.bodies[0].position, armB = pair.points[k].position - pair.bodies[1].position;
 				const auto velocity = [&](const SolverBody& b, const Vec3& arm) { return Vec3(b.velocity + b.spin.cross(arm - pair.h / 2 * b.spin.cross(arm))); };
-				const PointMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA), (pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
-				elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
-				expectSame(each[k], pair.states[k]);
+				const RelativeMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA), (pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
+				static_cast<ShearIncrement<double>&>(each[k]) = elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
+				expectSame(each[k], pair.records[k]);
 			}
 		}
 }
 
-/// Rows of the solver: those of lanes, and those of doubles.
-TEST(LanesOfAPair, RowsAreThoseOfEachPoint)
+/// Constraints of the solver, prepared by SIMD and point by point.
+TEST(LanesOfAPair, ConstraintsAreThoseOfEachPoint)
 {
 	for (const int sweeps : { 0, 50 })
 		for (unsigned seed = 0; seed < 60; ++seed) {
 			MovingPair p(seed, 1 + seed % 11);
 			ContactSolver together, each;
 			for (ContactSolver* solver : { &together, &each }) {
-				solver->clear(sweeps);
+				solver->begin(sweeps);
 				solver->addPair(0, 1, p.points.size());
 			}
-			prepareContacts(together, 0, p.bodies, properties, 1, p.h, false, p.points, p.states);
+			prepareContacts({ together, p.bodies, p.h }, 0, properties, false, p.points, p.records);
 			for (size_t k = 0; k < p.points.size(); ++k) {
-				const PointState& s = p.states[k];
+				const PointRecord& s = p.records[k];
 				const double damping = 2 * std::sqrt(properties.mass * s.stiffness);
 				const Vec3 armA = p.points[k].position - p.bodies[0].position, armB = p.points[k].position - p.bodies[1].position, normal = p.points[k].normal;
 				const PointResponse r = responseAt(p.bodies[0], p.bodies[1], armA, armB, normal);
 				const ContactInput<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio), properties.friction,
 					p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness, properties.shearRatio * s.stiffness };
-				each.set<double>(0, k, p.bodies, one, p.h);
-				const ContactSolver::Row x = together.row(0, k), y = each.row(0, k);
-				using Row = ContactSolver::Row;
-				for (const auto member : { &Row::armA, &Row::armB, &Row::normal, &Row::impulse, &Row::shearDrive, &Row::coupling })
+				each.prepare<double>(0, k, p.bodies, one, p.h);
+				const ContactSolver::Constraint x = together.constraint(0, k), y = each.constraint(0, k);
+				using C = ContactSolver::Constraint;
+				for (const auto member : { &C::armA, &C::armB, &C::normal, &C::impulse, &C::shearBias, &C::coupling })
 					EXPECT_EQ(x.*member, y.*member) << seed;
-				for (const auto member : { &Row::normalKept, &Row::normalDrive, &Row::normalGain, &Row::shearKept, &Row::shearGain, &Row::friction })
+				for (const auto member : { &C::normalFactor, &C::normalBias, &C::normalMass, &C::shearFactor, &C::shearMass, &C::friction })
 					EXPECT_EQ(x.*member, y.*member) << seed;
 			}
 		}
@@ -125,35 +126,35 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 {
 	for (unsigned seed = 0; seed < 60; ++seed) {
 		MovingPair p(seed, 1 + seed % 11);
-		elasticPair(p.law, properties, p.motion(0), p.motion(1), p.h, NormalForm::Closed, false, p.points, p.states);
-		const std::vector<PointState> before = p.states;
+		elasticPair(p.law, p.step(), p.points, p.records);
+		const std::vector<PointRecord> before = p.records;
 		ContactSolver solver;
-		solver.clear(50);
+		solver.begin(50);
 		solver.addPair(0, 1, p.points.size());
-		prepareContacts(solver, 0, p.bodies, properties, 1, p.h, false, p.points, p.states);
+		prepareContacts({ solver, p.bodies, p.h }, 0, properties, false, p.points, p.records);
 		solver.solve(p.bodies);
 		PairEnergies found { 1, 2, 3, 4, 5, 6 }, wanted = found; // of other pairs, before
-		const PairForce force = storeForces(solver, 0, p.bodies, properties, p.h, p.states, &found);
+		const PairForce force = storeForces({ solver, p.bodies, p.h }, 0, properties, p.records, &found);
 		Vec3 sum = Vec3::Zero(), torqueA = sum, torqueB = sum;
 		for (size_t k = 0; k < p.points.size(); ++k) {
-			const ContactSolver::Row row = solver.row(0, k);
-			const PointState& s = p.states[k];
-			const Vec3 f = row.impulse / p.h, after = relativeVelocity<double>(row.armA, row.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
+			const ContactSolver::Constraint c = solver.constraint(0, k);
+			const PointRecord& s = p.records[k];
+			const Vec3 f = c.impulse / p.h, after = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
 			sum += f;
-			torqueA -= row.armA.cross(f);
-			torqueB += row.armB.cross(f);
-			EXPECT_LE(s.shear.norm(), properties.friction * f.dot(row.normal) * (1 + rounding));
-			EXPECT_EQ(s.dashpot, Vec3(f - s.normal * row.normal - s.shear));
-			EXPECT_EQ(s.closing, -after.dot(row.normal) * p.h);
-			const Vec3 before = relativeVelocity<double>(row.armA, row.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
-			const Vec3 mean = (before + after) / 2, along = s.dashpot.dot(row.normal) * row.normal;
+			torqueA -= c.armA.cross(f);
+			torqueB += c.armB.cross(f);
+			EXPECT_LE(s.shear.norm(), properties.friction * f.dot(c.normal) * (1 + rounding));
+			EXPECT_EQ(s.dashpot, Vec3(f - s.normal * c.normal - s.shear));
+			EXPECT_EQ(s.closing, -after.dot(c.normal) * p.h);
+			const Vec3 before = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
+			const Vec3 mean = (before + after) / 2, along = s.dashpot.dot(c.normal) * c.normal;
 			const double shearEnergy = s.stiffness > 0 ? s.shear.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;
 			wanted.dashpotNormal -= p.h * along.dot(mean);
 			wanted.dashpotShear -= p.h * (s.dashpot - along).dot(mean);
-			wanted.friction -= s.slide.dot(s.shearBefore + s.shear) / 2 + shearEnergy - s.shearEnergyBefore;
+			wanted.friction -= s.slip.dot(s.shearBefore + s.shear) / 2 + shearEnergy - s.shearEnergyBefore;
 			wanted.elasticNormal += s.energy;
 			wanted.elasticShear += shearEnergy;
-			wanted.elasticPower -= (s.normal * row.normal + s.shear).dot(after);
+			wanted.elasticPower -= (s.normal * c.normal + s.shear).dot(after);
 		}
 		EXPECT_EQ(force.onB, sum);
 		EXPECT_EQ(force.torqueA, torqueA);
@@ -163,7 +164,7 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 	}
 }
 
-/// Impulses that act on bodies all at once and one by one; lanes to spare hold what a step with more points has left there.
+/// Warm start by SIMD and point by point. Unused lanes contain data of an earlier step with more points.
 TEST(LanesOfAPair, ImpulsesActAsOneByOne)
 {
 	for (size_t count = 1; count <= 9; ++count) {
@@ -171,16 +172,16 @@ TEST(LanesOfAPair, ImpulsesActAsOneByOne)
 		for (const size_t points : { size_t(12), count }) {
 			MovingPair p(unsigned(count), points);
 			std::vector<SolverBody> each = p.bodies;
-			solver.clear(0);
+			solver.begin(0);
 			solver.addPair(0, 1, points);
-			prepareContacts(solver, 0, p.bodies, properties, 1, p.h, false, p.points, p.states);
+			prepareContacts({ solver, p.bodies, p.h }, 0, properties, false, p.points, p.records);
 			solver.solve(p.bodies);
 			for (size_t k = 0; k < points; ++k) {
-				const ContactSolver::Row row = solver.row(0, k);
+				const ContactSolver::Constraint c = solver.constraint(0, k);
 				for (const int body : { 0, 1 }) {
 					SolverBody& b = each[size_t(body)];
 					if (b.inverseMass == 0) continue;
-					const Vec3 impulse = body == 0 ? Vec3(-row.impulse) : row.impulse, arm = body == 0 ? row.armA : row.armB;
+					const Vec3 impulse = body == 0 ? Vec3(-c.impulse) : c.impulse, arm = body == 0 ? c.armA : c.armB;
 					b.newVelocity += b.inverseMass * impulse;
 					b.newSpin += b.inverseInertia * arm.cross(impulse);
 				}
@@ -193,15 +194,16 @@ TEST(LanesOfAPair, ImpulsesActAsOneByOne)
 	}
 }
 
-/// A point that does not take part changes nothing for its neighbours: no NaN or infinity leaks from lane to lane.
-TEST(LanesOfAPair, ABadPointKeepsToItself)
+/// A point whose forces overflow does not affect its neighbours: no NaN or infinity leaks from lane to lane.
+TEST(LanesOfAPair, OverflowStaysInItsLane)
 {
 	MovingPair good(7, 4), bad(7, 4);
-	bad.points[2].normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+	bad.points[2].position = Vec3::Constant(1e305);
 	for (MovingPair* p : { &good, &bad })
-		elasticPair(p->law, properties, p->motion(0), p->motion(1), p->h, NormalForm::Closed, false, p->points, p->states);
+		elasticPair(p->law, p->step(), p->points, p->records);
+	EXPECT_FALSE(bad.records[2].shear.allFinite());
 	for (const size_t k : { 0, 1, 3 })
-		expectSame(good.states[k], bad.states[k]);
+		expectSame(good.records[k], bad.records[k]);
 }
 
 TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
@@ -218,7 +220,7 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				anchorsB[i] = axesB.transpose() * (axesA * anchorsA[i] - apart + randomVector(random, 0.1));
 				broken[i] = i % 3 == 1;
 			}
-			const JointPull pull = pullSprings(k, { axesA, axesB, apart }, normal, anchorsA, anchorsB, broken, stretches, forces);
+			const JointPull pull = pullSprings(k, { axesA, axesB, apart }, normal, { anchorsA, anchorsB, broken, stretches, forces });
 			JointPull wanted;
 			for (size_t i = 0; i < count; ++i) {
 				const Vec3 armB = axesB * anchorsB[i], stretch = apart + armB - axesA * anchorsA[i];
@@ -231,18 +233,18 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				wanted.torqueB -= armB.cross(f.force);
 				wanted.energy += f.energy;
 				wanted.sum += f.force.norm();
-				wanted.largest = std::max(wanted.largest, f.force.squaredNorm());
+				wanted.largestSquared = std::max(wanted.largestSquared, f.force.squaredNorm());
 			}
 			EXPECT_EQ(pull.force, wanted.force);
 			EXPECT_EQ(pull.torqueA, wanted.torqueA);
 			EXPECT_EQ(pull.torqueB, wanted.torqueB);
 			EXPECT_EQ(pull.energy, wanted.energy);
 			EXPECT_EQ(pull.sum, wanted.sum);
-			EXPECT_EQ(pull.largest, wanted.largest);
+			EXPECT_EQ(pull.largestSquared, wanted.largestSquared);
 		}
 }
 
-/// Bodies of all shapes, slow ones beside those that turn so fast that the series do not do.
+/// Bodies of all shapes: slow ones beside fast ones, for which the series do not apply.
 TEST(LanesOfBodies, FreeRotationIsThatOfEachBody)
 {
 	Random random(6);
@@ -279,10 +281,10 @@ TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 		const Group<Lanes, const Vec3> all(points.data(), points.size());
 		const double limit = uniform(random, -0.05, 0.05);
 		for (int f = 0; f < int(wedge.faces.size()); ++f) {
-			const Lanes::Mask over = isOverFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInside(wedge, f, all.vectors(), Lanes(limit));
+			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInsideOtherFaces(wedge, f, all.vectors(), Lanes(limit));
 			for (int i = 0; i < laneCount; ++i) {
-				EXPECT_EQ(over[i] != 0, isOverFace<double>(wedge.faces[f], points[i], limit));
-				EXPECT_EQ(inside[i] != 0, isInside<double>(wedge, f, points[i], limit));
+				EXPECT_EQ(over[i] != 0, projectsOntoFace<double>(wedge.faces[f], points[i], limit));
+				EXPECT_EQ(inside[i] != 0, isInsideOtherFaces<double>(wedge, f, points[i], limit));
 			}
 		}
 	}

@@ -129,13 +129,14 @@ def test_other_shapes_are_left_to_yade():
         box(0.3)
         for x, speed in ((2, 1), (2.025, -1)):
             ball = yw.Body(shape=yw.Sphere(radius=0.01), material=O.materials[0])
+            ball.mask = 2  # of another group than the boxes: no functor has to exist for them
             ball.state.mass, ball.state.inertia = 4.2e-3, Vector3(1.7e-7, 1.7e-7, 1.7e-7)
             ball.state.pos, ball.state.vel = Vector3(x, 0, 0), Vector3(speed, 0, 0)
             O.bodies.append(ball)
         start(1e-5)
         bounds = scene.find_engine(yw.CollisionTrigger).collider.boundDispatcher
         bounds.functors = [*bounds.functors, yw.Bo1_Sphere_Aabb()]
-        loop = scene.interaction_loop()
+        loop = scene.find_engine(yw.ContactLoop).loop
         loop.geomDispatcher.functors = [*loop.geomDispatcher.functors, yw.Ig2_Sphere_Sphere_ScGeom()]
         loop.physDispatcher.functors = [*loop.physDispatcher.functors, yw.Ip2_FrictMat_FrictMat_FrictPhys()]
         loop.lawDispatcher.functors = [*loop.lawDispatcher.functors, yw.Law2_ScGeom_FrictPhys_CundallStrack()]
@@ -181,7 +182,7 @@ def test_patterns_and_shapes_that_change():
     """What is kept of a pair at rest is not taken for that of other patterns or other shapes."""
 
     def points(vertex_edge):
-        loop = scene.interaction_loop()
+        loop = scene.find_engine(yw.ContactLoop).loop
         loop.geomDispatcher.functors[0].vertexEdge = vertex_edge
         O.step()
         return len(yt.contacts(0, upper))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The entry `law` of a house file decides the engines."""
 import pytest
+import yade.wrapper as yw
 from yade import O
 from yade_timber.run.identity import identity
 from yade_timber.scene import engines, scenario
@@ -12,7 +13,7 @@ def built(tmp_path, law):
     path.write_text(f"extends: storehouse\nname: mine\nlaw: {law}\n")
     built = scenario.Scenario("law", str(path))
     model = scenario.build(built)
-    loop = engines.interaction_loop()
+    loop = engines.find_engine(yw.ContactLoop).loop
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, identity(built, model)

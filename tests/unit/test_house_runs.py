@@ -94,7 +94,7 @@ def test_drift_refers_to_the_height_of_its_own_storey():
     O.step()
     assert list(monitor.peak) == pytest.approx([0, 0.05, 0.075, 0.025])
     assert monitor.collapseTime == 0 and monitor.columns()[:4] == ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]"]
-    with pytest.raises(ValueError, match="heights must be > 0"):
+    with pytest.raises(ValueError, match="HouseMonitor.heights"):
         yt.HouseMonitor(heights=[2.0, 0.0])
 
 

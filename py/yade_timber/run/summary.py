@@ -11,7 +11,8 @@ from ..motion import interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
-from ..scene import engines as scene
+from ..scene import queries
+from ..scene.engines import find_engine
 from . import observer
 from .versions import versions
 
@@ -28,7 +29,7 @@ def summary(scenario, observed, wall_s):
     residual_drift, final_amplitude, still_moving: see recording/drift.py; events: recording/events.py; broken, columns: recording/damage.py.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
-    monitor, skipper = scene.find_engine(yw.HouseMonitor), scene.find_engine(yw.RestSkipper)
+    monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
     history = History(monitor.columns(), monitor.rows)
     tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
@@ -50,7 +51,7 @@ def summary(scenario, observed, wall_s):
         "threads": O.numThreads,
         "elements": len(O.bodies),
         "joints": survey.count_joints(),
-        "broken": survey.count_broken(state, len(scene.find_engine(yw.JointEngine).breaks)),
+        "broken": survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
         "columns": survey.count_columns(state),
         "leans_from_s": drift.lean_start(history, tilt, monitor.tiltDirection),
         "tilt_time_s": tilt,
@@ -64,7 +65,7 @@ def summary(scenario, observed, wall_s):
         "final_amplitude": drift.by_storey(amplitude),
         "still_moving": drift.still_moving(amplitude),
         "events": observed.log.records(),
-        "energy": energy_balance(scene.energy()),
+        "energy": energy_balance(queries.energy()),
         "versions": versions(),
     }
 
@@ -90,13 +91,13 @@ def record(scenario):
 
 
 def energy_balance(terms):
-    """The part `energy` [J] from the terms of `scene.energy`.
+    """The part `energy` [J] from the terms of `queries.energy`.
 
     input: work of the ground motion and potential energy released by gravity since the start. residual: stored, kinetic and dissipated energy minus
     the input; residual_fraction: its absolute value over the input, None without input.
     """
     ground = terms.get("ground_motion", 0.0)
-    supplied, residual = ground - terms["gravity"], scene.energy_residual(terms)
+    supplied, residual = ground - terms["gravity"], queries.energy_residual(terms)
     return {
         "input": _finite(supplied),
         "kinetic": _finite(terms["kinetic"]),
@@ -120,12 +121,12 @@ def _finite(value):
 def breaks_text(model):
     """Text of breaks.csv: every spring that broke, in order."""
     header = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")
-    return csv_text(header, (observer.break_row(entry, model) for entry in scene.find_engine(yw.JointEngine).breaks))
+    return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
 def write(folder, found, model):
     """Write the three files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
-    monitor = scene.find_engine(yw.HouseMonitor)
+    monitor = find_engine(yw.HouseMonitor)
     contents = {
         HISTORY: History(monitor.columns(), monitor.rows).text(),
         BREAKS: breaks_text(model),

@@ -4,6 +4,8 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
+from . import arguments
+
 TIMBER_DENSITY = 340.0
 """Japanese cypress. [kg/m3] (paper, section 3.4)"""
 TIMBER_YOUNG = 90e3 * 9.8e4
@@ -15,16 +17,27 @@ def timber(young=TIMBER_YOUNG, poisson=0.4, density=TIMBER_DENSITY, friction=0.5
 
     A pair of materials has the smaller of its two friction coefficients. Raises ValueError outside the physical range.
     """
-    return yw.TimberMat(young=young, poisson=poisson, density=density, friction=friction, label=label)
+    return yw.TimberMat(
+        young=arguments.number("timber: young", young, "Pa"),
+        poisson=arguments.number("timber: poisson", poisson),
+        density=arguments.number("timber: density", density, "kg/m3"),
+        friction=arguments.number("timber: friction", friction),
+        label=arguments.text("timber: label", label),
+    )
 
 
 def snow(density=90.0, stiffness_per_kg=3.948e4, friction=0.5, label=""):
     """Material of snow elements: density [kg/m3], contact stiffness per mass [N/m/kg] (paper, Table 1), friction [-]."""
-    return yw.SnowMat(density=density, stiffnessPerMass=stiffness_per_kg, friction=friction, label=label)
+    return yw.SnowMat(
+        density=arguments.number("snow: density", density, "kg/m3"),
+        stiffnessPerMass=arguments.number("snow: stiffness_per_kg", stiffness_per_kg, "N/m/kg"),
+        friction=arguments.number("snow: friction", friction),
+        label=arguments.text("snow: label", label),
+    )
 
 
 def to_digits(corners):
-    """Corners to 13 digits of their extent: equal elements in different places of a street get equal numbers and share their geometry. [m]"""
+    """Corners to 13 digits of their extent: equal elements at different positions of a street get equal numbers and share their geometry. [m]"""
     digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
     return np.round(corners / digit) * digit + 0.0  # no negative zeros
 
@@ -36,32 +49,29 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     material  from `timber()` or `snow()`; default timber
     fixed     whether it never moves
     radius    rounding radius [m]; None: 10 % of the shortest edge (paper, section 2.2)
+    color     (3,) RGB, 0 to 1; None: YADE's default
     Raises ValueError when the vertices are no corners of a convex polyhedron or the radius leaves no core, TypeError for a
     material of another kind.
     """
-    if material is not None and not isinstance(material, (yw.TimberMat, yw.SnowMat)):
-        raise TypeError(f"material {type(material).__name__}: it must come from timber() or snow()")
-    vertices = np.asarray(vertices, float)
-    if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise ValueError(f"vertices of shape {vertices.shape}: they must be (n, 3), n >= 4")
-    if radius is not None and not radius > 0:
-        raise ValueError(f"radius = {radius} m: it must be > 0, or None for 10 % of the shortest edge")
+    material = timber() if material is None else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
+    fixed = arguments.flag("fixed", fixed)
+    radius = 0 if radius is None else arguments.positive("radius", radius, "m")
+    name, kind = arguments.text("name", name), arguments.text("kind", kind)
+    vertices = arguments.points("vertices", vertices)
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
-    raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius or 0)
+    raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
     volume, centroid, inertia, axes = raw.massProperties()
     axes = Quaternion(axes)
     corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
     local = [Vector3(*v) for v in to_digits(corners)]
-    turned = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
+    principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius or 0, name=name, kind=kind)
-    if color is not None:
-        body.shape.color = Vector3(*color)
-    body.material = material if material is not None else timber()
-    density = body.material.density
-    body.state.mass = density * volume
-    body.state.inertia = density * Vector3(turned[0, 0], turned[1, 1], turned[2, 2])
+    look = {} if color is None else {"color": arguments.vector("color", color)}
+    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius, name=name, kind=kind, **look)
+    body.material = material
+    body.state.mass = material.density * volume
+    body.state.inertia = material.density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
     body.state.pos = body.state.refPos = Vector3(*origin) + centroid
     body.state.ori = body.state.refOri = axes
     body.bound = yw.Aabb()
@@ -74,20 +84,25 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):
     """Rectangular parallelepiped: extents (3,) full edge lengths [m], centre (3,) [m], orientation a Quaternion or None.
 
-    The rest as in `polyhedron`. Raises ValueError for extents that are not all finite and > 0.
+    The other arguments are those of `polyhedron`. Raises ValueError for extents that are not all finite and > 0.
     """
-    extents, centre = np.asarray(extents, float), np.asarray(centre, float)
-    if extents.shape != (3,) or not (np.isfinite(extents).all() and (extents > 0).all()):
-        raise ValueError(f"extents = {extents}: they must be three finite lengths > 0")
+    form = "three finite lengths > 0 [m]"
+    extents = arguments.numbers_of_shape("extents", extents, (3,), form)
+    if not (extents > 0).all():
+        arguments.refuse(ValueError, "extents", extents, form)
+    centre = np.array(arguments.vector("centre", centre, "m"))
     corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * extents
     if orientation is not None:
+        arguments.instance("orientation", orientation, Quaternion, "a Quaternion or None")
         corners = np.array([orientation * Vector3(*c) for c in corners])
     return polyhedron(corners + centre, material, fixed, radius, name, kind, color)
 
 
 def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
-    """Give a body a velocity (3,) [m/s] and angular velocity (3,) [rad/s], world frame: the integrator goes by its momenta."""
-    body.state.vel, body.state.angVel = Vector3(*velocity), Vector3(*angular_velocity)
+    """Give a body a velocity (3,) [m/s] and an angular velocity (3,) [rad/s], world frame, and the angular momentum that the integrator needs."""
+    arguments.instance("body", body, yw.Body, "a Body")
+    body.state.vel = arguments.vector("velocity", velocity, "m/s")
+    body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")
     body.state.angMom = angular_momentum(body)
 
 

@@ -7,6 +7,7 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import write_text
 from . import engines
+from .joints import joins_bodies
 
 O = yw.Omega()
 
@@ -33,7 +34,7 @@ def export_scene(path):
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": [describe_joint(joint) for joint in joint_engine.joints if engines.joins_bodies(joint)] if joint_engine else [],
+        "joints": [describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine else [],
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 

@@ -11,6 +11,8 @@ from ..house import build_house, load_house
 from ..house.errors import StepError
 from ..house.friction import own_coefficient
 from . import bodies, engines
+from .joints import make_joint
+from .queries import stable_dt
 
 O = yw.Omega()
 
@@ -58,7 +60,7 @@ def build(scenario, stride=REST_STRIDE):
 
 def check_step(model):
     """Raise StepError when the joints, which have no dashpots, are too stiff for the time step, as between light members."""
-    limit = engines.stable_dt(JOINT_SAFETY)
+    limit = stable_dt(JOINT_SAFETY)
     if O.dt > limit:
         fault = f"a time step of {O.dt:g} s is too large for the joints between the lightest members"
         raise StepError(f"{model.name}: {fault}: take at most {limit:.2g} s (--dt), or less stiff joints")
@@ -96,12 +98,7 @@ def make_material(name, spec, model):
 
 def add_joints(model, ids):
     """TimberJoints of the model, between the bodies in their present placement."""
-    return [
-        engines.make_joint(
-            O.bodies[ids[j.a]], O.bodies[ids[j.b]], ids[j.a], ids[j.b], j.points, j.normal, j.kn, j.ks, j.strength, j.per, j.kind, j.name, j.broken
-        )
-        for j in model.joints
-    ]
+    return [make_joint(ids[j.a], ids[j.b], j) for j in model.joints]
 
 
 def level_marks(model, structure):

@@ -6,9 +6,9 @@ import yade.wrapper as yw
 
 BACKGROUND = (0.80, 0.87, 0.93)
 DIRECTION = (0.72, 0.64, 0.30)
-"""From the house to the camera: to the north-east, above. [-]"""
+"""Direction from the house to the camera: north-east, above. [-]"""
 DISTANCE = 1.15
-"""Of the camera, in diagonals of the house. [-]"""
+"""Distance of the camera over the diagonal of the house. [-]"""
 
 O = yw.Omega()
 
@@ -24,9 +24,9 @@ def show():
     renderer.bgColor = Vector3(*BACKGROUND)
     renderer.extraDrawers = [yw.GlExtra_TimberJoints(cross=0.1)]
     view = qt.View()
-    places = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
-    low, high = places.min(0), places.max(0)
+    centres = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
+    low, high = centres.min(0), centres.max(0)
     centre = (low + high) / 2
     eye = centre + DISTANCE * np.linalg.norm(high - low) * np.array(DIRECTION)
-    view.eyePosition, view.upVector, view.lookAt = Vector3(*eye), Vector3.UnitZ, Vector3(*centre)  # the direction is taken from the position
+    view.eyePosition, view.upVector, view.lookAt = Vector3(*eye), Vector3.UnitZ, Vector3(*centre)  # order: YADE computes the view direction from the position
     return view

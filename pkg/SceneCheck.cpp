@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <CollisionTrigger.hpp>
+#include <ContactLoop.hpp>
+#include <Materials.hpp>
+#include <SceneCheck.hpp>
+#include <Shape.hpp>
+#include <bodies.hpp>
+#include <core/InteractionLoop.hpp>
+#include <pkg/common/Collider.hpp>
+#include <set>
+
+namespace yade {
+
+namespace {
+	bool isKindOf(const string& name, const string& base) { return name == base || Omega::instance().isInheritingFrom_recursive(name, base); }
+
+	/// Task of an engine. Engines of a lower rank come before those of a higher one.
+	struct Role {
+		const char*              name;
+		int                      rank;
+		bool                     isRequired;
+		std::vector<const char*> classes;
+	};
+	const std::vector<Role> roles {
+		{ "HealthCheck", 0, false, { "HealthCheck" } },
+		{ "ForceResetter", 0, true, { "ForceResetter" } },
+		{ "a collider (CollisionTrigger)", 1, true, { "CollisionTrigger", "Collider" } },
+		{ "a contact loop (ContactLoop)", 2, true, { "ContactLoop", "InteractionLoop" } },
+		{ "JointEngine", 3, false, { "JointEngine" } },
+		{ "gravity", 3, false, { "UniformGravity", "FieldApplier" } },
+		{ "GroundMotionEngine", 3, false, { "GroundMotionEngine" } },
+		{ "ContactForces", 4, true, { "ContactForces" } },
+		{ "an integrator (SymplecticIntegrator)", 5, true, { "SymplecticIntegrator", "NewtonIntegrator" } },
+		{ "HouseMonitor", 6, false, { "HouseMonitor" } },
+		{ "RestSkipper", 7, false, { "RestSkipper" } },
+	};
+
+	/// Null for an engine that the rules do not concern.
+	const Role* roleOf(const Engine& engine)
+	{
+		const string name  = engine.getClassName();
+		const auto   match = [&](const Role& role) { return std::any_of(role.classes.begin(), role.classes.end(), [&](const char* base) { return isKindOf(name, base); }); };
+		const auto   found = std::find_if(roles.begin(), roles.end(), match);
+		return found == roles.end() ? nullptr : &*found;
+	}
+
+	[[noreturn]] void refuseEngines(const string& fault) { throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list"); }
+
+	[[noreturn]] void refuseBody(const Body& b, const string& fault) { throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault); }
+
+	bool isRounded(const Body& b) { return dynamic_cast<const RoundedPolyhedron*>(b.shape.get()); }
+
+	/// The scene's contact loop, alone or in a ContactLoop.
+	const InteractionLoop& findLoop(const Scene& scene)
+	{
+		const auto* wrapper = findEngine<ContactLoop>(scene);
+		const auto* loop    = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get()) : findEngine<InteractionLoop>(scene);
+		if (!loop) refuseEngines("ContactLoop.loop is no InteractionLoop");
+		return *loop;
+	}
+
+	/// The scene's collider, alone or in a CollisionTrigger.
+	const Collider& findCollider(const Scene& scene)
+	{
+		const auto* wrapper  = findEngine<CollisionTrigger>(scene);
+		const auto* collider = wrapper ? dynamic_cast<Collider*>(wrapper->collider.get()) : findEngine<Collider>(scene);
+		if (!collider) refuseEngines("CollisionTrigger.collider is no collider");
+		return *collider;
+	}
+
+	/// Whether one of the functors takes a pair of classes, in either order.
+	template <class Functors> bool dispatches(const Functors& functors, const string& a, const string& b)
+	{
+		return std::any_of(functors.begin(), functors.end(), [&](const auto& f) {
+			const string first = f->get2DFunctorType1(), second = f->get2DFunctorType2();
+			return (isKindOf(a, first) && isKindOf(b, second)) || (isKindOf(b, first) && isKindOf(a, second));
+		});
+	}
+
+	/// One body of each combination of shape, material and group. Bodies without a shape or a bounding box never touch others.
+	std::vector<const Body*> kindsOfBodies(const Scene& scene)
+	{
+		std::set<std::tuple<int, int, mask_t>> known;
+		std::vector<const Body*>               kinds;
+		for (const shared_ptr<Body>& b : *scene.bodies)
+			if (b && b->shape && b->isBounded() && known.emplace(b->shape->getClassIndex(), b->material ? b->material->getClassIndex() : -1, b->groupMask).second) kinds.push_back(b.get());
+		return kinds;
+	}
+
+	[[noreturn]] void refusePair(const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
+	{
+		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId()) + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB);
+	}
+
+	void checkPair(const InteractionLoop& loop, const Body& a, const Body& b)
+	{
+		const string shapeA = a.shape->getClassName(), shapeB = b.shape->getClassName();
+		if (!dispatches(loop.geomDispatcher->functors, shapeA, shapeB)) refusePair(a, b, "Ig2", shapeA, shapeB);
+		if (!isRounded(a) || !isRounded(b)) return; // laws of other packages
+		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
+		if (!dispatches(loop.physDispatcher->functors, materialA, materialB)) refusePair(a, b, "Ip2", materialA, materialB);
+		const bool   isSnow = materialA == "SnowMat" || materialB == "SnowMat";
+		const string phys   = isSnow ? "SnowPhys" : "TimberPhys";
+		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", phys)) refusePair(a, b, "Law2", "ManifoldGeom", phys);
+	}
+}
+
+void checkEngines(const Scene& scene)
+{
+	std::map<const Role*, int> count;
+	const Role*                last = nullptr;
+	for (const shared_ptr<Engine>& engine : scene.engines) {
+		const Role* role = roleOf(*engine);
+		if (!role) continue;
+		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor")) refuseEngines(string(role->name) + " is there twice");
+		if (last && role->rank < last->rank) refuseEngines(string(role->name) + " must come before " + last->name);
+		last = role;
+	}
+	for (const Role& role : roles)
+		if (role.isRequired && count[&role] == 0) refuseEngines(string(role.name) + " is missing");
+}
+
+void checkContacts(const Scene& scene)
+{
+	if (scene.isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
+	const InteractionLoop&         loop  = findLoop(scene);
+	const auto&                    boxes = findCollider(scene).boundDispatcher->functors;
+	const std::vector<const Body*> kinds = kindsOfBodies(scene);
+	for (const Body* b : kinds)
+		if (isRounded(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) { return f->get1DFunctorType1() == "RoundedPolyhedron"; }))
+			refuseEngines("the collider has no Bo1_RoundedPolyhedron_Aabb");
+	for (size_t i = 0; i < kinds.size(); ++i)
+		for (size_t k = i; k < kinds.size(); ++k)
+			if ((isRounded(*kinds[i]) || isRounded(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask)) checkPair(loop, *kinds[i], *kinds[k]);
+}
+
+void checkBody(const Body& b)
+{
+	if (b.isClump()) refuseBody(b, "a clump is not supported: make one convex polyhedron of it, or join its parts");
+	if (!b.state) refuseBody(b, "it has no state");
+	const State& s = *b.state;
+	if (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) refuseBody(b, "some degrees of freedom are blocked: contacts allow for free and fixed bodies only");
+	if (isFree(s) && !(s.mass > 0 && std::isfinite(s.mass) && (s.inertia.array() > 0).all() && s.inertia.allFinite())) {
+		std::ostringstream fault;
+		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose() << " kg m2: they must be finite and > 0";
+		refuseBody(b, fault.str());
+	}
+	const auto* shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
+	if (!shape) return;
+	if (shape->vertices.empty()) refuseBody(b, "its shape has no vertices");
+	const auto* material = dynamic_cast<const ElementMat*>(b.material.get());
+	if (!material || material->getClassIndex() == ElementMat::getClassIndexStatic())
+		refuseBody(b, "material " + (b.material ? b.material->getClassName() : string("None")) + ": it must be a TimberMat or SnowMat");
+}
+
+} // namespace yade

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Checks of a scene before a step. Errors in YADE's contact loop end the process, so they have to be found before it runs.
+#pragma once
+#include <pch.hpp>
+
+namespace yade {
+
+/// The list of engines is complete, without doubles and in order. Throws std::runtime_error.
+void checkEngines(const Scene&);
+
+/// Each pair of shapes, materials and contact laws that can occur has a functor; the cell is not periodic. Throws std::runtime_error.
+void checkContacts(const Scene&);
+
+/// Shape, material, state and mass of a body are those that the package's engines can deal with. Throws std::runtime_error.
+void checkBody(const Body&);
+
+} // namespace yade

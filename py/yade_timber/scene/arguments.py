@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of what users pass to the package's functions: one line that names the argument, its value and the admissible form."""
+import math
+import numbers
+import reprlib
+
+import numpy as np
+from yade.minieigenHP import Vector3
+
+
+def shown(value):
+    """A value in one short line."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def refuse(error, name, value, form):
+    """Raise an error such as "snow: density = 'heavy': it must be a finite number [kg/m3]". name: "function: argument"."""
+    raise error(f"{name} = {shown(value)}: it must be {form}") from None
+
+
+def number(name, value, unit="-"):
+    """A finite real number. Ranges of attributes are checked by the classes themselves."""
+    if not isinstance(value, numbers.Real):
+        refuse(TypeError, name, value, f"a finite number [{unit}]")
+    if not math.isfinite(value):
+        refuse(ValueError, name, value, f"a finite number [{unit}]")
+    return float(value)
+
+
+def positive(name, value, unit="-", infinite=False):
+    """A number > 0; `infinite`: whether infinity is admissible."""
+    form = f"a {'' if infinite else 'finite '}number > 0 [{unit}]"
+    if not isinstance(value, numbers.Real):
+        refuse(TypeError, name, value, form)
+    if not (value > 0 and (infinite or math.isfinite(value))):
+        refuse(ValueError, name, value, form)
+    return float(value)
+
+
+def count(name, value):
+    """An integer >= 0 that fits into a C++ int."""
+    form = f"an integer from 0 to {2**31 - 1}"
+    if not isinstance(value, numbers.Integral):
+        refuse(TypeError, name, value, form)
+    if not 0 <= value < 2**31:
+        refuse(ValueError, name, value, form)
+    return int(value)
+
+
+def flag(name, value):
+    """True or False, 1 or 0."""
+    if not isinstance(value, (bool, np.bool_, numbers.Integral)) or value not in (0, 1):
+        refuse(TypeError, name, value, "True or False")
+    return bool(value)
+
+
+def text(name, value):
+    """A string."""
+    if not isinstance(value, str):
+        refuse(TypeError, name, value, "a string")
+    return value
+
+
+def instance(name, value, kinds, form):
+    """An object of one of some classes."""
+    if not isinstance(value, kinds):
+        refuse(TypeError, name, value, form)
+    return value
+
+
+def numbers_of_shape(name, value, shape, form):
+    """Array of finite numbers; a length of None in `shape` stands for any length > 0."""
+    try:
+        array = np.array(value, float, ndmin=len(shape))
+    except (TypeError, ValueError):
+        refuse(TypeError, name, value, form)
+    if array.ndim != len(shape) or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape)) or not np.isfinite(array).all():
+        refuse(ValueError, name, value, form)
+    return array
+
+
+def vector(name, value, unit="-"):
+    """Vector3 of three finite numbers."""
+    return Vector3(*numbers_of_shape(name, value, (3,), f"three finite numbers [{unit}]"))
+
+
+def points(name, value, unit="m"):
+    """(n, 3) array of finite numbers, n >= 1."""
+    return numbers_of_shape(name, value, (None, 3), f"finite and of shape (n, 3), n >= 1 [{unit}]")

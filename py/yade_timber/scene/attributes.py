@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Assignment to attributes of the package's classes.
+
+YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both for
+the classes that it is given: unknown names are refused, and after a refused value the object is as before.
+"""
+import difflib
+import re
+from contextlib import contextmanager
+
+import yade.wrapper as yw
+
+from .arguments import shown
+from .background import between_steps
+
+FORMS = {
+    "Real": "a number",
+    "int": "an integer",
+    "long": "an integer",
+    "bool": "True or False",
+    "string": "a string",
+    "Vector3r": "three numbers",
+    "vector<Real>": "a list of numbers",
+    "vector<int>": "a list of integers",
+    "vector<Vector3r>": "a list of vectors",
+}
+"""YADE's name of a type -> admissible form."""
+REGISTERED = re.compile(r":yattrtype:`(.*?)`")
+"""In the documentation of an attribute that is saved with the scene; other properties have none."""
+CONVERSION_ERRORS = (TypeError, OverflowError)
+"""Of Boost.Python for a value of another type."""
+
+VALIDATED_OF_YADE = ("density",)
+"""Attributes of YADE's base classes on which the package's classes depend."""
+
+_guarded = set()
+_update_attributes = yw.Serializable.updateAttrs
+
+
+def guard(classes):
+    """Install the rules of this module on classes of yade.wrapper."""
+    _guarded.update(classes)
+    for cls in classes:
+        cls.__init__ = _initialiser(cls.__init__)
+        cls.__setattr__ = _set_attribute
+        cls.updateAttrs = _update
+
+
+def _set_attribute(self, name, value):
+    cls = type(self)
+    attribute = getattr(cls, name, None)
+    if not isinstance(attribute, property):
+        if cls.__module__ != yw.__name__ or name.startswith("__"):  # a Python subclass has attributes of its own
+            return object.__setattr__(self, name, value)
+        raise AttributeError(_unknown(cls, name))
+    if attribute.fset is None:
+        raise AttributeError(f"{cls.__name__}.{name} is read-only")
+    with _restored(self):
+        _assign(self, attribute, name, value)
+
+
+def _assign(self, attribute, name, value):
+    """Set an attribute, then have the object validated: not all setters of YADE do so."""
+    try:
+        attribute.fset(self, value)
+    except CONVERSION_ERRORS:
+        raise TypeError(_wrong_type(type(self), attribute, name, value)) from None
+    owner = next(c for c in type(self).__mro__ if name in vars(c))
+    if name in VALIDATED_OF_YADE or (owner in _guarded and REGISTERED.search(attribute.__doc__ or "")):
+        _update_attributes(self, {name: attribute.fget(self)})
+
+
+def _update(self, attributes):
+    """Update object attributes from given dictionary"""
+    with _restored(self), _named_errors(type(self), attributes):
+        _update_attributes(self, attributes)
+
+
+class _restored:
+    """Context between two steps: an exception leaves the object's attributes as they were."""
+
+    def __init__(self, target):
+        self.target, self.pause = target, between_steps()
+
+    def __enter__(self):
+        self.pause.__enter__()
+        self.before = self.target.dict()
+
+    def __exit__(self, kind, error, trace):
+        if error is not None:
+            try:
+                _update_attributes(self.target, self.before)
+            except ValueError:  # the object was not complete before, either; its attributes are set all the same
+                pass
+        return self.pause.__exit__(kind, error, trace)
+
+
+def _initialiser(construct):
+    """Constructor whose errors name the keyword."""
+
+    def __init__(self, *args, **attributes):
+        with _named_errors(type(self), attributes):
+            construct(self, *args, **attributes)
+
+    return __init__
+
+
+@contextmanager
+def _named_errors(cls, attributes):
+    """Context in which several attributes are set: errors of YADE and Boost name the attribute and its admissible form."""
+    try:
+        yield
+    except (AttributeError, *CONVERSION_ERRORS):
+        for name, value in attributes.items():
+            _check_keyword(cls, name, value)
+        raise
+
+
+def _check_keyword(cls, name, value):
+    """Raise an error that names a keyword if it is unknown or its value has another type than its attribute."""
+    attribute = getattr(cls, name, None)
+    if not isinstance(attribute, property):
+        raise AttributeError(_unknown(cls, name)) from None
+    try:
+        _update_attributes(cls(), {name: value})
+    except CONVERSION_ERRORS:
+        raise TypeError(_wrong_type(cls, attribute, name, value)) from None
+    except ValueError:  # of the right type
+        pass
+
+
+def _unknown(cls, name):
+    """Message about a name that a class does not have."""
+    known = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
+    near = difflib.get_close_matches(name, known, 1, 0.5)
+    return f"{cls.__name__} has no attribute {name}" + (f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}")
+
+
+def _wrong_type(cls, attribute, name, value):
+    """Message about a value of a wrong type."""
+    found = REGISTERED.search(attribute.__doc__ or "")
+    kind = found.group(1).strip() if found else "value"
+    return f"{cls.__name__}.{name} = {shown(value)}: it must be {FORMS.get(kind, f'a {kind}')}"

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Changes to a scene while YADE computes it in the background.
+
+YADE's containers are not locked: a body that is erased within a step ends the process. `guard` lets such changes wait for
+the end of the step. It also refuses a body's shape, material or state that the package's engines cannot deal with.
+"""
+import threading
+from contextlib import contextmanager
+
+import yade.wrapper as yw
+
+BODY_METHODS = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember")
+INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
+BODY_PARTS = ("shape", "material", "state")
+
+O = yw.Omega()
+
+
+@contextmanager
+def between_steps():
+    """Context in which no step is computed; a run in the background goes on afterwards."""
+    if not O.running or _computes_steps():
+        yield
+        return
+    limits = O.stopAtIter, O.stopAtTime
+    _plugin.finish_step()
+    ended = limits != (O.stopAtIter, O.stopAtTime)  # the run had reached its last step
+    try:
+        yield
+    finally:
+        if not ended:
+            O.run()
+
+
+def _computes_steps():
+    """Whether this thread computes the steps and is in a PyRunner: YADE, not Python, has started it."""
+    return isinstance(threading.current_thread(), threading._DummyThread)
+
+
+def guard(plugin):
+    """Install the rules of this module on YADE's containers and bodies. plugin: the compiled module."""
+    global _plugin
+    _plugin = plugin
+    for container, methods in ((yw.BodyContainer, BODY_METHODS), (yw.InteractionContainer, INTERACTION_METHODS)):
+        for name in methods:
+            if hasattr(container, name):  # it depends on YADE's version
+                setattr(container, name, _deferred(getattr(container, name)))
+    for name in BODY_PARTS:
+        setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
+
+
+def _deferred(method):
+    """A container's method, called between two steps."""
+
+    def call(self, *args, **options):
+        with between_steps():
+            return method(self, *args, **options)
+
+    call.__name__, call.__doc__ = method.__name__, method.__doc__
+    return call
+
+
+def _checked(name, part):
+    """Property of a body that is set between two steps; elements in the scene are checked, and keep their part if it is refused."""
+
+    def set_part(body, value):
+        with between_steps():
+            before = part.fget(body)
+            is_element = isinstance(body.shape, yw.RoundedPolyhedron)
+            part.fset(body, value)
+            if is_element and body.id >= 0:
+                try:
+                    _check(body, name)
+                except (RuntimeError, ValueError) as error:
+                    part.fset(body, before)
+                    raise ValueError(str(error)) from None
+
+    return property(part.fget, set_part, doc=part.__doc__)
+
+
+def _check(body, name):
+    """Raise an error if an element of the scene cannot be computed with its new part."""
+    if body.shape is None:
+        raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out")
+    _plugin.check_replaced_part(body)
+    if name == "shape":  # the functors of its contacts are those of the old one
+        for interaction in body.intrs():
+            O.interactions.erase(interaction.id1, interaction.id2)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints between bodies of the scene that is loaded in YADE."""
+from dataclasses import dataclass
+
+import numpy as np
+import yade.wrapper as yw
+from yade.minieigenHP import Vector3
+
+from . import arguments
+from .engines import find_engine
+
+JOINT_READINGS = {"spring": False, "joint": True}
+"""Owner of stiffness and strength -> TimberJoint.perJoint."""
+
+O = yw.Omega()
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Springs of a joint: the attributes of `house.model.JointSpec` that `make_joint` needs, meaning as in `connect`."""
+
+    points: np.ndarray
+    normal: np.ndarray
+    kn: float
+    ks: float
+    strength: float
+    per: str
+    kind: str = ""
+    name: str = ""
+    broken: bool = False
+
+
+def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name=""):
+    """Join two bodies with springs at `points`; returns the TimberJoint, whose `.springs` give force, stretch and break.
+
+    points     (n, 3) world frame [m]: the springs are unstretched in the present placement
+    normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
+    stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
+    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown reading.
+    """
+    require_bodies("connect", id1, id2)
+    if id1 == id2:
+        raise ValueError(f"connect: body {id1} cannot be joined with itself")
+    springs = checked_springs(points, normal, stiffness, strength, per, kind, name)
+    engine = find_engine(yw.JointEngine) or add_joint_engine()
+    joint = make_joint(id1, id2, springs)
+    engine.append(joint)
+    return joint
+
+
+def checked_springs(points, normal, stiffness, strength, per, kind, name):
+    """Springs of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
+    if not isinstance(per, str) or per not in JOINT_READINGS:
+        arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(JOINT_READINGS)}")
+    points = arguments.points("connect: points", points)
+    if normal is not None:
+        normal = arguments.vector("connect: normal", normal)
+        if not any(normal):
+            arguments.refuse(ValueError, "connect: normal", normal, "not zero")
+    kn, ks = arguments.numbers_of_shape("connect: stiffness", stiffness, (2,), "two finite numbers > 0 [N/m]")
+    kn, ks = arguments.positive("connect: stiffness[0]", kn, "N/m"), arguments.positive("connect: stiffness[1]", ks, "N/m")
+    strength = arguments.positive("connect: strength", strength, "N", infinite=True)
+    return Springs(points, normal, kn, ks, strength, per, arguments.text("connect: kind", kind), arguments.text("connect: name", name))
+
+
+def add_joint_engine():
+    """A new JointEngine, put behind the contact loop of `O.engines`."""
+    chain = list(O.engines)
+    behind = next((k + 1 for k, e in enumerate(chain) if isinstance(e, (yw.ContactLoop, yw.InteractionLoop))), None)
+    if behind is None:
+        raise ValueError("connect: set O.engines = yade_timber.engines(...) first")
+    engine = yw.JointEngine()
+    O.engines = chain[:behind] + [engine] + chain[behind:]
+    return engine
+
+
+def make_joint(id1, id2, springs):
+    """TimberJoint between two bodies of the scene in their present placement; springs: Springs or a house's JointSpec."""
+    s1, s2 = O.bodies[id1].state, O.bodies[id2].state
+    points = [Vector3(*p) for p in springs.points]
+    direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    return yw.TimberJoint(
+        id1=id1,
+        id2=id2,
+        anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
+        anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
+        normal=s1.ori.conjugate() * direction.normalized(),
+        kn=springs.kn,
+        ks=springs.ks,
+        strength=springs.strength,
+        perJoint=JOINT_READINGS[springs.per],
+        broken=[int(springs.broken)] * len(points),
+        kind=springs.kind,
+        name=springs.name,
+    )
+
+
+def require_ids(caller, *ids):
+    """Raise ValueError unless each id is that of a body of the scene, present or erased: YADE would read beyond its list."""
+    for body in ids:
+        if not isinstance(body, (int, np.integer)) or not 0 <= body < len(O.bodies):
+            raise ValueError(f"{caller}: there is no body {arguments.shown(body)}; bodies have the ids 0 ... {len(O.bodies) - 1}")
+
+
+def require_bodies(caller, *ids):
+    """Raise ValueError unless each id is that of a body in the scene."""
+    require_ids(caller, *ids)
+    for body in ids:
+        if O.bodies[body] is None:
+            raise ValueError(f"{caller}: body {body} was taken out")
+
+
+def joins_bodies(joint):
+    """Whether both bodies of a TimberJoint are still in the scene."""
+    return all(0 <= body < len(O.bodies) and O.bodies[body] is not None for body in (joint.id1, joint.id2))

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Contacts, energies and stable time step of the scene that is loaded in YADE."""
+import numpy as np
+import yade.wrapper as yw
+from yade.minieigenHP import Vector3
+
+from . import arguments
+from .engines import find_engine
+from .joints import require_ids
+
+O = yw.Omega()
+
+
+def contacts(id1, id2):
+    """Contact points between two bodies: list of dictionaries, world frame.
+
+    position [m], normal (from id1 to id2), overlap [m], normal_force [N] (elastic and dashpot, >= 0), shear_force (3,) on
+    id2 [N]. Empty when they do not touch. Forces are those of the last step. Raises ValueError for an id that no body ever had.
+    """
+    require_ids("contacts", id1, id2)
+    interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
+    if interaction is None or not interaction.isReal:
+        return []
+    sign = 1 if interaction.id1 == id1 else -1
+    forces = {f[0]: f[1:] for f in interaction.phys.points}
+    found = []
+    for position, normal, overlap, feature in interaction.geom.points:
+        elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
+        along = dashpot.dot(normal)
+        found.append(
+            {
+                "position": position,
+                "normal": sign * normal,
+                "overlap": overlap,
+                "normal_force": elastic + along,
+                "shear_force": sign * (shear + dashpot - along * normal),
+            }
+        )
+    return found
+
+
+def energy():
+    """Terms of the energy balance of the scene now. [J]
+
+    kinetic; gravity (potential, from the reference placement); elastic_contacts, elastic_joints; ground_motion
+    (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
+    vanished under load). kinetic + gravity + elastic + dissipated - ground_motion is constant.
+    """
+    return dict(yw.HouseMonitor().energy())
+
+
+def energy_residual(terms):
+    """Residual of the balance of `energy()` [J]; zero at the start of a scene at rest."""
+    arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
+    return sum(value for name, value in terms.items() if name != "ground_motion") - terms.get("ground_motion", 0.0)
+
+
+def stable_dt(safety=0.5):
+    """Largest stable time step of the elastic contacts and joints as they are now, times `safety`. [s]
+
+    2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
+    M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0)
+    and for joints; implicit contacts (the default) are stable beyond it. Contacts that do not touch yet do not count: ask after a
+    few steps, or leave a safety for impacts. Infinite when nothing touches.
+    """
+    arguments.positive("stable_dt: safety", safety)
+    solver = find_engine(yw.ContactForces)
+    if solver is None:
+        raise ValueError("stable_dt: set O.engines = yade_timber.engines(...) first")
+    squared = solver.largestEigenvalue()
+    return safety * 2 / np.sqrt(squared) if squared > 0 else np.inf
