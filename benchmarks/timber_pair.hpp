@@ -13,7 +13,7 @@ class TimberPair {
 	const Vec3 still = Vec3::Zero();
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	std::vector<PointState> states;
+	std::vector<PointRecord> records;
 	std::vector<SolverBody> bodies;
 	ContactSolver solver;
 	HertzLaw law { 0, 0.1 }; ///< such that the points carry the body
@@ -27,12 +27,12 @@ class TimberPair {
 		bodies[1].position = poseB.position;
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
 		bodies[1].newSpin = bodies[1].spin;
-		solver.clear(50);
+		solver.begin(50);
 		solver.addPair(0, 1, points.size());
-		prepareContacts(solver, 0, bodies, properties, 1, h, false, points, states);
+		prepareContacts({ solver, bodies, h }, 0, properties, false, points, records);
 		passes += solver.solve(bodies, 1e-3);
 		++steps;
-		storeForces(solver, 0, bodies, properties, h, states, nullptr);
+		storeForces({ solver, bodies, h }, 0, properties, records, nullptr);
 	}
 
 public:
@@ -67,8 +67,8 @@ public:
 	{
 		geometry(k);
 		if (points.empty()) return;
-		const BodyMotion a { poseA.position, still, still }, b { poseB.position, still, still };
-		elasticPair(law, properties, a, b, h, NormalForm::Closed, steps == 0, points, states);
+		const BodyKinematics a { poseA.position, still, still }, b { poseB.position, still, still };
+		elasticPair(law, { properties, a, b, h, NormalForm::Closed, steps == 0 }, points, records);
 		damped();
 	}
 	Found found()

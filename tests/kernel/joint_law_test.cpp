@@ -81,7 +81,7 @@ TEST(BreakCause, LargerComponentAndItsSign)
 
 namespace {
 
-/// Springs between two points on each other: body A at the origin, body B displaced and moving.
+/// Springs between body A, at rest at the origin, and body B, at the same place, with anchors off by the stretches.
 struct Joint {
 	JointStiffness stiffness { 1000, 1000 };
 	JointStrength strength;
@@ -89,7 +89,7 @@ struct Joint {
 	std::vector<Vec3> anchorsA, anchorsB, stretches, forces;
 	std::vector<int> broken;
 
-	/// stretches of the springs [m]
+	/// stretched: stretches of the springs [m]
 	Joint(const JointStrength& s, const std::vector<Vec3>& stretched)
 	        : strength(s)
 	        , anchorsA(stretched.size(), Vec3(Vec3::Zero()))
@@ -155,7 +155,7 @@ TEST(BreakRule, BrokenSpringsNeitherLoadNorBreakAgain)
 	for (const bool perJoint : { false, true }) {
 		Joint joint({ perJoint ? 115. : 65., perJoint }, uneven);
 		joint.broken[2] = 1;
-		EXPECT_EQ(joint.breaking(), Indices {}) << perJoint; // 110 N are left, of which 60 N in one spring
+		EXPECT_EQ(joint.breaking(), Indices {}) << perJoint; // the others carry 110 N, one of them 60 N
 		joint.strength.limit = 20;
 		EXPECT_EQ(joint.breaking(), perJoint ? (Indices { 0, 1, 3 }) : (Indices { 0, 1 }));
 		EXPECT_EQ(joint.forces[2], Vec3(Vec3::Zero()));
@@ -185,6 +185,6 @@ TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
 	Joint joint({ 1, false }, { { 0, 0, 0.1 } });
 	joint.velocity = { 0, 0, 2 };
 	const double earlier = 0.1 - joint.h / 2 * 2;
-	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 is left
+	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
 	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
 }
