@@ -60,8 +60,9 @@ def test_joint_built_attribute_by_attribute():
 
 def test_refused_length_leaves_the_springs():
     joint = yw.TimberJoint(**{**JOINT, "anchors1": [(0, 0, 0)] * 4, "anchors2": [(0, 0, 0)] * 4, "broken": [0, 1, 0, 0]})
-    with pytest.raises(ValueError):
-        joint.anchors1 = [(0, 0, 0)]
+    for anchors in ([(0, 0, 0)], []):
+        with pytest.raises(ValueError):
+            joint.anchors1 = anchors
     assert len(joint.anchors2) == 4 and joint.broken == [0, 1, 0, 0]
 
 
