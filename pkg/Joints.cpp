@@ -33,7 +33,7 @@ void TimberJoint::validate() const
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);
-	if (!hasSprings) return;
+	if (!hasSprings && broken.empty()) return; // not complete yet
 	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(), "that of anchors1");
 	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(), "that of anchors1");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Several numbers worked on at once, one in each lane of the processor's vectors: the points of a contact, the springs of a
-/// joint, bodies that turn. A lane does what the same formula does with a double, to the last bit; formulas are written once, for any Number.
-/// Between functions Lanes travel through memory: small ones that take and return many are inlined by force.
+/// SIMD vectors of doubles: the points of a contact, the springs of a joint, the rotations of bodies. Formulas are templates over Number,
+/// double or Lanes; SIMD results are bitwise identical to scalar ones. Calls pass Lanes through memory: small functions with many of them
+/// are always inlined.
 #pragma once
 #include "types.hpp"
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr int laneCount = 2;
 
 struct Lanes {
 	typedef double Vector __attribute__((vector_size(laneCount * sizeof(double))));
-	typedef std::int64_t Mask __attribute__((vector_size(laneCount * sizeof(double)))); ///< of a lane all bits or none
+	typedef std::int64_t Mask __attribute__((vector_size(laneCount * sizeof(double)))); ///< each lane: all bits set (true) or none (false)
 
 	Vector v;
 
@@ -79,7 +79,7 @@ inline double sqrt(double x) { return std::sqrt(x); }
 template <class Number> using Vec3Of = Eigen::Matrix<Number, 3, 1>;
 using Vec3s = Vec3Of<Lanes>;
 
-/// a where the condition holds, b elsewhere. Both are worked out.
+/// a where the condition is true, b elsewhere. Both are evaluated.
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
 inline Lanes select(Lanes::Mask condition, Lanes a, Lanes b) { return Lanes(condition ? a.v : b.v); }
 template <class Condition, class Number> Vec3Of<Number> select(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
@@ -92,7 +92,7 @@ inline bool logicalOr(bool a, bool b) { return a || b; }
 inline Lanes::Mask logicalAnd(Lanes::Mask a, Lanes::Mask b) { return a & b; }
 inline Lanes::Mask logicalOr(Lanes::Mask a, Lanes::Mask b) { return a | b; }
 
-/// Whether the condition holds in any lane.
+/// Whether the condition is true in any lane.
 inline bool any(bool condition) { return condition; }
 inline bool any(Lanes::Mask condition)
 {
@@ -106,7 +106,7 @@ inline bool any(Lanes::Mask condition)
 #endif
 }
 
-/// The same, for costly values: first() and other() are worked out only where they are needed.
+/// select() for expensive values: first() is evaluated only if any lane needs it; for a double, only the selected one is.
 template <class First, class Other> auto selectLazily(bool condition, First first, Other other) -> decltype(other()) { return condition ? first() : other(); }
 template <class First, class Other> auto selectLazily(Lanes::Mask condition, First first, Other other) -> decltype(other())
 {
@@ -117,7 +117,7 @@ template <class First, class Other> auto selectLazily(Lanes::Mask condition, Fir
 template <class Number> Number min(Number a, Number b) { return select(b < a, b, a); }
 template <class Number> Number max(Number a, Number b) { return select(a < b, b, a); }
 
-/// The same vector or matrix in all lanes; of a double's one lane, itself.
+/// A vector or matrix in all lanes; for double, the argument itself.
 template <class Number> decltype(auto) broadcast(const Vec3& v)
 {
 	if constexpr (std::is_same_v<Number, double>) return (v);
@@ -134,9 +134,9 @@ template <class Number> decltype(auto) broadcast(const Mat3& m)
 	}
 }
 
-/// One of the lanes.
+/// The i-th lane.
 inline double lane(double x, size_t) { return x; }
-inline double lane(const Lanes& x, size_t i) { return x.v[i]; } // not a copy: of one in memory only the lane is read
+inline double lane(const Lanes& x, size_t i) { return x.v[i]; } // by reference: only the lane is loaded
 inline bool lane(bool x, size_t) { return x; }
 inline bool lane(Lanes::Mask x, size_t i) { return x[i] != 0; }
 inline const Vec3& lane(const Vec3& v, size_t) { return v; }
@@ -149,7 +149,7 @@ inline void setLane(Vec3s& v, size_t i, const Vec3& one)
 		setLane(v[c], i, one[c]);
 }
 
-/// work(number) of each lane.
+/// work(x) applied lane by lane.
 template <class Work> Lanes eachLane(Lanes x, Work work)
 {
 	for (int i = 0; i < laneCount; ++i)
@@ -157,7 +157,7 @@ template <class Work> Lanes eachLane(Lanes x, Work work)
 	return x;
 }
 
-/// Turns laneCount Lanes about: the k-th gets the k-th lane of each.
+/// Transposes laneCount vectors in place: the k-th gets the k-th lane of each.
 inline void transpose(Lanes* x)
 {
 	const auto v = [x](int k) { return x[k].v; };
@@ -175,10 +175,10 @@ inline void transpose(Lanes* x)
 #endif
 }
 
-/// How many groups of laneCount hold that many items.
+/// Number of groups of laneCount for that many items.
 constexpr size_t groupsOf(size_t count) { return (count + laneCount - 1) / laneCount; }
 
-/// N sums over items that are worked on in lanes: each is made item by item, as a loop over doubles would, but all N at once.
+/// N sums over items that are processed in lanes. Each sum adds item by item, in the order of a scalar loop; the N sums are vectorised.
 template <size_t N> class Sums {
 	Lanes total[groupsOf(N)];
 
@@ -191,10 +191,10 @@ template <size_t N> class Sums {
 	}
 
 public:
-	/// Numbers and vectors, N numbers in all, to start with.
+	/// Initial values: numbers and vectors, N numbers in all; none: zero.
 	template <class... Parts> [[gnu::always_inline]] explicit Sums(const Parts&... start)
 	{
-		static_assert(sizeof...(start) == 0 || (sizeOf<Parts> + ... + 0) == N, "N numbers to start with, or none");
+		static_assert(sizeof...(start) == 0 || (sizeOf<Parts> + ... + 0) == N, "N initial values, or none");
 		double x[groupsOf(N) * laneCount] = {};
 		[[maybe_unused]] double* to = x;
 		(put(to, start), ...);
@@ -202,7 +202,7 @@ public:
 			for (size_t i = 0; i < laneCount; ++i)
 				total[g].v[i] = x[g * laneCount + i];
 	}
-	/// Adds what the first lanes have, at most `count` of them: numbers and vectors as at the start.
+	/// Adds the first min(count, laneCount) lanes of N numbers, given as numbers and vectors.
 	template <class Number, class... Parts> [[gnu::always_inline]] void add(size_t count, const Parts&... parts)
 	{
 		static_assert((sizeOf<Parts> + ... + 0) == N, "N numbers to add");
@@ -222,8 +222,8 @@ public:
 	Vec3 vector(size_t k) const { return { (*this)[k], (*this)[k + 1], (*this)[k + 2] }; }
 };
 
-/// work(number, k) for `count` items, laneCount at a time: k is the first of them, and the type of `number` the Number to work with:
-/// Lanes, but double where there is only one item left.
+/// work(number, k) for `count` items in groups of laneCount: k is the first item of a group, the type of `number` the Number to use: Lanes,
+/// or double for a single last item.
 template <class Work> void inLanes(size_t count, Work work)
 {
 	for (size_t k = 0; k < count; k += laneCount)
@@ -231,8 +231,8 @@ template <class Work> void inLanes(size_t count, Work work)
 		else work(Lanes(), k);
 }
 
-/// Structures or vectors in memory, one for each lane: neighbours in an array, or wherever they are. Lanes to spare read the last one. set() goes
-/// backwards, so that the last one keeps the value of its own lane, whatever is in those to spare.
+/// Gather and scatter: structures or vectors in memory, one for each lane. Unused lanes load the last item; set() stores lanes in
+/// descending order, so that the last item gets the value of its own lane.
 template <class Number, class Item> class Group {
 	Item* item[laneCount];
 
@@ -243,13 +243,13 @@ template <class Number, class Item> class Group {
 	}
 
 public:
-	/// count >= 1: how many there are from `first` on; those beyond the number of lanes are left out.
+	/// Items from `first` on; count >= 1, of which at most laneCount are used.
 	Group(Item* first, size_t count)
 	        : Group(count, [first](size_t i) { return first + i; })
 	{
 	}
-	/// at(i): where the i-th of `count` is.
-	template <class Where> Group(size_t count, Where at)
+	/// at(i): address of the i-th of `count` items.
+	template <class Address> Group(size_t count, Address at)
 	{
 		item[0] = at(0);
 		for (size_t i = 1; i < laneCount; ++i)
@@ -275,7 +275,7 @@ public:
 			for (int c = 0; c < size; ++c)
 				(*item[i])[c] = lane(x[c], i);
 	}
-	/// A member of each.
+	/// A member of each item.
 	template <class Class> [[gnu::always_inline]] Lanes get(double Class::*member) const
 	{
 		return gathered([&](int i) { return item[i]->*member; });
@@ -292,7 +292,7 @@ public:
 	}
 };
 
-/// A single one.
+/// Scalar version: one item.
 template <class Item> class Group<double, Item> {
 	Item& item;
 
@@ -301,8 +301,8 @@ public:
 	        : item(*first)
 	{
 	}
-	template <class Where>
-	Group(size_t, Where at)
+	template <class Address>
+	Group(size_t, Address at)
 	        : item(*at(0))
 	{
 	}

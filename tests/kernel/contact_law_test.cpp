@@ -13,7 +13,7 @@ constexpr double rounding = 1e-14; ///< a few products and a root, relative
 const HertzLaw timberLaw { 5.25e9, 0.05 };
 const double dt = 1e-5;
 
-/// One contact point that is moved about by hand.
+/// One contact point with prescribed motion.
 template <class Law> struct Spring {
 	Law law;
 	PairProperties pair;
@@ -111,31 +111,31 @@ TEST(NormalSpring, ForceStaysConstantBeyondTheLimit)
 	EXPECT_NEAR(energy, timberLaw.energy(2e-3) + 6e-3 * timberLaw.force(2e-3), rounding * energy);
 }
 
-TEST(NormalSpring, ComingOrGoingWithinAStepDoesTheWorkThatIsStored)
+TEST(NormalSpring, GrazingForceDoesTheWorkThatIsStored)
 {
 	const double d = 1e-3;
 	for (const double n : { 4e-4, 9e-4 }) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
-		spring.step(n, d, Vec3::Zero()); // touched within the step
+		spring.step(n, d, Vec3::Zero()); // begins within the step
 		const double work = spring.state.normal * d + timberLaw.force(n + d) * d / 2; // trapezoid: 0, this force, F(n + d)
 		EXPECT_NEAR(work, timberLaw.energy(n + d), rounding * work);
 		Spring<HertzLaw> leaving { timberLaw, pairOf(0.4) };
-		leaving.step(n, -d, Vec3::Zero()); // will have left after the next step
+		leaving.step(n, -d, Vec3::Zero()); // will have ended after the next step
 		EXPECT_EQ(leaving.state.normal, spring.state.normal);
 	}
 	EXPECT_NEAR(grazingForce(LinearLaw { 1e6 }, d, d), 1e6 * d, rounding * 1e3); // joins the law where it ends
 	EXPECT_EQ(grazingForce(timberLaw, 1e-9, d), 0); // never pulls
 }
 
-/// However far the point goes on, also on its way out. The trapezoid sum over the steps d and d': 0, the booked force, that of the law.
-template <class Law> void expectBookedWork(const Law& law)
+/// For any next displacement, also when the point separates. Trapezoidal sum over the steps d and d': 0, impactForce(), force of the law.
+template <class Law> void expectWorkOfImpact(const Law& law)
 {
 	const double n = 6e-4, d = 1e-3, energy = law.energy(n), stiffness = law.stiffness(n);
 	for (const double next : { 2e-3, 1e-3, 1e-4, 0., -1e-4, -n / 2 }) {
 		const double work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + law.force(n + next) * next / 2;
 		EXPECT_NEAR(work, law.energy(n + next), 10 * rounding * energy) << next;
 	}
-	for (const double next : { -0.51 * n, -0.6 * n, -0.9 * n }) { // parts in the step after that: the spring has done no work, all in all
+	for (const double next : { -0.51 * n, -0.6 * n, -0.9 * n }) { // separates in the step after that: the net work of the spring is zero
 		const double grazing = grazingForce(law, n + next, -next), work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + grazing * next;
 		EXPECT_NEAR(work, 0, 10 * rounding * energy) << next;
 	}
@@ -143,10 +143,10 @@ template <class Law> void expectBookedWork(const Law& law)
 		EXPECT_EQ(impactForce(energy, stiffness, n, d, next), 0);
 	EXPECT_EQ(impactForce(0, 0, 1e-200, 1e-200, 0), 0); // too little to be stored
 }
-TEST(NormalSpring, NewPointsAreBookedWithTheWorkThatIsStored)
+TEST(NormalSpring, ImpactForceDoesTheWorkThatIsStored)
 {
-	expectBookedWork(timberLaw);
-	expectBookedWork(LinearLaw { 1e6 });
+	expectWorkOfImpact(timberLaw);
+	expectWorkOfImpact(LinearLaw { 1e6 });
 }
 
 TEST(ShearSpring, OpposesTheSlide)
@@ -171,7 +171,7 @@ TEST(ShearSpring, IgnoresApproach)
 	}
 }
 
-TEST(Turning, KeepsTheLengthAndFollowsTheNormal)
+TEST(RotatedShear, PreservesTheMagnitudeAndFollowsTheNormal)
 {
 	Random random(42);
 	for (int trial = 0; trial < 1000; ++trial) {
@@ -182,11 +182,11 @@ TEST(Turning, KeepsTheLengthAndFollowsTheNormal)
 		EXPECT_NEAR(result.dot(next), 0, 1e-10);
 	}
 	EXPECT_EQ(rotatedShear<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
-	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // nothing left in the plane
+	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // no component in the plane
 }
 
-/// A quarter of a turn about the normal, and about an axis in the plane, in small steps.
-TEST(Turning, FollowsAFiniteRotation)
+/// A quarter of a revolution about the normal, and about an axis in the plane, in small steps.
+TEST(RotatedShear, FollowsAFiniteRotation)
 {
 	const int steps = 10000;
 	for (const Vec3& axis : { Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(1, 2, 2).normalized() }) {
@@ -201,7 +201,7 @@ TEST(Turning, FollowsAFiniteRotation)
 	}
 }
 
-/// What the spring stores grows by no more than the work done on it, in every step of a random path with turning.
+/// The stored energy grows by at most the work done on the spring, in every step of a random path with rotation.
 template <class Law> void expectNoEnergyFromNothing(const Law& law, unsigned seed)
 {
 	Random random(seed);
@@ -227,8 +227,8 @@ TEST(ShearSpring, NeverGainsEnergyOnRandomPaths)
 }
 
 /// The work on normal and tangential spring over closed cycles of (n, s), by trapezoids with the force before and after
-/// the slide; a cycle that gave work back would be an engine.
-TEST(ShearSpring, ClosedCyclesTakeWork)
+/// the slide; a cycle with negative work would create energy.
+TEST(ShearSpring, ClosedCyclesDissipate)
 {
 	Random random(43);
 	for (int trial = 0; trial < 200; ++trial) {
@@ -250,7 +250,7 @@ TEST(ShearSpring, ClosedCyclesTakeWork)
 	}
 }
 
-/// The share of the spring's force that is lost while n shrinks is that of its stiffness.
+/// While n shrinks, the force decreases in proportion to the stiffness.
 TEST(ShearSpring, LosesForceWithItsStiffness)
 {
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
@@ -266,15 +266,15 @@ TEST(ShearSpring, LosesForceWithItsStiffness)
 
 TEST(NewPoint, OverlapIsExplainedByApproachOrEnergy)
 {
-	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, 0), 0); // slid in: no force
+	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, 0), 0); // no approach: no force
 	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 1e-3, 0), 1e-3);
-	EXPECT_EQ(initialOverlap(timberLaw, 1e-3, 1, 0), 1e-3); // never more than there is
+	EXPECT_EQ(initialOverlap(timberLaw, 1e-3, 1, 0), 1e-3); // at most the overlap
 	EXPECT_NEAR(initialOverlap(timberLaw, 5e-3, 0, timberLaw.energy(2e-3)), 2e-3, 1e-15); // rounding of pow
 	EXPECT_NEAR(initialOverlap(LinearLaw { 1e6 }, 5e-3, 0, 2.), 2e-3, 1e-15); // sqrt(2 E / K)
-	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, -1e-20), 0); // rounding of the energy that is left
+	EXPECT_EQ(initialOverlap(timberLaw, 5e-3, 0, -1e-20), 0); // rounding of the available energy
 }
 
-/// Within a step, a fast light member cannot press more than it has energy for, however far it would go.
+/// A fast light member cannot compress the contact beyond its kinetic energy within a step.
 TEST(NewPoint, ApproachIsBoundedByItsEnergy)
 {
 	constexpr double mass = 2.5, h = 4e-4, rounding = 1e-12;
@@ -284,7 +284,7 @@ TEST(NewPoint, ApproachIsBoundedByItsEnergy)
 		EXPECT_LE(timberLaw.energy(overlap), energy * (1 + rounding));
 		EXPECT_TRUE(overlap == speed * h || timberLaw.energy(overlap) > energy * (1 - rounding)) << speed;
 	}
-	EXPECT_EQ(approachOverlap(timberLaw, 1e6, 1., h), h); // a heavy one goes on
+	EXPECT_EQ(approachOverlap(timberLaw, 1e6, 1., h), h); // a heavy one is not stopped
 	EXPECT_EQ(approachOverlap(timberLaw, std::numeric_limits<double>::infinity(), 0., h), 0);
 	EXPECT_NEAR(approachOverlap(LinearLaw { 1e8 }, 1., 10., 1.), 1e-3, 1e-3 * rounding); // v sqrt(m / K)
 }
@@ -297,7 +297,7 @@ TEST(NewPoint, ExcessShrinksWithTheOverlap)
 	EXPECT_EQ(spring.state.normal, 0);
 	spring.step(5.5e-3, 0, Vec3::Zero());
 	EXPECT_NEAR(spring.state.overlap, 5e-4, 1e-17);
-	spring.step(2e-3, 0, Vec3::Zero()); // it has left: the excess shrinks with it
+	spring.step(2e-3, 0, Vec3::Zero()); // the excess shrinks with the overlap
 	EXPECT_EQ(spring.state.normal, 0);
 	EXPECT_EQ(spring.state.excess, 2e-3);
 	spring.step(3e-3, 0, Vec3::Zero());

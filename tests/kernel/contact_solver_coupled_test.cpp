@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Dashpots of many points on shared bodies: balances of momentum and energy, a dense solution, stiff heaps.
+/// Coupled contact points on shared bodies: balances of momentum and energy, comparison with a dense solution, stiff heaps.
 #include "heap.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST(Coupled, ConvergesToTheDenseSolution)
 		int compared = 0;
 		for (unsigned seed = 0; seed < 200 && compared < 10; ++seed) {
 			Heap heap(seed, 6, damping > 1e4 ? 3 : 10, damping, 1e9, 0);
-			for (auto& p : heap.points) { // a pressed guess: unlimited friction has a second solution, in which a point lets go
+			for (auto& p : heap.points) { // a compressive initial guess: unlimited friction has a second solution, in which a point separates
 				p.elasticNormal = 100 * damping;
 				p.impulse = h * p.elasticNormal * p.normal;
 			}
@@ -151,9 +151,9 @@ TEST(Coupled, FaceWithFourPointsNeedsFewSweeps)
 	EXPECT_LT(errorOf(heap, dense, 1e-4, 60), 1e-4); // linear convergence of the sweeps
 }
 
-/// A long beam lands on one of its lower edges: what pushes it up also turns it, and the edge slips. The tangential impulse answers that in the
-/// same visit (coupling).
-TEST(Coupled, ImpulseAcrossAnswersThatAlong)
+/// A long beam lands on one of its lower edges: the normal impulse also rotates it, so that the edge slips. The tangential impulse cancels
+/// this slip in the same visit (coupling).
+TEST(Coupled, TangentialImpulseCancelsTheSlipOfTheNormalOne)
 {
 	const double mass = 20, side = 0.12, length = 4;
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(mass, { 0, 0, -1 }) };
@@ -162,12 +162,13 @@ TEST(Coupled, ImpulseAcrossAnswersThatAlong)
 	p.armB = { side / 2, 0, -side / 2 };
 	p.friction = 1e9;
 	std::vector<HeapPoint> points { p };
-	EXPECT_LE(solveContacts(bodies, points, 1e-4, 1000, 1e-9), 30); // 22; 42 without
-	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed is left
+	EXPECT_LE(solveContacts(bodies, points, 1e-4, 1000, 1e-9), 30); // observed 22; 42 without coupling
+	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed remains
 }
 
-/// Pairs are always visited in the same order: a push at the first body of a row crosses the whole row in one pass, and the next begins at the first pair again.
-TEST(Coupled, PairsKeepTheirOrder)
+/// Pairs are visited in the same order in all sweeps: an impulse at the first body of a row crosses the whole row in one sweep, and the next
+/// sweep begins at the first pair again.
+TEST(Coupled, PairsAreVisitedInTheSameOrder)
 {
 	const int last = 5;
 	std::vector<SolverBody> row { body(1, { 0, 0, 1 }) };
@@ -178,21 +179,22 @@ TEST(Coupled, PairsKeepTheirOrder)
 		points.back().bodyA = k - 1;
 		points.back().bodyB = k;
 	}
-	const auto after = [&](int passes) {
+	const auto after = [&](int sweeps) {
 		std::vector<SolverBody> bodies = row;
 		std::vector<HeapPoint> fresh = points;
-		solveContacts(bodies, fresh, 1e-4, passes);
+		solveContacts(bodies, fresh, 1e-4, sweeps);
 		return bodies;
 	};
 	const std::vector<SolverBody> one = after(1);
-	for (int k = 0; k < last; ++k) // two bodies that meet get their mean velocity: half of the push goes on
-		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity is left
+	for (int k = 0; k < last; ++k) // two bodies in contact get their mean velocity: half of the impulse is transmitted
+		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity remains
 	EXPECT_NEAR(one[last].newVelocity.z(), one[last - 1].newVelocity.z(), 1e-5);
-	EXPECT_NEAR(after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second pass came back
+	EXPECT_NEAR(after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second sweep were in reverse order
 }
 
-/// The points of a pair take turns in being the last, so that no side of a face is favoured: after the second pass the first point's equation holds, not the last one's.
-TEST(Coupled, PointsTakeTurnsInBeingTheLast)
+/// The order of a pair's points alternates, so that no side of a face is favoured: after the second sweep the first point's equation is
+/// satisfied, not the last one's.
+TEST(Coupled, OrderOfPointsAlternates)
 {
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1, { 0, 0, -1 }) };
 	std::vector<HeapPoint> points(2, central(1e10));
@@ -200,12 +202,12 @@ TEST(Coupled, PointsTakeTurnsInBeingTheLast)
 	points[1].armB.x() = 0.5;
 	solveContacts(bodies, points, 1e-4, 2);
 	const auto speed = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
-	const double other = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): what one point's answer does to the other
-	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed is left
+	const double other = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): effect of one point's impulse on the other
+	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed remains
 	EXPECT_NEAR(speed(points[1]), other * other * (other - 1), 1e-5);
 }
 
-/// Two heaps on the same fixed body, solved together, as they are one by one: bit for bit, although one needs more sweeps.
+/// Two heaps on the same fixed body, solved together and separately: bitwise identical, although one needs more sweeps.
 TEST(Islands, DoNotInfluenceEachOther)
 {
 	for (unsigned seed = 0; seed < 20; ++seed) {
@@ -230,7 +232,7 @@ TEST(Islands, DoNotInfluenceEachOther)
 	}
 }
 
-/// h C / m = 1e4 on every point, hundreds of steps, without and with the last step's impulses as a guess.
+/// h C / m = 1e4 at every point, hundreds of steps, without and with warm start.
 TEST(Stiff, HeapComesToRest)
 {
 	for (const bool warm : { false, true })
@@ -255,8 +257,8 @@ TEST(Stiff, HeapComesToRest)
 		}
 }
 
-/// A tower of light bodies on a heavy one that has the large impulses: what the sweeps leave over is small for the light ones.
-TEST(Stiff, LightMembersDecideWhenSweepsEnd)
+/// A tower of light bodies on a heavy one with the large impulses: the remaining error is small for the light ones, too.
+TEST(Stiff, ConvergenceIsJudgedByLightMembers)
 {
 	constexpr double h = 1e-4, heavy = 1e5, light = 1, gravity = 10;
 	constexpr int tower = 8;
@@ -281,7 +283,7 @@ TEST(Stiff, MassRatioOfAMillion)
 {
 	for (const double light : { 1e-3, 1. }) {
 		const double heavy = 1e6 * light, v = after(heavy, light, 1, 1e4 * light / 1e-4, 1e-4, 4);
-		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed is left, x = 1e4
+		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed remains, x = 1e4
 	}
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
 	std::vector<HeapPoint> points { central(1e7), central(1e7) }; // the heavy one falls on the light one on the ground
@@ -294,15 +296,15 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
 
-/// A solver that has done other steps before against a new one: points come and go, pairs lose all of theirs, bodies are held and released.
-TEST(Islands, AreThoseOfTheStep)
+/// A reused solver against a new one: points begin and end, pairs lose all points, bodies are fixed and freed.
+TEST(Islands, DependOnThePresentStepOnly)
 {
 	size_t most = 0, least = 100;
 	for (unsigned seed = 0; seed < 40; ++seed) {
 		Random random(seed);
 		const Heap heap(seed, 12, 16, 200, 0.5, 50);
-		ContactSolver kept;
-		Islands keptIslands;
+		ContactSolver reused;
+		Islands reusedIslands;
 		for (int step = 0; step < 12; ++step) {
 			std::vector<HeapPoint> points;
 			for (const HeapPoint& p : heap.points)
@@ -314,11 +316,11 @@ TEST(Islands, AreThoseOfTheStep)
 			std::vector<HeapPoint> same = points;
 			ContactSolver once;
 			Islands islands;
-			const size_t before = keptIslands.count();
-			EXPECT_EQ(solveContacts(kept, keptIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
-			ASSERT_EQ(keptIslands.count(), islands.count()) << seed << " after " << before;
+			const size_t before = reusedIslands.count();
+			EXPECT_EQ(solveContacts(reused, reusedIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
+			ASSERT_EQ(reusedIslands.count(), islands.count()) << seed << " after " << before;
 			for (size_t k = 0; k < islands.count(); ++k)
-				ASSERT_TRUE(std::equal(keptIslands[k].begin(), keptIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;
+				ASSERT_TRUE(std::equal(reusedIslands[k].begin(), reusedIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;
 			for (size_t k = 0; k < bodies.size(); ++k) {
 				EXPECT_EQ(bodies[k].newVelocity, fresh[k].newVelocity) << seed;
 				EXPECT_EQ(bodies[k].newSpin, fresh[k].newSpin) << seed;
@@ -330,8 +332,8 @@ TEST(Islands, AreThoseOfTheStep)
 	EXPECT_GT(most, least + 3);
 }
 
-/// Points between two held bodies are an island, too: their forces are limited and booked. Pairs that do not touch are in none.
-TEST(Islands, PairsOfHeldBodiesHaveTheirs)
+/// A pair of fixed bodies is an island, too: its forces are limited and its energies counted. Pairs without contact points are in none.
+TEST(Islands, PairsOfFixedBodiesAreIslands)
 {
 	Islands islands;
 	for (const Link& link : { noLink, Link(~0, ~1), noLink, Link(~1, ~0) }) {

@@ -15,7 +15,7 @@ TEST(SinglePair, DecaysByThePadeApproximant)
 			const double m = otherMass > 0 ? 1 / (1 / 3. + 1 / otherMass) : 3, h = 1e-4;
 			const double expected = -2 * (1 - x / 3) / (1 + 2 * x / 3 + x * x / 6);
 			EXPECT_NEAR(after(otherMass, 3, 2, x * m / h, h, 1), expected, 2 * rounding * std::max(1., x)) << x; // x amplifies rounding once
-			EXPECT_NEAR(after(otherMass, 3, 2, x * m / h, h, 5), expected, 2 * rounding * std::max(1., x)) << x; // more sweeps, same answer
+			EXPECT_NEAR(after(otherMass, 3, 2, x * m / h, h, 5), expected, 2 * rounding * std::max(1., x)) << x; // more sweeps, same result
 		}
 }
 
@@ -58,7 +58,7 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 	p.shearDamping = cs;
 	p.elasticShear = { 40, -10, 0 };
 	p.friction = 0.9;
-	p.impulse = { 1, 2, 3 }; // a guess plays no part
+	p.impulse = { 1, 2, 3 }; // the warm start is ignored
 	std::vector<HeapPoint> points { p };
 	solveContacts(bodies, points, h, 0);
 	const Vec3 force(40 - cs * -0.1, -10 - cs * 0.2, 900 + cn * 1.5);
@@ -69,14 +69,13 @@ TEST(SinglePair, NoSweepsIsTheExplicitDashpot)
 
 namespace {
 
-/// A mass that `points` equal springs press against the ground: its velocity normal and tangential to it, and its displacement since
-/// the springs had the force of the load.
-struct Pressed {
+/// A mass loaded against the ground on `points` equal springs: its velocity, and its displacement from equilibrium.
+struct LoadedMass {
 	double mass = 4, load, friction, stiffness, damping, h;
 	size_t points = 1;
 	Vec3 velocity = Vec3::Zero(), displacement = Vec3::Zero(), shear = Vec3::Zero();
 
-	/// A step: the placement's elastic forces and the load, then the contact.
+	/// One step: elastic forces, load, contact.
 	void step(int sweeps)
 	{
 		std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(mass, velocity) };
@@ -97,12 +96,12 @@ struct Pressed {
 
 } // namespace
 
-/// Newmark's method keeps the amplitude of an oscillation and turns its phase in a step by acos(1 - y / (2 + 2 beta y)), however stiff the spring;
-/// explicit springs blow up beyond omega h = 2.
+/// Newmark's method preserves the amplitude of an oscillation and advances its phase in a step by acos(1 - y / (2 + 2 beta y)), however stiff the spring;
+/// explicit springs are unstable beyond omega h = 2.
 TEST(SinglePair, SpringsSetNoLimitToTheStep)
 {
 	for (const double turn : { 0.1, 1., 2., 10., 300. }) {
-		Pressed m { 4, 1e5, 0, 4e6, 0, turn / 1e3 }; // omega = 1000 /s
+		LoadedMass m { 4, 1e5, 0, 4e6, 0, turn / 1e3 }; // omega = 1000 /s
 		const double y = turn * turn, phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2))), start = 1e-3;
 		m.displacement.z() = start;
 		m.velocity.z() = start * (1 - std::cos(phase)) / m.h; // half a step earlier, on the orbit of start cos(phase k)
@@ -113,14 +112,14 @@ TEST(SinglePair, SpringsSetNoLimitToTheStep)
 	}
 }
 
-/// Each point takes only its own stiffness for its beta. Eight on one member keep its amplitude at any step, sixteen do not: n of them
-/// are stable while n y / (8 y + 4) <= 1, y that of one.
+/// beta of a point follows from its own stiffness only. Eight points on one member preserve the amplitude at any step, sixteen do not: n are
+/// stable while n y / (8 y + 4) <= 1, y that of one.
 TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
 {
 	const double start = 1e-3;
 	for (const double turn : { 0.3, 1., 3. }) // at 10 the phase of eight is within 0.01 of pi, and rounding shows
 		for (const size_t points : { 8, 16 }) {
-			Pressed m { 4, 2e5, 0, 4e6, 0, turn / 1e3 };
+			LoadedMass m { 4, 2e5, 0, 4e6, 0, turn / 1e3 };
 			m.points = points;
 			m.displacement.z() = start;
 			const double y = turn * turn, all = double(points) * y;
@@ -137,13 +136,13 @@ TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
 		}
 }
 
-/// A light member under a heavy load begins to slip, on springs far stiffer than the step resolves: omega h is 1 and 4.5. With a sliding
-/// force that only the elastic force of the placement decides it went on from limit to limit with h mu N / m: 5 m/s at 4e-4 s.
-TEST(Limits, FrictionOfALoadedLightMemberTakesEnergy)
+/// A light member under a heavy load begins to slip, on springs too stiff for the step: omega h is 1 and 4.5. With the explicit rule of
+/// sliding it would chatter between the limits with h mu N / m: 5 m/s at 4e-4 s.
+TEST(Limits, FrictionOfALoadedLightMemberDissipates)
 {
 	const double stiffness = 5e8, limit = 5e4;
 	for (const double h : { 1e-4, 4e-4 }) {
-		Pressed m { 4, 2 * limit, 0.5, stiffness, 2 * std::sqrt(4 * stiffness), h };
+		LoadedMass m { 4, 2 * limit, 0.5, stiffness, 2 * std::sqrt(4 * stiffness), h };
 		m.velocity.x() = 0.1;
 		m.shear.x() = -limit;
 		double largest = 0;
@@ -151,7 +150,7 @@ TEST(Limits, FrictionOfALoadedLightMemberTakesEnergy)
 			m.step(5);
 			largest = std::max(largest, std::abs(m.velocity.x()));
 		}
-		EXPECT_LE(largest, 0.1 + limit / std::sqrt(4 * stiffness)) << h; // the spring gives 1.1 m/s when it lets go
+		EXPECT_LE(largest, 0.1 + limit / std::sqrt(4 * stiffness)) << h; // the spring accelerates it to 1.1 m/s when it slips
 		EXPECT_LT(m.velocity.norm(), 1e-6) << h;
 	}
 }
@@ -181,7 +180,7 @@ TEST(Limits, NoTension)
 	}
 }
 
-/// A point that goes on sliding has mu times the normal force against the slide, whatever its dashpot; explicit ones whatever its velocity.
+/// A point that continues to slide has mu times the normal force against the slip, whatever its dashpot; with explicit dashpots whatever its velocity.
 TEST(Limits, SlidingHasTheForceOfFriction)
 {
 	for (const int sweeps : { 0, 1, 4 }) {
@@ -191,7 +190,7 @@ TEST(Limits, SlidingHasTheForceOfFriction)
 		std::vector<HeapPoint> points { p };
 		solveContacts(bodies, points, 1e-4, sweeps);
 		const double normal = points[0].impulse.z();
-		EXPECT_NEAR(normal, 1e-2, 1e-4); // the normal dashpot answers to the push of the spring: x / 2 = 0.2 %
+		EXPECT_NEAR(normal, 1e-2, 1e-4); // the normal dashpot reacts to the spring force: x / 2 = 0.2 %
 		EXPECT_LT((points[0].impulse - normal * Vec3(0.5, 0, 1)).norm(), rounding);
 	}
 }
@@ -213,7 +212,7 @@ TEST(Limits, SpringAndDashpotTogetherRespectCoulomb)
 	EXPECT_EQ(limitedShear<double>({ 3, 4, 0 }, 0.5, 0), Vec3::Zero());
 }
 
-TEST(Limits, HoldInHeaps)
+TEST(Limits, AreRespectedInHeaps)
 {
 	for (unsigned seed = 0; seed < 50; ++seed)
 		for (const int sweeps : { 0, 1, 2, 5 }) {
@@ -232,7 +231,7 @@ TEST(ZeroDamping, GivesTheElasticImpulses)
 	for (const int sweeps : { 0, 1, 3 }) {
 		Heap heap(1, 5, 12, 0, 1, 1000);
 		for (auto& p : heap.points)
-			if (sweeps > 0) p.impulse = Vec3(1, 2, 3) * 1e-2; // any guess
+			if (sweeps > 0) p.impulse = Vec3(1, 2, 3) * 1e-2; // any warm start
 		const Heap start = heap;
 		heap.solve(1e-4, sweeps);
 		for (size_t k = 0; k < heap.points.size(); ++k) {

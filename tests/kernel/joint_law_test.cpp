@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Joint springs: numbers of the paper, force against the gradient of the energy, what counts as the cause of a break.
+/// Joint springs: numbers of the paper, force against the gradient of the energy, and the rule that breaks them.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
 #include <kernel/joint_law.hpp>
@@ -77,4 +77,114 @@ TEST(BreakCause, LargerComponentAndItsSign)
 	EXPECT_EQ(cause({ 0.1, 0, -0.05 }), BreakCause::Shear);
 	EXPECT_EQ(cause({ 0.05, 0, -0.1 }), BreakCause::Compression);
 	EXPECT_EQ(cause({ 0.05, 0.05, 0.1 }), BreakCause::Tension);
+}
+
+namespace {
+
+/// Springs between body A, at rest at the origin, and body B, at the same place, with anchors off by the stretches.
+struct Joint {
+	JointStiffness stiffness { 1000, 1000 };
+	JointStrength strength;
+	Vec3 normal = Vec3::UnitZ(), velocity = Vec3::Zero();
+	std::vector<Vec3> anchorsA, anchorsB, stretches, forces;
+	std::vector<int> broken;
+
+	/// stretched: stretches of the springs [m]
+	Joint(const JointStrength& s, const std::vector<Vec3>& stretched)
+	        : strength(s)
+	        , anchorsA(stretched.size(), Vec3(Vec3::Zero()))
+	        , anchorsB(stretched)
+	        , stretches(stretched.size())
+	        , forces(stretched.size())
+	        , broken(stretched.size(), 0)
+	{
+	}
+	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
+	JointPull pull() { return pullSprings(stiffness, { axes, axes, Vec3::Zero() }, normal, springs()); }
+	/// Pulls the springs; returns the breaks, if the joint is overloaded.
+	std::vector<SpringBreak> breaks()
+	{
+		const Vec3 none = Vec3::Zero();
+		if (!isOverloaded(strength, pull())) return {};
+		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs(), { { none, none, none }, { none, velocity, none }, h });
+	}
+	/// Indices of the springs that break.
+	std::vector<size_t> breaking()
+	{
+		std::vector<size_t> indices;
+		for (const SpringBreak& b : breaks())
+			indices.push_back(b.spring);
+		return indices;
+	}
+
+	const Mat3 axes = Mat3::Identity();
+	static constexpr double h = 1e-3;
+};
+
+using Indices = std::vector<size_t>;
+const std::vector<Vec3> uneven { { 0, 0, 0.04 }, { 0, 0, -0.06 }, { 0.07, 0, 0.01 }, { 0, 0, 0.01 } }; // 40, 60, 71, 10 N: 181 N in all
+
+} // namespace
+
+TEST(BreakRule, PerSpringOverloadedSpringsBreakOneByOne)
+{
+	EXPECT_EQ(Joint({ 75, false }, uneven).breaking(), Indices {});
+	EXPECT_EQ(Joint({ 65, false }, uneven).breaking(), Indices { 2 });
+	EXPECT_EQ(Joint({ 50, false }, uneven).breaking(), (Indices { 1, 2 }));
+	EXPECT_EQ(Joint({ 5, false }, uneven).breaking(), (Indices { 0, 1, 2, 3 }));
+}
+
+/// Only the sum of the magnitudes decides, and then all springs break.
+TEST(BreakRule, PerJointAllSpringsBreakTogether)
+{
+	EXPECT_EQ(Joint({ 182, true }, uneven).breaking(), Indices {});
+	EXPECT_EQ(Joint({ 180, true }, uneven).breaking(), (Indices { 0, 1, 2, 3 }));
+}
+
+TEST(BreakRule, StrengthItselfIsCarried)
+{
+	for (const bool perJoint : { false, true }) {
+		EXPECT_EQ(Joint({ 125, perJoint }, { { 0, 0, 0.125 } }).breaking(), Indices {}); // exact in binary
+		EXPECT_EQ(Joint({ std::nextafter(125, 0), perJoint }, { { 0, 0, 0.125 } }).breaking(), Indices { 0 });
+		EXPECT_EQ(Joint({ std::numeric_limits<double>::infinity(), perJoint }, uneven).breaking(), Indices {});
+	}
+}
+
+TEST(BreakRule, BrokenSpringsNeitherLoadNorBreakAgain)
+{
+	for (const bool perJoint : { false, true }) {
+		Joint joint({ perJoint ? 115. : 65., perJoint }, uneven);
+		joint.broken[2] = 1;
+		EXPECT_EQ(joint.breaking(), Indices {}) << perJoint; // the others carry 110 N, one of them 60 N
+		joint.strength.limit = 20;
+		EXPECT_EQ(joint.breaking(), perJoint ? (Indices { 0, 1, 3 }) : (Indices { 0, 1 }));
+		EXPECT_EQ(joint.forces[2], Vec3(Vec3::Zero()));
+		joint.broken.assign(4, 1);
+		EXPECT_EQ(joint.breaking(), Indices {});
+	}
+}
+
+TEST(BreakRule, ReportsCauseForceAndEnergy)
+{
+	for (const bool perJoint : { false, true }) {
+		Joint joint({ 1, perJoint }, uneven);
+		const std::vector<SpringBreak> breaks = joint.breaks();
+		const BreakCause causes[] = { BreakCause::Tension, BreakCause::Compression, BreakCause::Shear, BreakCause::Tension };
+		ASSERT_EQ(breaks.size(), 4u);
+		for (size_t k = 0; k < 4; ++k) {
+			EXPECT_EQ(breaks[k].cause, causes[k]);
+			EXPECT_NEAR(breaks[k].force, 1000 * uneven[k].norm(), rounding * 100);
+			EXPECT_NEAR(breaks[k].energy, 500 * uneven[k].squaredNorm(), rounding * 10);
+		}
+	}
+}
+
+/// Velocities belong to the middle of the last step: there the spring was stretched by h/2 of the velocity less.
+TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
+{
+	Joint joint({ 1, false }, { { 0, 0, 0.1 } });
+	joint.velocity = { 0, 0, 2 };
+	const double earlier = 0.1 - joint.h / 2 * 2;
+	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
+	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
 }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Preconditions at the kernel's entries. The assertions end a checked build; a Release build has none.
+#include "heap.hpp"
+#include <gtest/gtest.h>
+#include <kernel/contact_pair.hpp>
+#include <kernel/joint_law.hpp>
+#include <kernel/stability.hpp>
+
+using namespace timber;
+using namespace timber::shapes;
+
+#ifdef NDEBUG
+#define EXPECT_REFUSED(call) // not checked in this build
+#else
+#define EXPECT_REFUSED(call) EXPECT_DEATH(call, "Assertion")
+#endif
+
+namespace {
+
+const double notANumber = std::numeric_limits<double>::quiet_NaN();
+const HertzLaw law { 5e9, 0.1 };
+const Vec3 none = Vec3::Zero();
+
+[[maybe_unused]] void elastic(double h, const std::vector<ContactPoint>& points)
+{
+	const PairProperties pair { 1, 0.5, 0.4, 1 };
+	std::vector<PointRecord> records;
+	elasticPair(law, { pair, { none, none, none }, { none, none, none }, h }, points, records);
+}
+[[maybe_unused]] ContactPoint pointOf(int vertex, const Vec3& normal = Vec3::UnitZ(), double overlap = 1e-3) { return { { FeatureKind::VertexFace, vertex, 0 }, none, normal, overlap }; }
+
+[[maybe_unused]] void solve(HeapPoint point, double h = 1e-4, double tolerance = 0)
+{
+	std::vector<SolverBody> bodies { body(0, none), body(1, none) };
+	std::vector<HeapPoint> points { point };
+	solveContacts(bodies, points, h, 1, tolerance);
+}
+
+} // namespace
+
+TEST(Preconditions, OfTheElasticStep)
+{
+	elastic(1e-4, { pointOf(0), pointOf(1) });
+	EXPECT_REFUSED(elastic(1e-4, { pointOf(1), pointOf(0) })); // not sorted
+	EXPECT_REFUSED(elastic(1e-4, { pointOf(0, Vec3(0, 0, 2)) }));
+	EXPECT_REFUSED(elastic(1e-4, { pointOf(0, Vec3::UnitZ(), notANumber) }));
+	EXPECT_REFUSED(elastic(0, { pointOf(0) }));
+}
+
+TEST(Preconditions, OfTheSolver)
+{
+	solve(central(100, 10));
+	HeapPoint bad = central(100, 10);
+	bad.normal *= 1.1;
+	EXPECT_REFUSED(solve(bad));
+	EXPECT_REFUSED(solve(central(-1, 10)));
+	EXPECT_REFUSED(solve(central(100, notANumber)));
+	EXPECT_REFUSED(solve(central(100, 10), 0));
+	EXPECT_REFUSED(solve(central(100, 10), 1e-4, -1));
+	[[maybe_unused]] ContactSolver solver;
+	EXPECT_REFUSED(solver.begin(-1));
+	EXPECT_REFUSED(solver.addPair(1, 1, 4));
+}
+
+TEST(Preconditions, OfJointsAndStability)
+{
+	const Mat3 axes = Mat3::Identity();
+	std::vector<Vec3> anchors(2, none), short1(1, none), stretches(2), forces(2);
+	std::vector<int> broken(2, 0);
+	pullSprings({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
+	EXPECT_REFUSED(pullSprings({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
+	EXPECT_REFUSED(pullSprings({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
+	EXPECT_REFUSED(isOverloaded({ notANumber, false }, JointPull()));
+	EXPECT_REFUSED(largestEigenvalue({ body(1, none) }, { { 0, 1, none, none, Vec3::UnitX(), 1, 1 } }));
+}
