@@ -121,14 +121,10 @@ void JointEngine::collectAxes()
 		if (b) axes[b->getId()] = b->state->ori.toRotationMatrix();
 }
 
-timber::JointPlacement JointEngine::placement(const TimberJoint& joint) const
-{
-	return { axes[joint.id1], axes[joint.id2], Body::byId(joint.id2, scene)->state->pos - Body::byId(joint.id1, scene)->state->pos };
-}
-
 timber::JointPull JointEngine::pull(TimberJoint& joint) const
 {
-	if (bodyAt(*scene, joint.id1) && bodyAt(*scene, joint.id2)) return timber::pullSprings(joint.stiffness(), placement(joint), joint.normal, joint.springs());
+	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
+	if (b1 && b2) return timber::pullSprings(joint.stiffness(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs());
 	joint.breakAll(); // a body was erased
 	return {};
 }
@@ -147,8 +143,9 @@ void JointEngine::breakSprings(size_t index)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
 	TimberJoint&             joint   = *joints[index];
-	const timber::JointMotion motion { kinematics(*Body::byId(joint.id1, scene)->state), kinematics(*Body::byId(joint.id2, scene)->state), scene->dt };
-	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint), joint.normal, joint.springs(), motion)) {
+	const State &            s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
+	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
 		const shared_ptr<JointBreak> entry(new JointBreak);
 		entry->time   = scene->time;
 		entry->joint  = int(index);

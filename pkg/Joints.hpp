@@ -66,7 +66,7 @@ class JointEngine : public GlobalEngine {
 	BodyForces                     sums; ///< of the joints
 
 	void                   collectAxes();
-	timber::JointPlacement placement(const TimberJoint&) const;
+	timber::JointPlacement placement(const TimberJoint& joint, const State& s1, const State& s2) const { return { axes[joint.id1], axes[joint.id2], s2.pos - s1.pos }; }
 	timber::JointPull      pull(TimberJoint&) const;
 	void                   pullAll();
 	void                   breakSprings(size_t joint);

@@ -31,7 +31,7 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, 
 	JointPull pull;
 	Sums<11> sums;
 	const Vec3 worldNormal = placement.axesA * normal;
-	inLanes(springs.broken.size(), [&](auto number, size_t i) {
+	inLanes(springs.broken.size(), [&](auto number, size_t i) __attribute__((always_inline)) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
 		const size_t count = springs.broken.size() - i;
