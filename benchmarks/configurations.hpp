@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Pairs in closed-form configurations: every library gets the same bodies, placed by its own idea of their surface.
+/// Pairs with contacts in closed form. Each library gets the same bodies; positions account for its collision margins.
 #pragma once
 #include <shapes.hpp>
 #include <functional>
@@ -14,15 +14,13 @@ constexpr double nearGap = 2e-3; ///< gap of a near pair [m]
 struct Configuration {
 	std::string name;
 	std::vector<Vec3> a, b; ///< corners, body frames [m]
-	Vec3 boxA, boxB; ///< extents of the bodies that are boxes, else zero [m]
-	Quat turnA, turnB;
-	Vec3 normal; ///< closed form: unit
-	Vec3 aside; ///< where B's frame is, but for the way along the normal [m]
+	Vec3 boxA, boxB; ///< extents of bodies that are boxes, otherwise zero [m]
+	Quat rotationA, rotationB;
+	Vec3 normal; ///< closed form, unit
+	Vec3 offset; ///< position of B perpendicular to the normal [m]
 	double overlap; ///< closed form [m]; < 0: a gap
-	int points; ///< of a face with four corners: 4; of an edge or a corner: 1
+	int points; ///< closed form: 4 for a face with four corners, 1 for an edge or a corner
 };
-
-inline Vec3 principalCentre(const std::vector<Vec3>& points) { return massProperties(Polyhedron::fromVertices(points)).centroid; }
 
 inline std::vector<Configuration> configurations()
 {
@@ -30,7 +28,7 @@ inline std::vector<Configuration> configurations()
 	const Quat none = Quat::Identity(), edgeUp = shapes::about(Vec3::UnitX(), M_PI / 4), across = shapes::about(Vec3::UnitZ(), M_PI / 2) * edgeUp;
 	const Quat cornerDown = Quat::FromTwoVectors(Vec3(1, 1, 1), -Vec3::UnitZ());
 	const auto brace = shapes::Brace { 0.91, 2.73, 0.09, 0.045 };
-	const Vec3 centre = principalCentre(brace.vertices());
+	const Vec3 centre = massProperties(Polyhedron::fromVertices(brace.vertices())).centroid;
 	const auto prism = shapes::moved(brace.vertices(), none, -centre);
 	const auto box = [](const Vec3& e) { return shapes::boxVertices(e); };
 	const Vec3 up = Vec3::UnitZ(), east = Vec3::UnitX();
@@ -44,30 +42,30 @@ inline std::vector<Configuration> configurations()
 	};
 }
 
-/// Greatest coordinate along a direction of points turned by `turn`. [m]
-inline double support(const std::vector<Vec3>& points, const Quat& turn, const Vec3& direction)
+/// Support function of rotated points: largest coordinate along a direction. [m]
+inline double support(const std::vector<Vec3>& points, const Quat& rotation, const Vec3& direction)
 {
-	double most = -1e300;
+	double largest = -1e300;
 	for (const Vec3& p : points)
-		most = std::max(most, (turn * p).dot(direction));
-	return most;
+		largest = std::max(largest, (rotation * p).dot(direction));
+	return largest;
 }
 
-/// Where body B stands for the closed-form overlap; margins: what a library adds to the given corners all round. [m]
-inline Vec3 placeOfB(const Configuration& c, const std::vector<Vec3>& a, const std::vector<Vec3>& b, double margins)
+/// Position of body B for the closed-form overlap. margins: sum of the collision margins that a library adds to the corners [m].
+inline Vec3 positionOfB(const Configuration& c, const std::vector<Vec3>& a, const std::vector<Vec3>& b, double margins)
 {
-	const double apart = support(a, c.turnA, c.normal) + support(b, c.turnB, -c.normal) + margins - c.overlap;
-	return c.aside - c.aside.dot(c.normal) * c.normal + apart * c.normal;
+	const double distance = support(a, c.rotationA, c.normal) + support(b, c.rotationB, -c.normal) + margins - c.overlap;
+	return c.offset - c.offset.dot(c.normal) * c.normal + distance * c.normal;
 }
 
-/// Motion in step k, as of a standing house: a tenth of a micrometre.
-inline Vec3 trembling(int k) { return 1e-7 * Vec3(k % 7 - 3, k % 5 - 2, k % 3 - 1); }
+/// Displacement in step k, as in a house at rest: a tenth of a micrometre. [m]
+inline Vec3 vibration(int k) { return 1e-7 * Vec3(k % 7 - 3, k % 5 - 2, k % 3 - 1); }
 
-/// What was found against the closed form.
+/// Contact points found by a library, compared with the closed form.
 struct Found {
 	int points = 0;
-	double normalError = 0; ///< largest angle between a normal and the expected one [rad]
-	double depthError = 0; ///< largest difference of an overlap [m]
+	double normalError = 0; ///< largest angle between a normal and the closed form [rad]
+	double depthError = 0; ///< largest error of an overlap [m]
 	void add(const Configuration& c, const Vec3& normal, double overlap)
 	{
 		++points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The same pair in ODE: dCollide, which keeps nothing between steps.
+/// A pair in ODE: dCollide, which has no state between steps.
 #pragma once
 #include "configurations.hpp"
 #include <memory>
@@ -8,7 +8,7 @@
 namespace timber::bench {
 
 class OdePair {
-	/// What dCreateConvex refers to.
+	/// Data referenced by dCreateConvex.
 	struct Convex {
 		std::vector<dReal> planes, points;
 		std::vector<unsigned> polygons;
@@ -17,7 +17,7 @@ class OdePair {
 	dGeomID a, b;
 	dContactGeom contacts[16];
 	int count = 0;
-	Vec3 place;
+	Vec3 position; ///< of B [m]
 
 	static dGeomID shape(const std::vector<Vec3>& points, const Vec3& box, Convex& convex)
 	{
@@ -34,30 +34,30 @@ class OdePair {
 		return dCreateConvex(
 		        nullptr, convex.planes.data(), unsigned(body.faces.size()), convex.points.data(), unsigned(points.size()), convex.polygons.data());
 	}
-	static void turn(dGeomID geom, const Quat& q)
+	static void rotate(dGeomID geom, const Quat& q)
 	{
 		const dQuaternion ode = { dReal(q.w()), dReal(q.x()), dReal(q.y()), dReal(q.z()) };
 		dGeomSetQuaternion(geom, ode);
 	}
 
 public:
-	const Configuration& wanted;
+	const Configuration& configuration;
 
 	explicit OdePair(const Configuration& c)
 	        : a(shape(c.a, c.boxA, convexA))
 	        , b(shape(c.b, c.boxB, convexB))
-	        , place(placeOfB(c, c.a, c.b, 0))
-	        , wanted(c)
+	        , position(positionOfB(c, c.a, c.b, 0))
+	        , configuration(c)
 	{
-		turn(a, c.turnA);
-		turn(b, c.turnB);
+		rotate(a, c.rotationA);
+		rotate(b, c.rotationB);
 	}
 	~OdePair()
 	{
 		dGeomDestroy(a);
 		dGeomDestroy(b);
 	}
-	void step(int k) { stepAt(place + trembling(k)); }
+	void step(int k) { stepAt(position + vibration(k)); }
 	void stepAt(const Vec3& x)
 	{
 		dGeomSetPosition(b, x.x(), x.y(), x.z());
@@ -65,10 +65,10 @@ public:
 	}
 	Found found()
 	{
-		stepAt(place);
+		stepAt(position);
 		Found f;
 		for (int k = 0; k < count; ++k) // ODE's normals point into the first body
-			f.add(wanted, -Vec3(contacts[k].normal[0], contacts[k].normal[1], contacts[k].normal[2]), contacts[k].depth);
+			f.add(configuration, -Vec3(contacts[k].normal[0], contacts[k].normal[1], contacts[k].normal[2]), contacts[k].depth);
 		return f;
 	}
 };

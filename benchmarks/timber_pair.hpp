@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// One pair as a step of the package handles it: manifold, elastic law, dashpots, limits.
+/// A pair in this kernel, as in one step of the package: manifold, elastic law, contact solver.
 #pragma once
 #include "configurations.hpp"
 #include <kernel/contact_pair.hpp>
@@ -9,75 +9,76 @@ namespace timber::bench {
 class TimberPair {
 	RoundedPolyhedron a, b;
 	Pose poseA, poseB;
-	Vec3 place;
-	const Vec3 still = Vec3::Zero();
+	Vec3 position; ///< of B [m]
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	std::vector<PointState> states;
+	std::vector<PointRecord> records;
 	std::vector<SolverBody> bodies;
 	ContactSolver solver;
-	HertzLaw law { 0, 0.1 }; ///< such that the points carry the body
+	HertzLaw law { 0, 0.1 }; ///< with a modulus for which the elastic forces carry the weight of B
 	PairProperties properties;
-	static constexpr double h = 1e-4, gravity = 9.81;
-	long passes = 0, steps = 0;
+	static constexpr double h = 1e-4, gravity = 9.81, density = 340;
+	long sweeps = 0, steps = 0;
 
-	void damped()
+	void solve()
 	{
 		bodies[0].position = poseA.position;
 		bodies[1].position = poseB.position;
-		bodies[1].newVelocity = bodies[1].velocity - h * gravity * wanted.normal;
+		bodies[1].newVelocity = bodies[1].velocity - h * gravity * configuration.normal;
 		bodies[1].newSpin = bodies[1].spin;
-		solver.clear(50);
+		solver.begin(50);
 		solver.addPair(0, 1, points.size());
-		prepareContacts(solver, 0, bodies, properties, 1, h, false, points, states);
-		passes += solver.solve(bodies, 1e-3);
+		const SolverStep step { solver, bodies, h };
+		prepareContacts(step, 0, properties, false, points, records);
+		sweeps += solver.solve(bodies, 1e-3);
 		++steps;
-		storeForces(solver, 0, bodies, properties, h, states, nullptr);
+		storeForces(step, 0, properties, records, nullptr);
 	}
 
 public:
-	const Configuration& wanted;
+	const Configuration& configuration;
 
 	explicit TimberPair(const Configuration& c)
 	        : a(shapes::rounded(c.a))
 	        , b(shapes::rounded(c.b))
-	        , wanted(c)
+	        , configuration(c)
 	{
-		poseA.orientation = c.turnA;
-		poseB.orientation = c.turnB;
-		place = placeOfB(c, a.core.vertices, b.core.vertices, a.radius + b.radius);
+		poseA.orientation = c.rotationA;
+		poseB.orientation = c.rotationB;
+		position = positionOfB(c, a.core.vertices, b.core.vertices, a.radius + b.radius);
 		const MassProperties m = massProperties(b.sharp);
 		bodies.assign(2, SolverBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
-		bodies[1].inverseMass = 1 / (340 * m.volume);
-		bodies[1].inverseInertia = (340 * m.inertia).inverse();
-		properties = { 2 * 340 * m.volume, 0.5, 1 / 2.8, a.radius + b.radius };
-		if (c.points > 0) law.modulus = gravity * 340 * m.volume / (c.points * HertzLaw { 1, law.radius }.force(c.overlap));
-		geometry(0);
+		bodies[1].inverseMass = 1 / (density * m.volume);
+		bodies[1].inverseInertia = (density * m.inertia).inverse();
+		properties = { 2 * density * m.volume, 0.5, 1 / 2.8, a.radius + b.radius };
+		if (c.points > 0) law.modulus = gravity * density * m.volume / (c.points * HertzLaw { 1, law.radius }.force(c.overlap));
+		updatePoints(0);
 	}
-	/// Passes of the dashpot solver per step.
-	double passesPerStep() const { return steps > 0 ? double(passes) / double(steps) : 0; }
-	void forget() { cache = {}; }
-	/// Only the contact points of step k.
-	void geometry(int k)
+	double sweepsPerStep() const { return steps > 0 ? double(sweeps) / double(steps) : 0; }
+	/// Empties the cache.
+	void reset() { cache = {}; }
+	/// Contact points of step k.
+	void updatePoints(int k)
 	{
-		poseB.position = place + trembling(k);
+		poseB.position = position + vibration(k);
 		updateManifold(a, b, poseA, poseB, {}, cache, points);
 	}
 	void step(int k)
 	{
-		geometry(k);
+		updatePoints(k);
 		if (points.empty()) return;
-		const BodyMotion a { poseA.position, still, still }, b { poseB.position, still, still };
-		elasticPair(law, properties, a, b, h, NormalForm::Closed, steps == 0, points, states);
-		damped();
+		const Vec3 zero = Vec3::Zero();
+		const bool placedInContact = steps == 0;
+		elasticPair(law, { properties, { poseA.position, zero, zero }, { poseB.position, zero, zero }, h, NormalForm::Closed, placedInContact }, points, records);
+		solve();
 	}
 	Found found()
 	{
 		Found f;
-		poseB.position = place;
+		poseB.position = position;
 		updateManifold(a, b, poseA, poseB, {}, cache, points);
 		for (const ContactPoint& p : points)
-			f.add(wanted, p.normal, p.overlap);
+			f.add(configuration, p.normal, p.overlap);
 		return f;
 	}
 };

@@ -29,7 +29,7 @@ namespace {
 		        , maxRotation(c.skin / c.regionRadius)
 		        , gap(g)
 		{
-			assert(c.skin > 0 && c.regionRadius > 0 && isUnitVector(c.axis));
+			assert(c.skin > 0 && c.regionRadius > 0 && isUnit(c.axis));
 			candidates.clear();
 			verticesA.reserve(p.a.core.vertices.size());
 			for (const Vec3& v : p.a.core.vertices)

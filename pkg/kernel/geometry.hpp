@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Geometric queries for one convex polyhedron, in its frame, and for segments.
 #pragma once
-#include "simd.hpp"
 #include "polyhedron.hpp"
+#include "preconditions.hpp"
+#include "simd.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -46,7 +47,7 @@ template <class Number> auto isInsideOtherFaces(const Polyhedron& body, int excl
 /// The face whose normal is closest to a direction.
 inline int supportFace(const Polyhedron& body, const Vec3& direction)
 {
-	assert(isUnitVector(direction));
+	assert(isUnit(direction));
 	const auto isLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
 	return int(std::max_element(body.faces.begin(), body.faces.end(), isLess) - body.faces.begin());
 }

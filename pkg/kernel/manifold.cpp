@@ -135,7 +135,7 @@ namespace {
 	/// Whether a vertex is the support point of its body along a direction (unit): no edge from it rises by more than `slope` (cosine).
 	bool isSupportVertex(const Polyhedron& body, int vertex, const Vec3& direction, double slope)
 	{
-		assert(isUnitVector(direction));
+		assert(isUnit(direction));
 		for (const Edge& e : body.edges) {
 			if (e.tail != vertex && e.head != vertex) continue;
 			const double rise = e.direction.dot(direction);
@@ -254,7 +254,7 @@ namespace {
 	/// contact, such as two plates through each other.
 	FeatureContact<double> coreCoreContact(const ShapePair& pair)
 	{
-		assert(pair.isDeep() && isUnitVector(pair.axis));
+		assert(pair.isDeep() && isUnit(pair.axis));
 		const Vec3 half = pair.gap / 2 * pair.axis;
 		Vec3 middle = overlapCentre(pair, pair.axis) * pair.axis;
 		for (const Vec3& across : { Vec3(pair.axis.unitOrthogonal()), Vec3(pair.rotation * (pair.rotation.transpose() * pair.axis).unitOrthogonal()) })

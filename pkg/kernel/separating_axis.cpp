@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "separating_axis.hpp"
+#include "preconditions.hpp"
 #include <algorithm>
 #include <cassert>
 
@@ -62,7 +63,7 @@ namespace {
 double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double sufficientGap)
 {
 	assert(a.faces.size() >= 4 && b.faces.size() >= 4);
-	assert(isRotation(rotation) && translation.allFinite());
+	assert(isRotation(rotation) && isFinite(translation));
 	std::vector<Vec3> verticesB; // frame of A
 	verticesB.reserve(b.vertices.size());
 	for (const Vec3& v : b.vertices)

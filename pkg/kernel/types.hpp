@@ -3,7 +3,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 namespace timber {
 
@@ -16,10 +15,5 @@ struct Pose {
 	Vec3 position = Vec3::Zero();
 	Quat orientation = Quat::Identity(); ///< unit
 };
-
-// Preconditions, for assert().
-inline bool isUnitVector(const Vec3& v) { return std::abs(v.squaredNorm() - 1) < 1e-9; }
-inline bool isRotation(const Mat3& m) { return (m * m.transpose() - Mat3::Identity()).norm() < 1e-9; }
-inline bool isAdmissible(const Pose& p) { return p.position.allFinite() && std::abs(p.orientation.squaredNorm() - 1) < 1e-9; }
 
 } // namespace timber

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The candidate cache holds no result: along any trajectory it gives the bits that an empty cache gives.
+/// The candidate cache never changes a result: along any trajectory the points are bitwise those from an empty cache.
 #include "shapes.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ bool identical(const std::vector<ContactPoint>& a, const std::vector<ContactPoin
 	return true;
 }
 
-/// Steps of random length and direction, from far below to far above the skin, drawn back towards contact.
+/// Steps of random length and direction, from far below to far above the skin, biased towards contact.
 class Walk {
 public:
 	Walk(unsigned seed, double width, double touching)
@@ -63,7 +63,7 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 	return inContact;
 }
 
-/// Points after a move that the margin allows: from the candidates of the placement before as from an empty cache.
+/// Points after a motion within the margin, from the candidates before it; compared with those from an empty cache.
 std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before, const Pose& after, const Patterns& patterns = {})
 {
 	CandidateCache cache;
@@ -75,7 +75,7 @@ std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPol
 	return points;
 }
 
-constexpr double move = (1 - 1e-6) * candidateSkin; ///< just allowed [m]
+constexpr double move = (1 - 1e-6) * candidateSkin; ///< just within the margin [m]
 
 } // namespace
 
@@ -95,7 +95,7 @@ TEST(CandidateCache, LongMembers)
 	EXPECT_GT(inContact, 600);
 }
 
-/// The small body turns about itself: the large body's vertices and edges sweep past its faces within the large radius.
+/// The small body rotates about its centre: vertices and edges of the large body pass its faces within the large radius.
 TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.2), small = roundedBox({ 0.05, 0.04, 0.03 });
@@ -116,9 +116,9 @@ TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 	EXPECT_GT(inContact, 1000);
 }
 
-/// An edge sinks towards a place just beyond another edge, along the normal of its own leaning face, on which the gap was
-/// measured: the face still supports its vertices (flushTolerance) when that gap is a little larger than both radii
-/// together. The skin taken off the margin covers it, and so does the second skin within which candidates are sought.
+/// An edge moves towards a position just beyond another edge, along the normal of its own inclined face, along which the gap is measured.
+/// The face supports its vertices (flushTolerance) even if that gap is slightly larger than the sum of the radii. The skin subtracted from
+/// the margin covers this, and so does the second skin within which candidates are searched.
 TEST(CandidateCache, ObliqueApproachFromAfar)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
@@ -135,14 +135,14 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
 			supported = supported || (distance > touch && !points.empty());
 			if (distance == start) {
-				EXPECT_LT((cache.axis - axis).norm(), 1e-12); // the gap is measured on the leaning face
+				EXPECT_LT((cache.axis - axis).norm(), 1e-12); // the gap is measured along the normal of the inclined face
 			}
 		}
-		EXPECT_TRUE(supported); // the case that the test is about did occur
+		EXPECT_TRUE(supported); // the tested case occurred
 	}
 }
 
-/// A corner beyond a border by the move and half of what the flush rule reaches: it is supported after the move.
+/// A corner beyond a border by the motion plus half of flushTolerance: it is supported after the motion.
 TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
@@ -150,8 +150,8 @@ TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() }, { above, Quat::Identity() }), FeatureKind::FaceVertex), 2);
 }
 
-/// A corner that comes towards an edge's end from beyond it: the edge still answers there (flushTolerance) when its end is a little farther than both
-/// radii together.
+/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flushTolerance) even if its end is slightly farther than
+/// the sum of the radii.
 TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
@@ -162,7 +162,7 @@ TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
 }
 
-/// Edges that are parallel have no crossing until the upper box turns.
+/// Parallel edges have no crossing until the upper box rotates.
 TEST(CandidateCache, ParallelEdgesThatTurn)
 {
 	const auto cube = roundedBox({ 0.3, 0.3, 0.3 }, 0.01);
@@ -170,7 +170,7 @@ TEST(CandidateCache, ParallelEdgesThatTurn)
 	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() }, { above, about(Vec3::UnitZ(), 2 * parallelSine) }), FeatureKind::EdgeEdge), 8);
 }
 
-/// Crossed laths go through each other within a move: those edges meet that were on the far sides, deeper than both radii together.
+/// Crossed laths pass through each other within one motion: the edges of the far sides come into contact, deeper than the sum of the radii.
 TEST(CandidateCache, LathsThatPassThroughEachOther)
 {
 	const auto lath = roundedBox({ 0.1, 0.0032, 0.0032 }, 1e-4);
@@ -178,11 +178,11 @@ TEST(CandidateCache, LathsThatPassThroughEachOther)
 	const auto points = afterMove(lath, lath, { { 0, 0, move / 2 }, across }, { { 0, 0, -move / 2 }, across });
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
 	for (const auto& p : points)
-		EXPECT_NEAR(p.overlap, 0.0032 - move / 2, 1e-13); // rounding of placements
+		EXPECT_NEAR(p.overlap, 0.0032 - move / 2, 1e-13); // rounding of positions
 }
 
-/// Two ridges at a small angle, one deep in the other near its end, where they do not cross: a little pitch moves their crossing by the depth times
-/// the pitch over the square of the angle's sine, onto both.
+/// Two ridges at a small angle in deep contact, whose edges do not cross yet. A small pitch shifts their crossing by the depth times the pitch
+/// over the squared sine of the angle, onto both edges.
 TEST(CandidateCache, CrossingsOfDeepEdgesRunFar)
 {
 	const Quat onEdge = about(Vec3::UnitX(), M_PI / 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Overlapping cores, as after an impact: the overlap stays bounded and pushing along the normals separates the pair.
+/// Overlapping cores, as after an impact: the overlap is bounded, and a displacement along the normals separates the pair.
 #include "shapes.hpp"
 #include <kernel/separating_axis.hpp>
 #include <algorithm>
@@ -16,7 +16,7 @@ double gapOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose&
 	return coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis);
 }
 
-/// No point of two features is deeper than the touching distance plus half a core; no core point than the cores are.
+/// Overlap of feature points: at most the contact distance plus half the core. Overlap of the core point: that of the cores.
 void expectBounded(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB, const std::vector<ContactPoint>& points)
 {
 	const double touch = a.radius + b.radius, half = std::max(a.coreHalfThickness, b.coreHalfThickness);
@@ -28,7 +28,7 @@ void expectBounded(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const
 	}
 }
 
-/// Moves B in steps of `step` along the mean push until the cores part; returns the number of steps, or -1.
+/// Moves B in steps of `step` along the mean push until the cores separate; returns the number of steps, or -1.
 int stepsToPart(const RoundedPolyhedron& a, const RoundedPolyhedron& b, Pose poseB, double step, int most)
 {
 	for (int k = 0; k < most; ++k) {
@@ -46,7 +46,7 @@ int stepsToPart(const RoundedPolyhedron& a, const RoundedPolyhedron& b, Pose pos
 
 } // namespace
 
-/// Through the moment when the cores touch (overlap 0.1 m) the four overlaps grow on in closed form.
+/// The four overlaps are continuous where the cores touch (overlap 0.1 m).
 TEST(DeepOverlap, FaceOnFaceGrowsOn)
 {
 	const auto a = roundedBox({ 1, 1, 1 }), b = roundedBox({ 0.4, 0.4, 0.4 });
@@ -55,7 +55,7 @@ TEST(DeepOverlap, FaceOnFaceGrowsOn)
 		ASSERT_GE(points.size(), 4u) << overlap;
 		EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 		for (const auto& p : points) {
-			EXPECT_NEAR(p.overlap, overlap, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.overlap, overlap, 1e-13); // rounding at positions of metres
 			EXPECT_NEAR(p.normal.z(), 1, 1e-13);
 		}
 	}
@@ -69,7 +69,7 @@ TEST(DeepOverlap, FlushFacesStayBoundedAndOutward)
 		const auto points = contacts(cube, cube, {}, pose);
 		ASSERT_FALSE(points.empty()) << overlap;
 		for (const auto& p : points) {
-			EXPECT_NEAR(p.overlap, overlap, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.overlap, overlap, 1e-13); // rounding at positions of metres
 			EXPECT_NEAR(p.normal.z(), 1, 1e-13);
 		}
 	}
@@ -87,7 +87,7 @@ TEST(DeepOverlap, SmallBoxInsideALargeOneLeavesByTheNearestFace)
 	EXPECT_GE(stepsToPart(small, large, { -inside, Quat::Identity() }, 1e-3, 1000), 0);
 }
 
-/// No vertex of one is in the other and their edges pass beyond each other: one point along the axis of least depth.
+/// No vertex is inside the other body and no edges cross: one point along the axis of least overlap.
 TEST(DeepOverlap, PlatesThroughEachOther)
 {
 	const auto plate = roundedBox({ 1, 1, 0.02 });
@@ -112,11 +112,11 @@ TEST(DeepOverlap, CorePointPartsThePairInOneMove)
 	EXPECT_GE(gapOf(plate, plate, { crossing.position + 1.000001 * depth * points[0].normal, crossing.orientation }), 0);
 }
 
-/// A block sinks into the top of a ridge whose sides slope back under it: the two of its vertices that have come out through
-/// the side are below the top's plane and over the top, but outside the ridge, and do not count.
-TEST(DeepOverlap, VertexUnderAFaceButOutsideASlopeDoesNotCount)
+/// A block penetrates the top of a ridge with undercut sides. Two of its vertices leave the ridge through the side: they project onto the
+/// top and are below its plane, but outside the ridge. They are not in contact.
+TEST(DeepOverlap, NoContactOfAVertexOutsideTheBody)
 {
-	const double radius = 0.01, depth = 0.05, side = 0.5 - radius * (1 + M_SQRT2) - depth; // where the core's slope of 45 degrees is at that depth
+	const double radius = 0.01, depth = 0.05, side = 0.5 - radius * (1 + M_SQRT2) - depth; // of the core's slope of 45 degrees at that depth
 	const auto ridge = rounded(prismVertices({ { -0.5, 0 }, { -0.1, -0.4 }, { 0.1, -0.4 }, { 0.5, 0 } }, 1), radius);
 	const auto block = roundedBox({ 0.2 + 2 * radius, 0.3, 0.3 }, radius);
 	for (const double out : { -0.02, 0.02 }) {
@@ -124,7 +124,7 @@ TEST(DeepOverlap, VertexUnderAFaceButOutsideASlopeDoesNotCount)
 		EXPECT_EQ(count(points, FeatureKind::FaceVertex), out > 0 ? 2 : 4);
 		EXPECT_EQ(points.size(), out > 0 ? 2u : 4u);
 		for (const auto& p : points) {
-			EXPECT_NEAR(p.overlap, 2 * radius + depth, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.overlap, 2 * radius + depth, 1e-13); // rounding at positions of metres
 			EXPECT_NEAR(p.normal.y(), 1, 1e-13);
 			if (out > 0) {
 				EXPECT_NEAR(p.position.x(), side + out - 0.2, 1e-13);
@@ -133,7 +133,7 @@ TEST(DeepOverlap, VertexUnderAFaceButOutsideASlopeDoesNotCount)
 	}
 }
 
-/// Crossed beams from first touch until deeper than half a beam: always pushed up.
+/// Crossed beams from first contact to more than half their depth: always pushed upwards.
 TEST(DeepOverlap, CrossedBeams)
 {
 	const auto beam = roundedBox({ 3, 0.12, 0.12 });
@@ -142,7 +142,7 @@ TEST(DeepOverlap, CrossedBeams)
 		const auto points = contacts(beam, beam, {}, { { 0, 0, 0.12 - overlap }, across });
 		ASSERT_FALSE(points.empty()) << overlap;
 		for (const auto& p : points) {
-			EXPECT_NEAR(p.normal.z(), 1, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.normal.z(), 1, 1e-13); // rounding at positions of metres
 			EXPECT_NEAR(p.overlap, overlap, 1e-13);
 		}
 	}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Members whose faces are flush: vertices lie exactly over borders. What counts is decided by rule
-/// (Patterns::flushSupports), never by the last bit.
+/// Flush members: vertices lie exactly above borders of faces. Patterns::flushSupports decides these contacts, not rounding.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
 
@@ -12,7 +11,7 @@ namespace {
 constexpr double press = 1e-3; ///< overlap of the resting pairs [m]
 const Patterns supported { false, true }, unsupported { false, false };
 
-/// A column of the beam's width stands on the beam: its four vertices are exactly over the beam's two edges.
+/// A column of the beam's width stands on the beam: its four vertices are exactly above two edges of the beam.
 struct FlushColumn {
 	RoundedPolyhedron beam = roundedBox({ 3, 0.105, 0.12 }), column = roundedBox({ 0.105, 0.105, 2.73 });
 	Pose onBeam(double alongY = 0) const { return { { 0.2, alongY, 0.06 + 1.365 - press }, Quat::Identity() }; }
@@ -28,7 +27,7 @@ TEST(FlushColumn, FourPointsOrNoneByRule)
 	const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(), supported);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
-		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding of metre-sized placements
+		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding at positions of metres
 		EXPECT_NEAR(p.normal.z(), 1, 1e-13);
 		EXPECT_NEAR(std::abs(p.position.y()), 0.042, 1e-13);
 	}
@@ -37,8 +36,8 @@ TEST(FlushColumn, FourPointsOrNoneByRule)
 	EXPECT_TRUE(contacts(pair.column, pair.beam, pair.onBeam(), {}, unsupported).empty());
 }
 
-/// The vertex-edge pattern takes over where the face rule refuses, and adds nothing where it supports.
-TEST(FlushColumn, VertexEdgePatternHoldsIt)
+/// Vertex-edge contacts replace the support by the face if that is off, and add nothing if it is on.
+TEST(FlushColumn, VertexEdgePatternReplacesFaceSupport)
 {
 	const FlushColumn pair;
 	const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, false });
@@ -63,8 +62,8 @@ TEST(FlushColumn, CountSurvivesNoiseAndPlacement)
 	}
 }
 
-/// Slid across the beam: the two vertices beyond the border let go after flushTolerance (0.1 mm) and the column's edges
-/// cross the beam's border instead, so that four points remain. Those within the border count in both readings.
+/// Slid across the beam: the two vertices beyond the border lose contact after flushTolerance (0.1 mm). The column's edges
+/// cross the border of the beam instead, so that four points remain. Vertices inside the border are in contact with both settings.
 TEST(FlushColumn, SlidAcrossTheBorder)
 {
 	const FlushColumn pair;
@@ -81,7 +80,7 @@ TEST(FlushColumn, SlidAcrossTheBorder)
 		}
 }
 
-/// All vertices coincide: one point per corner, whichever body asks and however the last bits fall.
+/// All vertices coincide: one point per corner, for both orders of the bodies and any rounding errors.
 TEST(CoincidentVertices, StackOfEqualBoxes)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
@@ -98,18 +97,18 @@ TEST(CoincidentVertices, StackOfEqualBoxes)
 	}
 }
 
-/// Without the flush rule the extra patterns see the same four corners, once each.
+/// Without flushSupports, the extra patterns give the same four corners, once each.
 TEST(CoincidentVertices, ExtraPatternsCountEachCornerOnce)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	const auto points = contacts(cube, cube, {}, { { 0, 0, 1 - press }, Quat::Identity() }, { true, false });
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points)
-		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding of metre-sized placements
+		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding at positions of metres
 }
 
-/// A bar on its edge at the border of a box: each of its ends is in the box's top, and each of the box's corners in the bar's side. The places are
-/// the same, the normals are not: both count.
+/// A bar on its edge at the border of a box: its ends are in contact with the top of the box, and the corners of the box with the side of
+/// the bar. The positions coincide, the normals differ: both are contacts.
 TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 {
 	const auto box = roundedBox({ 1, 1, 1 }, 0.001), bar = roundedBox({ 0.1, 1, 0.1 }, 0.001);
@@ -120,20 +119,20 @@ TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
 		const bool side = p.id.kind() == FeatureKind::VertexFace;
-		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13); // rounding of metre-sized placements
+		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13); // rounding at positions of metres
 		EXPECT_NEAR(p.normal.z(), side ? std::sqrt(0.5) : 1, 1e-13);
 		EXPECT_LT((p.position - points[0].position).cwiseProduct(Vec3(1, 0, 1)).norm(), 2e-4);
 	}
 }
 
-/// Corner exactly on corner: there is no direction between them, and no point.
+/// Corner exactly on corner: the normal is undefined, and there is no point.
 TEST(CoincidentVertices, CornerExactlyOnCorner)
 {
 	const auto cube = roundedBox({ 1, 1, 1 }, 0.125);
 	EXPECT_TRUE(contacts(cube, cube, {}, { Vec3::Constant(0.75), Quat::Identity() }, { true, false }).empty());
 }
 
-/// Equal boxes slid along one side by less and more than the rule's reach: always four supports.
+/// Equal boxes displaced along one side by less and more than the tolerance: always four points.
 TEST(CoincidentVertices, SlidAlongOneSide)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
@@ -142,7 +141,7 @@ TEST(CoincidentVertices, SlidAlongOneSide)
 			EXPECT_EQ(contacts(cube, cube, {}, { { sign * slide, 0, 1 - press }, Quat::Identity() }, supported).size(), 4u) << slide;
 }
 
-/// Slid along the diagonal: one vertex of each, two crossings.
+/// Displaced along the diagonal: one vertex of each box, two crossings.
 TEST(CoincidentVertices, SlidAlongTheDiagonal)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
@@ -150,7 +149,7 @@ TEST(CoincidentVertices, SlidAlongTheDiagonal)
 		EXPECT_EQ(contacts(cube, cube, {}, { { slide, slide, 1 - press }, Quat::Identity() }, supported).size(), 4u) << slide;
 }
 
-/// n = 0 exactly: no point, however the noise falls; n = 1e-9: all points.
+/// Zero overlap: no point, or one of rounding size; overlap 1e-9 m: all points.
 TEST(FlushFaces, TouchingWithoutOverlap)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
@@ -159,11 +158,11 @@ TEST(FlushFaces, TouchingWithoutOverlap)
 	EXPECT_EQ(contacts(cube, cube, {}, pressed).size(), 4u);
 	for (const auto& p : contacts(cube, cube, {}, { { 0.1, 0.1, 1 }, Quat::Identity() })) {
 		EXPECT_GT(p.overlap, 0);
-		EXPECT_LT(p.overlap, 1e-13); // rounding of metre-sized placements
+		EXPECT_LT(p.overlap, 1e-13); // rounding at positions of metres
 	}
 }
 
-/// A floor between flush walls and a brace between flush members: the same number of points on mirrored sides.
+/// A floor beside a flush beam: the same number of points on both sides.
 TEST(FlushFaces, PanelBesideBeamHasFourPoints)
 {
 	const auto beam = roundedBox({ 3, 0.105, 0.12 }), floor = roundedBox({ 3, 2, 0.2 });
@@ -173,7 +172,7 @@ TEST(FlushFaces, PanelBesideBeamHasFourPoints)
 		EXPECT_EQ(points.size(), 4u);
 		for (const auto& p : points) {
 			EXPECT_NEAR(p.normal.y(), side, 1e-13);
-			EXPECT_NEAR(p.overlap, press, 1e-13); // rounding of metre-sized placements
+			EXPECT_NEAR(p.overlap, press, 1e-13); // rounding at positions of metres
 		}
 	}
 }

@@ -10,7 +10,7 @@ using namespace timber::shapes;
 
 namespace {
 
-/// Placements of order 1 m through two rotations: rounding only. [m]
+/// Rounding error of positions of about 1 m after two rotations. [m]
 constexpr double rounding = 1e-13;
 constexpr double press = 1e-3; ///< overlap of the resting pairs [m]
 
@@ -20,12 +20,12 @@ void expectPoint(const ContactPoint& p, const Vec3& normal, double overlap, doub
 	EXPECT_LT((p.normal - normal).norm(), tolerance * 100); // an angle: the error in m over lengths of some cm
 }
 
-/// Every one of the places is that of exactly one point.
-void expectPlaces(const std::vector<ContactPoint>& points, const std::vector<Vec3>& places, double tolerance = rounding)
+/// Exactly one point at each of the positions.
+void expectPositions(const std::vector<ContactPoint>& points, const std::vector<Vec3>& positions, double tolerance = rounding)
 {
-	EXPECT_EQ(points.size(), places.size());
-	for (const Vec3& place : places)
-		EXPECT_EQ(std::count_if(points.begin(), points.end(), [&](const ContactPoint& p) { return (p.position - place).norm() < tolerance; }), 1) << place.transpose();
+	EXPECT_EQ(points.size(), positions.size());
+	for (const Vec3& position : positions)
+		EXPECT_EQ(std::count_if(points.begin(), points.end(), [&](const ContactPoint& p) { return (p.position - position).norm() < tolerance; }), 1) << position.transpose();
 }
 
 std::vector<Vec3> rectangle(double x, double y, double z) { return { { x, y, z }, { -x, y, z }, { x, -y, z }, { -x, -y, z } }; }
@@ -42,7 +42,7 @@ TEST(FaceOnFace, SmallBoxOnLarge)
 {
 	const auto points = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), 1, 0.5);
 	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
-	expectPlaces(points, rectangle(0.2, 0.2, 0.5 - press / 2));
+	expectPositions(points, rectangle(0.2, 0.2, 0.5 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
@@ -51,7 +51,7 @@ TEST(FaceOnFace, LargeBoxOnSmall)
 {
 	const auto points = stacked(roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 1, 1 }), 0.5, 1);
 	EXPECT_EQ(count(points, FeatureKind::VertexFace), 4);
-	expectPlaces(points, rectangle(0.2, 0.2, 0.25 - press / 2));
+	expectPositions(points, rectangle(0.2, 0.2, 0.25 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
@@ -59,21 +59,21 @@ TEST(FaceOnFace, LargeBoxOnSmall)
 TEST(FaceOnFace, SameSizeHasFourPointsNotEight)
 {
 	const auto points = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), 1, 1);
-	expectPlaces(points, rectangle(0.4, 0.4, 0.5 - press / 2));
+	expectPositions(points, rectangle(0.4, 0.4, 0.5 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
 
-/// The octagon that two squares of half side 0.4 have in common, one turned by 45 degrees.
+/// Intersection of two squares of half side 0.4, one rotated by 45 degrees: an octagon.
 TEST(FaceOnFace, TurnedByFortyFiveDegrees)
 {
 	const auto points = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), 1, 1, about({ 0, 0, 1 }, M_PI / 4));
 	const double s = 0.4 * (std::sqrt(2.) - 1), z = 0.5 - press / 2;
-	auto places = rectangle(0.4, s, z);
+	auto positions = rectangle(0.4, s, z);
 	for (const Vec3& p : rectangle(s, 0.4, z))
-		places.push_back(p);
+		positions.push_back(p);
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 8);
-	expectPlaces(points, places);
+	expectPositions(points, positions);
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
@@ -83,7 +83,7 @@ TEST(FaceOnFace, CrossedBeams)
 	const auto a = roundedBox({ 3, 0.105, 0.12 }), b = roundedBox({ 0.12, 3, 0.18 });
 	const auto points = stacked(a, b, 0.12, 0.18);
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
-	expectPlaces(points, rectangle(0.06 - b.radius, 0.0525 - a.radius, 0.06 - press / 2));
+	expectPositions(points, rectangle(0.06 - b.radius, 0.0525 - a.radius, 0.06 - press / 2));
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
@@ -92,10 +92,10 @@ TEST(FaceOnFace, CrossedBeams)
 TEST(FaceOnFace, PositionWithUnequalRadii)
 {
 	const auto points = stacked(roundedBox({ 1, 1, 1 }, 0.02), roundedBox({ 0.5, 0.5, 0.5 }, 0.1), 1, 0.5);
-	expectPlaces(points, rectangle(0.15, 0.15, 0.5 - press / 2));
+	expectPositions(points, rectangle(0.15, 0.15, 0.5 - press / 2));
 }
 
-/// The overlap under each corner is that of a turned plane, in closed form.
+/// The overlap at each corner follows from the rotated plane.
 TEST(FaceOnFace, TiltedByTenMicroradians)
 {
 	const double tilt = 1e-5, z = 0.75 - press;
@@ -113,12 +113,12 @@ TEST(FaceOnFace, TiltedByTenDegreesStandsOnTwoCorners)
 	const double tilt = M_PI / 18, lowest = 0.2 * std::sin(tilt) + 0.2 * std::cos(tilt) + 0.05;
 	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {}, { { 0, 0, 0.5 + lowest - press }, about({ 0, 1, 0 }, tilt) });
 	const double x = 0.2 * std::cos(tilt) - 0.2 * std::sin(tilt);
-	expectPlaces(points, { { x, 0.2, 0.5 - press / 2 }, { x, -0.2, 0.5 - press / 2 } });
+	expectPositions(points, { { x, 0.2, 0.5 - press / 2 }, { x, -0.2, 0.5 - press / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
 
-/// Two bars turned on their edges, the upper one at an angle in plan: edges cross in one point.
+/// Two bars resting on their edges, the upper one rotated in plan: the edges cross at one point.
 TEST(EdgeOnEdge, CrossedAtNinetyAndThirtyDegrees)
 {
 	const auto bar = roundedBox({ 2, 0.2, 0.2 });
@@ -128,13 +128,13 @@ TEST(EdgeOnEdge, CrossedAtNinetyAndThirtyDegrees)
 		const double height = 2 * core + 2 * bar.radius - press;
 		const auto points = contacts(bar, bar, { { 0, 0, 0 }, onEdge }, { { 0, 0, height }, about({ 0, 0, 1 }, angle) * onEdge });
 		EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 1);
-		expectPlaces(points, { { 0, 0, height / 2 } });
+		expectPositions(points, { { 0, 0, height / 2 } });
 		for (const auto& p : points)
 			expectPoint(p, Vec3::UnitZ(), press);
 	}
 }
 
-/// The paper ignores what happens along parallel edges; the switch brings the vertices that lie on the other's edge.
+/// The paper ignores parallel edges; Patterns::vertexEdge adds the vertices that lie on an edge.
 TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 {
 	const auto lower = roundedBox({ 2, 0.2, 0.2 }), upper = roundedBox({ 1, 0.2, 0.2 });
@@ -145,11 +145,11 @@ TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 	const Patterns all { true, true };
 	auto points = contacts(lower, upper, below, above, all);
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 2);
-	expectPlaces(points, { { 0.48, 0, height / 2 }, { -0.48, 0, height / 2 } });
+	expectPositions(points, { { 0.48, 0, height / 2 }, { -0.48, 0, height / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
-	points = contacts(lower, lower, below, above, all); // ends flush too: each end is one contact
-	expectPlaces(points, { { 0.98, 0, height / 2 }, { -0.98, 0, height / 2 } });
+	points = contacts(lower, lower, below, above, all); // flush ends: one contact at each end
+	expectPositions(points, { { 0.98, 0, height / 2 }, { -0.98, 0, height / 2 } });
 }
 
 TEST(CornerOnFace, OnePoint)
@@ -160,7 +160,7 @@ TEST(CornerOnFace, OnePoint)
 	const Vec3 centre(0.1, -0.05, 0.5 + core + cube.radius - press);
 	const auto points = contacts(roundedBox({ 1, 1, 1 }), cube, {}, { centre, onCorner });
 	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 1);
-	expectPlaces(points, { { 0.1, -0.05, 0.5 - press / 2 } });
+	expectPositions(points, { { 0.1, -0.05, 0.5 - press / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
@@ -176,10 +176,10 @@ TEST(CornerOnCorner, NeedsTheVertexVertexPattern)
 	const auto points = contacts(cube, cube, { { 0, 0, 0 }, onCorner }, above, { true, true });
 	EXPECT_EQ(count(points, FeatureKind::VertexVertex), 1);
 	ASSERT_EQ(points.size(), 1u);
-	expectPoint(points[0], Vec3::UnitZ(), press, 1e-12); // the turn onto the corner is itself rounded
+	expectPoint(points[0], Vec3::UnitZ(), press, 1e-12); // rounding of the rotation onto the corner
 }
 
-/// Corner beside an edge, sideways: vertex-edge, with the normal along the shortest connection.
+/// Corner beside an edge: vertex-edge contact with the normal along the shortest distance.
 TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 {
 	const auto a = roundedBox({ 1, 1, 1 }), b = roundedBox({ 0.4, 0.4, 0.4 });
@@ -191,14 +191,14 @@ TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 	EXPECT_TRUE(contacts(a, b, {}, poseB).empty());
 	const auto points = contacts(a, b, {}, poseB, { true, true });
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
-	expectPlaces(points, { edge + towards * (a.radius - press / 2) }, 1e-12); // the turn onto the corner is itself rounded
+	expectPositions(points, { edge + towards * (a.radius - press / 2) }, 1e-12); // rounding of the rotation onto the corner
 	for (const auto& p : points)
 		expectPoint(p, towards, press, 1e-12);
 }
 
-/// A corner on a slope just below a narrow ridge is within reach of the ridge's farther edge, too, but behind it: only the slope
-/// answers.
-TEST(CornerOnEdge, AnEdgeDoesNotAnswerBehindIt)
+/// A corner on a slope just below a narrow ridge is also within the contact distance of the far edge of the ridge, but behind it: only the
+/// slope is in contact.
+TEST(CornerOnEdge, NoContactBehindAnEdge)
 {
 	const double radius = 0.01, width = 0.005, below = 0.005, rest = width / 2 + radius * (M_SQRT2 - 1);
 	const auto ridge = rounded(prismVertices({ { -rest - 0.2, -0.2 }, { rest + 0.2, -0.2 }, { rest, 0 }, { -rest, 0 } }, 0.5), radius);
@@ -206,19 +206,19 @@ TEST(CornerOnEdge, AnEdgeDoesNotAnswerBehindIt)
 	const Vec3 slope = Vec3(-1, 1, 0).normalized(), down = Vec3(-1, -1, 0).normalized();
 	const Vec3 foot = Vec3(-width / 2, -radius, 0) + below * down, corner = foot + radius * slope;
 	const Vec3 towards = Vec3(width / 2, -radius, 0) - corner;
-	ASSERT_LT(towards.norm(), 2 * radius); // within reach of the farther edge,
+	ASSERT_LT(towards.norm(), 2 * radius); // within the contact distance of the far edge
 	ASSERT_GT(towards.dot(Vec3(1, 1 + M_SQRT2, 0)), 0); // behind it
 	const Pose poseB { corner + (0.1 - radius) * std::sqrt(3.) * slope, Quat::FromTwoVectors(Vec3(1, 1, 1), -slope) };
 	for (const bool swapped : { false, true }) {
 		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true }) : contacts(ridge, cube, {}, poseB, { true, true });
 		EXPECT_EQ(count(points, swapped ? FeatureKind::VertexFace : FeatureKind::FaceVertex), 1);
-		expectPlaces(points, { foot + radius / 2 * slope }, 1e-12); // the turn onto the corner is itself rounded
+		expectPositions(points, { foot + radius / 2 * slope }, 1e-12); // rounding of the rotation onto the corner
 		for (const auto& p : points)
 			expectPoint(p, swapped ? Vec3(-slope) : slope, radius, 1e-12);
 	}
 }
 
-/// A brace bears in the corner of its bay: four points on the beam below, four on the column beside.
+/// A brace in the corner of its bay: four points on the beam below, four on the column beside it.
 class BraceInCorner : public testing::Test {
 protected:
 	const Brace shape { 0.805, 2.61, 0.09, 0.045 };
@@ -234,14 +234,14 @@ TEST_F(BraceInCorner, OnTheBeam)
 	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
-		expectPoint(p, Vec3::UnitZ(), press, 1e-12); // core vertices from three-plane solves
+		expectPoint(p, Vec3::UnitZ(), press, 1e-12); // rounding of the intersection of three planes
 		EXPECT_NEAR(std::abs(p.position.y()), shape.depth / 2 - brace.radius, 1e-12);
 		EXPECT_NEAR(p.position.z(), -press / 2, 1e-12);
 	}
 }
 
-/// The column's core ends 10.5 mm above the beam, higher than the brace's lowest core vertices: its end edge is
-/// crossed by the two upright edges of the brace.
+/// The column's core ends 10.5 mm above the beam, above the lowest core vertices of the brace: the two vertical
+/// edges of the brace cross its end edge.
 TEST_F(BraceInCorner, OnTheColumn)
 {
 	const auto points = contacts(column, brace, columnPose, bracePose);
@@ -249,7 +249,7 @@ TEST_F(BraceInCorner, OnTheColumn)
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 2);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
-		expectPoint(p, Vec3::UnitX(), press, 1e-12); // core vertices from three-plane solves
+		expectPoint(p, Vec3::UnitX(), press, 1e-12); // rounding of the intersection of three planes
 		EXPECT_NEAR(p.position.x(), -press / 2, 1e-12);
 		if (p.id.kind() == FeatureKind::EdgeEdge) {
 			EXPECT_NEAR(p.position.z(), column.radius, 1e-12);
@@ -257,7 +257,7 @@ TEST_F(BraceInCorner, OnTheColumn)
 	}
 }
 
-/// Two hip slabs, mirror images in the vertical hip plane x + y = eave / 2: all vertices of the bearing faces coincide.
+/// Two hip slabs, mirror images in the vertical hip plane x + y = eave / 2: all vertices of the contact faces coincide.
 TEST(RoofSlabs, BearOnTheHipPlane)
 {
 	const HipSlab shape { 7.43, 0.3, 0.4, 0.12 };
@@ -297,7 +297,7 @@ TEST(SizeRatio, OneToThousand)
 	EXPECT_EQ(onLarge.size(), 4u);
 }
 
-/// The same places and overlaps with opposite normals. Aligned flush pairs are in manifold_flush_test.cpp.
+/// The same positions and overlaps with opposite normals. Aligned flush pairs are in manifold_flush_test.cpp.
 TEST(Symmetry, SwappedBodies)
 {
 	Random random(11);

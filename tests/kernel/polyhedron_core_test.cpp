@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Half-spaces, rounded cores, and the refusal of what is no convex polyhedron.
 #include "topology.hpp"
+#include <kernel/constants.hpp>
 #include <algorithm>
+#include <ctime>
 #include <limits>
 
 using namespace timber;
@@ -11,6 +13,12 @@ namespace {
 
 /// Sums of some ten products of numbers of order one: rounding only.
 constexpr double rounding = 1e-13;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr double slowdown = 50; ///< of instrumented code without optimisation, bound
+#else
+constexpr double slowdown = 1;
+#endif
 
 void expectRefusal(const std::vector<Vec3>& points, const std::string& part)
 {
@@ -196,6 +204,31 @@ TEST(Refusals, PointsThatAreNoCorners)
 	auto dented = box; // a vertex pushed in far enough is no corner any more
 	dented[0] *= 0.2;
 	expectRefusal(dented, "not convex");
+}
+
+/// Larger hulls are refused at once; shapes of the largest size are constructed in well below a second.
+TEST(Refusals, TooManyVertices)
+{
+	Random random(12);
+	for (const size_t count : { maxVertices + 1, size_t(2000), size_t(20000) })
+		expectRefusal(ellipsoidPoints(random, int(count), { 1, 1, 1 }), "at most 64 vertices, got " + std::to_string(count));
+	const auto begin = std::clock();
+	const auto points = ellipsoidPoints(random, int(maxVertices), { 1, 0.8, 0.6 });
+	EXPECT_EQ(Polyhedron::fromVertices(points).vertices.size(), maxVertices);
+	std::vector<Eigen::Vector2d> outline;
+	for (int k = 0; k < int(maxVertices) / 2; ++k)
+		outline.emplace_back(0.3 * std::cos(4 * M_PI * k / maxVertices), 0.3 * std::sin(4 * M_PI * k / maxVertices));
+	EXPECT_EQ(rounded(prismVertices(outline, 2)).core.vertices.size(), maxVertices);
+	EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.5 * slowdown); // observed: 0.02 s of processor time
+}
+
+TEST(Refusals, TooManyHalfSpaces)
+{
+	Random random(13);
+	std::vector<HalfSpace> planes;
+	for (size_t k = 0; k <= maxFaces; ++k)
+		planes.push_back({ randomDirection(random), 1 });
+	EXPECT_THROW(Polyhedron::fromHalfSpaces(planes), PolyhedronError);
 }
 
 /// Just below and just above planarShare (1e-6 of the size): a roof on a face is a superfluous vertex or a corner.

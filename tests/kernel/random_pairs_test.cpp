@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Many random pairs, slivers, plates, needles and sizes of 1:1000 among them: the manifold stays finite, bounded,
-/// sorted and free of the cache, whatever the pair.
+/// Random pairs, including slivers, plates, needles and size ratios of 1:1000: the manifold is finite, bounded, sorted and independent of
+/// the cache.
 #include "shapes.hpp"
 #include <kernel/separating_axis.hpp>
 #include <kernel/constants.hpp>
@@ -15,7 +15,7 @@ using namespace timber::shapes;
 
 namespace {
 
-/// Bodies of 1 mm to 1 m, rounder and flatter ones, up to 1:1000 in their own proportions.
+/// Bodies of 1 mm to 1 m, with aspect ratios up to 1:1000.
 std::vector<RoundedPolyhedron> randomBodies(Random& random, int wanted, int& refused)
 {
 	std::vector<RoundedPolyhedron> bodies;
@@ -100,19 +100,19 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 		++deep;
 		const auto points = contacts(a, b, {}, poseB);
 		EXPECT_FALSE(points.empty()) << trial;
-		std::set<std::pair<FeatureKind, int>> vertices; // each of them answers to one face
+		std::set<std::pair<FeatureKind, int>> vertices; // each is in contact with one face
 		for (const auto& p : points) {
 			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // deepNormalCosine, rounded
-			const FeatureKind meeting = p.id.kind();
-			if (meeting == FeatureKind::VertexFace || meeting == FeatureKind::FaceVertex) {
-				EXPECT_TRUE(vertices.insert({ meeting, meeting == FeatureKind::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
+			const FeatureKind kind = p.id.kind();
+			if (kind == FeatureKind::VertexFace || kind == FeatureKind::FaceVertex) {
+				EXPECT_TRUE(vertices.insert({ kind, kind == FeatureKind::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
 			}
 		}
 	}
 	EXPECT_GT(deep, 1000);
 }
 
-/// One cache per pair along a walk: the same bits as from an empty cache, for bodies of all sizes.
+/// Random walks with one cache per pair: bitwise the same points as from an empty cache, for bodies of all sizes.
 TEST(RandomPairs, CacheHoldsNoResult)
 {
 	Random random(73);
@@ -140,11 +140,11 @@ TEST(RandomPairs, CacheHoldsNoResult)
 	EXPECT_GT(touching, 1000);
 }
 
-/// Within the motion that a gap promises, measured as CollisionTrigger does, nothing touches; a little beyond it, some do.
-TEST(RandomPairs, GapIsKept)
+/// No contact within the safe displacement, measured as in CollisionTrigger; some pairs are in contact slightly beyond it.
+TEST(RandomPairs, SafeDisplacement)
 {
 	Random random(91);
-	int refused = 0, promised = 0, beyond = 0;
+	int refused = 0, separated = 0, beyond = 0;
 	const auto bodies = randomBodies(random, 100, refused);
 	for (int trial = 0; trial < 4000; ++trial) {
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
@@ -156,7 +156,7 @@ TEST(RandomPairs, GapIsKept)
 		updateManifold(a, b, {}, poseB, patterns, cache, points); // finds the axis
 		const double gap = updateManifold(a, b, {}, poseB, patterns, cache, points);
 		if (gap == 0) continue;
-		++promised;
+		++separated;
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.boundingRadius);
 		const double left = gap - rotationDisplacement(turn, b.halfExtents);
 		ASSERT_GE(left, 0);
@@ -164,11 +164,11 @@ TEST(RandomPairs, GapIsKept)
 		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
 		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, patterns).empty();
 	}
-	EXPECT_GT(promised, 1000);
-	EXPECT_GT(beyond, promised / 20);
+	EXPECT_GT(separated, 1000);
+	EXPECT_GT(beyond, separated / 20);
 }
 
-/// No core vertex goes farther than the bound; a member that spins about its axis is not taken for one that swings.
+/// No core vertex moves farther than the bound. Rotation of a slender member about its axis gives a small bound.
 TEST(RandomPairs, RotationDisplacementBoundsAllPoints)
 {
 	Random random(92);

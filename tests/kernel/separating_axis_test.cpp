@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Gap and least overlap of two convex bodies: closed forms, symmetry, and no direction that would part them sooner.
+/// Gap and penetration depth of two convex bodies: closed forms, symmetry, and comparison with random directions.
 #include "shapes.hpp"
 #include <kernel/separating_axis.hpp>
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace timber::shapes;
 
 namespace {
 
-constexpr double rounding = 1e-13; ///< of placements of metre-sized bodies [m]
+constexpr double rounding = 1e-13; ///< at positions of metres [m]
 
 struct Placed {
 	Polyhedron a, b;
@@ -20,12 +20,12 @@ struct Placed {
 	/// How far B lies beyond A along a direction. [m]
 	double along(const Vec3& direction) const
 	{
-		double farA = -1e9, nearB = 1e9;
+		double maxA = -1e9, minB = 1e9;
 		for (const Vec3& v : a.vertices)
-			farA = std::max(farA, v.dot(direction));
+			maxA = std::max(maxA, v.dot(direction));
 		for (const Vec3& v : b.vertices)
-			nearB = std::min(nearB, (rotation * v + translation).dot(direction));
-		return nearB - farA;
+			minB = std::min(minB, (rotation * v + translation).dot(direction));
+		return minB - maxA;
 	}
 };
 
@@ -49,7 +49,7 @@ TEST(CoreGap, AlignedBoxes)
 	EXPECT_EQ(axis, -Vec3::UnitY());
 }
 
-/// Edges crossed at a right angle, both bars turned by 45 degrees.
+/// Edges crossed at a right angle, both bars rotated by 45 degrees.
 TEST(CoreGap, CrossedEdges)
 {
 	const Polyhedron bar = Polyhedron::fromVertices(boxVertices({ 4, 1, 1 }));
@@ -62,8 +62,8 @@ TEST(CoreGap, CrossedEdges)
 	}
 }
 
-/// The largest separation over all directions is a maximum: none of many directions beats it where the bodies overlap.
-TEST(CoreGap, NoDirectionPartsOverlappingBodiesSooner)
+/// Overlapping bodies: no random direction gives a larger gap (a smaller overlap).
+TEST(CoreGap, LeastOverlapOfAllDirections)
 {
 	Random random(81);
 	int overlapping = 0;
@@ -81,7 +81,7 @@ TEST(CoreGap, NoDirectionPartsOverlappingBodiesSooner)
 	EXPECT_GT(overlapping, 100);
 }
 
-/// Reflected in a point, both bodies have the same gap along the opposite axis; so have swapped bodies.
+/// A point reflection and a swap of the bodies both keep the gap and reverse the axis.
 TEST(CoreGap, PointReflectionAndSwap)
 {
 	Random random(82);

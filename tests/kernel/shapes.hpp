@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Bodies and placements that the kernel's tests share. Lengths in m.
+/// Bodies and poses shared by the kernel's tests. Lengths in m.
 #pragma once
 #include <cmath>
 #include <kernel/manifold.hpp>
@@ -134,7 +134,7 @@ inline std::vector<Vec3> moved(std::vector<Vec3> points, const Quat& rotation, c
 inline RoundedPolyhedron rounded(const std::vector<Vec3>& points, double radius = 0) { return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), radius); }
 inline RoundedPolyhedron roundedBox(const Vec3& extents, double radius = 0) { return rounded(boxVertices(extents), radius); }
 
-/// The whole scene turned and moved: `pose` as seen afterwards.
+/// The pose after a rotation and translation of the whole scene.
 inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translation) { return { rotation * pose.position + translation, rotation * pose.orientation }; }
 
 /// Contact points from an empty cache.
@@ -146,11 +146,11 @@ inline std::vector<ContactPoint> contacts(const RoundedPolyhedron& a, const Roun
 	return points;
 }
 
-inline int count(const std::vector<ContactPoint>& points, FeatureKind meeting)
+inline int count(const std::vector<ContactPoint>& points, FeatureKind kind)
 {
 	int n = 0;
 	for (const ContactPoint& p : points)
-		n += p.id.kind() == meeting;
+		n += p.id.kind() == kind;
 	return n;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What every polyhedron must satisfy, and the house's two odd shapes.
+/// Invariants of polyhedra, and two shapes of the house.
 #pragma once
 #include "shapes.hpp"
 #include <gtest/gtest.h>
 
 namespace timber::shapes {
 
-/// Closed surface, consistent orientation: Euler's formula, unit normals, all vertices inside all planes; `share` of the
-/// size is what counts as lying in a plane (planarShare).
+/// Closed surface, consistent orientation: Euler's formula, unit normals, all vertices inside all planes; `share`: tolerance of
+/// planar faces as a fraction of the size (planarShare).
 inline void expectSound(const Polyhedron& body, double share = 1e-6)
 {
 	EXPECT_EQ(int(body.vertices.size()) - int(body.edges.size()) + int(body.faces.size()), 2);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""ContactLoop leaves pairs alone that cannot touch; everything else is as with YADE's InteractionLoop."""
+"""ContactLoop skips pairs that cannot be in contact; the results are those of YADE's InteractionLoop."""
 import math
 
 import pytest
@@ -7,17 +7,16 @@ import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene import scenario
-from yade_timber.scene import engines as scene
 from yade_timber.motion import default_motion
+from yade_timber.scene import engines, scenario
 
 
 def unwrap():
-    """Put the InteractionLoop in its ContactLoop's place."""
+    """Replace the ContactLoop by its InteractionLoop."""
     O.engines = [e.loop if isinstance(e, yw.ContactLoop) else e for e in O.engines]
 
 
-def places():
+def poses():
     return [(tuple(b.state.pos), tuple(b.state.ori)) for b in O.bodies if b]
 
 
@@ -31,24 +30,24 @@ def start(dt=2e-4):
 
 
 @pytest.mark.parametrize("begin", [0.0, 18.5])
-def test_same_to_the_last_bit(begin):
-    """House C1 under snow, settling and in strong shaking."""
+def test_bitwise_equal_to_interaction_loop(begin):
+    """House C1 under snow, during settlement and in strong shaking."""
 
     def run(wrapped):
         scenario.build(scenario.Scenario("loop", "C1", default_motion(), 1.0, options={"skip_rest": 0}))
-        scene.find_engine(yw.GroundMotionEngine).start = -begin
+        engines.find_engine(yw.GroundMotionEngine).start = -begin
         if not wrapped:
             unwrap()
         O.run(1500, True)
-        return places(), yt.energy()
+        return poses(), yt.energy()
 
     expected, found = run(False), run(True)
     assert found == expected
-    assert scene.find_engine(yw.ContactLoop).runs < O.iter / 4  # the collider's runs
+    assert engines.find_engine(yw.ContactLoop).runs < O.iter / 4  # it runs with the collider
 
 
-def test_a_held_body_that_is_released():
-    """Two held bodies are no pair; once one is released, it rests on the other."""
+def test_fixed_body_that_is_freed():
+    """Two fixed bodies have no contact. A body that is freed rests on the other."""
     O.reset()
     box(0.1, fixed=True)
     upper = box(0.3, fixed=True)
@@ -60,8 +59,8 @@ def test_a_held_body_that_is_released():
     assert len(yt.contacts(0, upper)) == 4
 
 
-def test_bodies_put_elsewhere_or_taken_out():
-    """A body that hung beyond reach is put onto another; then that one is taken out."""
+def test_bodies_moved_by_hand_or_erased():
+    """A distant body is placed on another, which is then erased."""
     O.reset()
     box(0.1, fixed=True)
     upper = box(0.4)
@@ -79,35 +78,35 @@ def test_bodies_put_elsewhere_or_taken_out():
     assert O.bodies[upper].state.vel[2] == speed > 0
 
 
-def test_boxes_of_fast_bodies_last_for_some_steps():
-    """A block flies half a metre at 40 m/s, 1 cm a step, against a wall: it is expected there and comes back no faster."""
+def test_bounding_boxes_of_fast_bodies():
+    """A block flies half a metre at 40 m/s, 1 cm per step, against a wall. The contact is detected, and the rebound is not faster."""
     O.reset()
     O.bodies.append(yt.box((0.1, 2, 2), (0, 0, 0), fixed=True))
     flying = O.bodies.append(yt.box((0.2, 0.1, 0.1), (0.65, 0, 0)))
     yt.set_velocity(O.bodies[flying], (-40, 0, 0))
     start(2.5e-4)
     touched, state = 0, O.bodies[flying].state
-    trigger = scene.find_engine(yw.CollisionTrigger)
+    trigger = engines.find_engine(yw.CollisionTrigger)
     O.run(45, True)
-    assert not yt.contacts(0, flying) and trigger.runs <= 6  # one in boxWidest * margin = 0.1 m
+    assert not yt.contacts(0, flying) and trigger.runs <= 6  # one per maxMarginRatio * margin = 0.1 m
     for _ in range(40):
         O.step()
         touched += bool(yt.contacts(0, flying))
-        assert state.vel.norm() < 40.1 and state.pos[0] > 0.1  # it falls by 0.2 m/s meanwhile
+        assert state.vel.norm() < 40.1 and state.pos[0] > 0.1  # gravity adds 0.2 m/s
     assert touched and state.vel[0] > 0
 
 
-def test_boxes_of_spinning_bodies_last_for_some_steps():
-    """Ends of a bar that spins on the spot go 5 mm a step, as far as a slow body's box reaches."""
+def test_bounding_boxes_of_rotating_bodies():
+    """The ends of a rotating bar move 5 mm per step, the margin of a slow body."""
     O.reset()
     bar = O.bodies.append(yt.box((2, 0.1, 0.1), (0, 0, 0)))
     yt.set_velocity(O.bodies[bar], (0, 0, 0), (0, 20, 0))
     start(2.5e-4)
     O.run(45, True)
-    assert scene.find_engine(yw.CollisionTrigger).runs <= 4
+    assert engines.find_engine(yw.CollisionTrigger).runs <= 4
 
 
-def test_pairs_that_were_reset_by_hand():
+def test_interaction_erased_by_hand():
     O.reset()
     box(0.1, fixed=True)
     upper = box(0.3 - 1e-6)
@@ -119,8 +118,8 @@ def test_pairs_that_were_reset_by_hand():
     assert len(yt.contacts(0, upper)) == 4
 
 
-def test_other_shapes_are_left_to_yade():
-    """Small spheres, whose boxes have no margin, fly at each other beside a box on the ground: as with YADE's collider and InteractionLoop alone."""
+def test_other_shapes():
+    """Two small spheres, whose boxes have no margin, collide beside a box on the ground: same result as with YADE's engines alone."""
 
     def run(wrapped):
         O.reset()
@@ -129,14 +128,14 @@ def test_other_shapes_are_left_to_yade():
         box(0.3)
         for x, speed in ((2, 1), (2.025, -1)):
             ball = yw.Body(shape=yw.Sphere(radius=0.01), material=O.materials[0])
-            ball.mask = 2  # of another group than the boxes: no functor has to exist for them
+            ball.mask = 2  # a group of its own: no functor is needed for spheres and boxes
             ball.state.mass, ball.state.inertia = 4.2e-3, Vector3(1.7e-7, 1.7e-7, 1.7e-7)
             ball.state.pos, ball.state.vel = Vector3(x, 0, 0), Vector3(speed, 0, 0)
             O.bodies.append(ball)
         start(1e-5)
-        bounds = scene.find_engine(yw.CollisionTrigger).collider.boundDispatcher
+        bounds = engines.find_engine(yw.CollisionTrigger).collider.boundDispatcher
         bounds.functors = [*bounds.functors, yw.Bo1_Sphere_Aabb()]
-        loop = scene.find_engine(yw.ContactLoop).loop
+        loop = engines.find_engine(yw.ContactLoop).loop
         loop.geomDispatcher.functors = [*loop.geomDispatcher.functors, yw.Ig2_Sphere_Sphere_ScGeom()]
         loop.physDispatcher.functors = [*loop.physDispatcher.functors, yw.Ip2_FrictMat_FrictMat_FrictPhys()]
         loop.lawDispatcher.functors = [*loop.lawDispatcher.functors, yw.Law2_ScGeom_FrictPhys_CundallStrack()]
@@ -144,16 +143,16 @@ def test_other_shapes_are_left_to_yade():
             unwrap()
             O.engines = [e.collider if isinstance(e, yw.CollisionTrigger) else e for e in O.engines]
         O.run(1000, True)
-        return places()
+        return poses()
 
     expected = run(False)
     assert run(True) == expected
-    assert expected[2][0][0] < 2  # the spheres met and flew apart
+    assert expected[2][0][0] < 2  # the spheres collided
     assert O.bodies[2].state.vel[0] == pytest.approx(-1, rel=1e-2)
 
 
-def test_a_body_in_the_place_of_one_that_is_gone():
-    """The scene is still, and the new body has the old one's id."""
+def test_body_that_reuses_an_id():
+    """A body is erased from a scene at rest, and a new one gets its id."""
     O.reset()
     box(0.1, fixed=True)
     upper = box(0.3)
@@ -166,23 +165,23 @@ def test_a_body_in_the_place_of_one_that_is_gone():
     assert O.bodies[upper].shape.name == "new" and O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
 
 
-def test_a_trigger_that_is_switched_off():
-    """What is known of the bodies' motion then grows old: pairs are looked at in each step."""
+def test_trigger_switched_off():
+    """The motions of the bodies are then out of date: all pairs are evaluated in each step."""
     O.reset()
     box(0.1, fixed=True)
     upper = box(0.301)  # it falls by 1 mm
     start()
     O.step()
-    scene.find_engine(yw.CollisionTrigger).dead = True
+    engines.find_engine(yw.CollisionTrigger).dead = True
     O.run(500, True)
     assert O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
 
 
 def test_patterns_and_shapes_that_change():
-    """What is kept of a pair at rest is not taken for that of other patterns or other shapes."""
+    """The cache of a pair at rest is reset for other patterns and other shapes."""
 
     def points(vertex_edge):
-        loop = scene.find_engine(yw.ContactLoop).loop
+        loop = engines.find_engine(yw.ContactLoop).loop
         loop.geomDispatcher.functors[0].vertexEdge = vertex_edge
         O.step()
         return len(yt.contacts(0, upper))
@@ -198,14 +197,14 @@ def test_patterns_and_shapes_that_change():
     counts = [points(vertex_edge) for vertex_edge in (False, True, False, True)]
     assert counts == [0, 1, 0, 1]
     O.bodies[upper].shape.vertices = [Vector3(*v) for v in ((-0.2, -0.15, -0.1), (0.2, -0.15, -0.1), (0, 0.15, -0.1), (0, 0, 0.1))]
-    O.run(5, True)  # the features that met do not exist any more
+    O.run(5, True)  # the features in contact no longer exist
 
 
 def test_without_a_collider():
     O.reset()
     box(0.1)
     O.engines = [yw.ForceResetter(), yw.CollisionTrigger()]
-    with pytest.raises(Exception, match="needs a collider"):
+    with pytest.raises(Exception, match="a Collider is required"):
         O.step()
 
 
@@ -213,5 +212,27 @@ def test_without_an_interaction_loop():
     O.reset()
     box(0.1)
     O.engines = [yw.ForceResetter(), yw.ContactLoop()]
-    with pytest.raises(Exception, match="needs an InteractionLoop"):
+    with pytest.raises(Exception, match="an InteractionLoop is required"):
         O.step()
+
+
+@pytest.mark.parametrize("margin", [-1e-3, math.nan, math.inf])
+def test_margin_out_of_range(margin):
+    with pytest.raises(ValueError, match=r"Bo1_RoundedPolyhedron_Aabb.margin = .*: it must be >= 0"):
+        yw.Bo1_RoundedPolyhedron_Aabb(margin=margin)
+
+
+@pytest.mark.parametrize("radius", [-1e-3, math.nan, math.inf, 0.3])
+def test_refused_radius_keeps_the_geometry(radius):
+    """0.3 m leaves no core. Mass properties and faces stay those of the last valid attributes."""
+    shape = yt.box((0.4, 0.3, 0.2), (0, 0, 0)).shape
+    before = shape.massProperties(), shape.faces()
+    with pytest.raises(ValueError, match=r"RoundedPolyhedron.radius = |leaves no core"):
+        shape.radius = radius
+    assert (shape.massProperties(), shape.faces()) == before
+
+
+def test_hull_with_too_many_vertices():
+    points = [Vector3(math.cos(0.1 * k) * math.sin(0.37 * k), math.sin(0.1 * k) * math.sin(0.37 * k), math.cos(0.37 * k)) for k in range(2000)]
+    with pytest.raises(ValueError, match="at most 64 vertices, got 2000"):
+        yt.polyhedron(points)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""YADE's own viewer on a display (Xvfb): elements in the colours of their kinds, joints by load, crosses where they are broken."""
+"""YADE's viewer on a virtual display (Xvfb): elements coloured by kind, joints by load, broken joints as crosses."""
 import os
 import shutil
 import subprocess
@@ -9,7 +9,7 @@ import textwrap
 import numpy as np
 import pytest
 from PIL import Image
-from yade_timber.base import colors as palette
+from yade_timber.base import colors
 
 SESSION = textwrap.dedent(
     """
@@ -29,7 +29,7 @@ SESSION = textwrap.dedent(
     view = viewer.show()
     O.run(20, True)
     draw(20)
-    view.saveSnapshot({picture!r})  # with the next drawing
+    view.saveSnapshot({picture!r})  # saved at the next drawing
     draw(20)
     print("drawn", flush=True)
     os._exit(0)
@@ -59,6 +59,6 @@ def test_viewer_draws_elements_and_joints(tmp_path):
         timeout=150,
     )
     assert done.returncode == 0 and "drawn" in done.stdout, done.stdout + done.stderr
-    seen = np.asarray(Image.open(picture), float)
-    assert share(seen, palette.KINDS["brace"]) > 0.01 and share(seen, palette.KINDS["column"]) > 0.01 and share(seen, (1, 1, 1)) > 0.03
-    assert share(seen, ORANGE) > 1e-4
+    pixels = np.asarray(Image.open(picture), float)
+    assert share(pixels, colors.KINDS["brace"]) > 0.01 and share(pixels, colors.KINDS["column"]) > 0.01 and share(pixels, (1, 1, 1)) > 0.03
+    assert share(pixels, ORANGE) > 1e-4
