@@ -8,6 +8,8 @@ namespace yade {
 /// Common base: YADE dispatches a pair of different materials in either order only through a base class.
 class ElementMat : public Material {
 public:
+	void postLoad(ElementMat&) { validate(); }
+	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not a material by itself.",
 		((Real, friction, 0.5, Attr::triggerPostLoad, "Coulomb friction coefficient; a pair has the smaller one of its two materials. [-]")),

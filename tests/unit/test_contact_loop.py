@@ -128,7 +128,7 @@ def test_other_shapes():
         box(0.3)
         for x, speed in ((2, 1), (2.025, -1)):
             ball = yw.Body(shape=yw.Sphere(radius=0.01), material=O.materials[0])
-            ball.mask = 2  # of another group than the boxes: no functor has to exist for them
+            ball.mask = 2  # a group of its own: no functor is needed for spheres and boxes
             ball.state.mass, ball.state.inertia = 4.2e-3, Vector3(1.7e-7, 1.7e-7, 1.7e-7)
             ball.state.pos, ball.state.vel = Vector3(x, 0, 0), Vector3(speed, 0, 0)
             O.bodies.append(ball)

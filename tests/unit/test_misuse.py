@@ -44,7 +44,9 @@ def complete(name):
         return yw.GroundMotionEngine(step=0.01, acceleration=[(0, 0, 0), (1, 0, 0)])
     if name == "HouseMonitor":
         return yw.HouseMonitor(heights=[2.73], bodies=[1, 2], levels=[1, 1])
-    return getattr(yw, name)()
+    pair = {"mass": 1.0, "friction": 0.5, "shearRatio": 0.4, "overlapLimit": 0.1}
+    laws = {"ManifoldPhys": pair, "TimberPhys": {**pair, "modulus": 1e9, "radius": 0.1}, "SnowPhys": {**pair, "stiffness": 1e5}}
+    return getattr(yw, name)(**laws.get(name, {}))
 
 
 REFUSED = [
@@ -80,6 +82,15 @@ REFUSED = [
     ("RoundedPolyhedron", "radius", -0.1),
     ("RoundedPolyhedron", "vertices", [Vector3(0, 0, 0)]),
     ("TimberJoint", "anchors1", [Vector3(0, 0, 0)]),
+    ("TimberJoint", "kn", -1.0),
+    ("TimberJoint", "ks", 0.0),
+    ("TimberJoint", "strength", NAN),
+    ("TimberJoint", "normal", Vector3(0, 0, 0)),
+    ("ContactForces", "sweeps", -3),
+    ("ContactForces", "tolerance", -1.0),
+    ("Bo1_RoundedPolyhedron_Aabb", "margin", -1.0),
+    ("Ip2_TimberMat_TimberMat_TimberPhys", "dampingRatio", -1.0),
+    ("Ip2_ElementMat_ElementMat_SnowPhys", "dampingRatio", INF),
 ]
 
 
@@ -121,6 +132,28 @@ def test_each_class(name):
             is_one_line(error, f"{name}.{attribute}")
             with pytest.raises(TypeError) as error:
                 cls(**{attribute: object()})
+            is_one_line(error, f"{name}.{attribute}")
+
+
+RESULTS = {
+    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "lost", "elasticNormal", "elasticShear", "elasticPower"},
+    "GroundMotionEngine": {"work"},
+    "HouseMonitor": {"tiltTime", "collapseTime"},
+    "JointBreak": {"time", "force"},
+    "JointEngine": {"released", "elastic"},
+}
+"""Attributes that the engines compute."""
+PAIRS = {"ManifoldPhys", "TimberPhys", "SnowPhys"}
+"""Classes whose attributes Ip2 functors compute."""
+
+
+@pytest.mark.parametrize("name", sorted(set(yt._class_names) - PAIRS))
+def test_nan_is_no_parameter(name):
+    target = complete(name)
+    for attribute, value in target.dict().items():
+        if type(value) is float and getattr(type(target), attribute).fset and attribute not in RESULTS.get(name, ()):
+            with pytest.raises(ValueError) as error:
+                setattr(target, attribute, NAN)
             is_one_line(error, f"{name}.{attribute}")
 
 
