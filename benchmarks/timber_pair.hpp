@@ -69,7 +69,8 @@ public:
 		if (points.empty()) return;
 		const Vec3 zero = Vec3::Zero();
 		const bool placedInContact = steps == 0;
-		elasticPair(law, { properties, { poseA.position, zero, zero }, { poseB.position, zero, zero }, h, NormalForm::Closed, placedInContact }, points, records);
+		elasticPair(law, { properties, { poseA.position, zero, zero }, { poseB.position, zero, zero }, h, NormalForm::Closed, placedInContact }, points,
+		        records);
 		solve();
 	}
 	Found found()

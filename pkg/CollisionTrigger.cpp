@@ -15,9 +15,9 @@ namespace {
 
 CollisionTrigger::MotionSinceCollision CollisionTrigger::motionOf(const Body& b) const
 {
-	const BodySnapshot& before       = snapshots[b.getId()];
-	const State&        now          = *b.state;
-	const Vector3r      displacement = now.pos - before.position;
+	const BodySnapshot& before = snapshots[b.getId()];
+	const State& now = *b.state;
+	const Vector3r displacement = now.pos - before.position;
 	if (before.isRounded) return { displacement, timber::rotationDisplacement(before.orientation.conjugate() * now.ori, before.halfExtents) };
 	return { displacement, now.ori.coeffs() == before.orientation.coeffs() ? 0 : infinity };
 }
@@ -30,7 +30,8 @@ bool CollisionTrigger::mayHaveLeftBox()
 	timber::forAll(count, [this](int id) {
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
 	});
-	const auto isInside = [](const MotionSinceCollision& m, const BodySnapshot& before) { return m.displacement.norm() + m.rotationBound <= before.margin; };
+	const auto isInside
+	        = [](const MotionSinceCollision& m, const BodySnapshot& before) { return m.displacement.norm() + m.rotationBound <= before.margin; };
 	return !std::equal(motions.begin(), motions.end(), snapshots.begin(), isInside);
 }
 
@@ -44,21 +45,21 @@ Real CollisionTrigger::baseMargin() const
 
 void CollisionTrigger::takeSnapshots()
 {
-	const Real         margin = baseMargin();
+	const Real margin = baseMargin();
 	const BodySnapshot erased { Vector3r::Zero(), Quaternionr::Identity(), true, Vector3r::Zero(), infinity };
 	snapshots.assign(scene->bodies->size(), erased);
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
-		const auto     shape       = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
+		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
 		const Vector3r halfExtents = shape ? shape->geometry->halfExtents : Vector3r(Vector3r::Zero());
-		snapshots[b->getId()]      = { b->state->pos, b->state->ori, bool(shape), halfExtents, boxMargin(*b, margin, scene->dt) };
+		snapshots[b->getId()] = { b->state->pos, b->state->ori, bool(shape), halfExtents, boxMargin(*b, margin, scene->dt) };
 	}
 }
 
 void CollisionTrigger::action()
 {
 	if (!dynamic_cast<Collider*>(collider.get())) throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
-	lastStep           = scene->iter;
+	lastStep = scene->iter;
 	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort; // doSort: bodies were added
 	if (!changed && !mayHaveLeftBox()) return;
 	collider->scene = scene;

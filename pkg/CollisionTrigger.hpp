@@ -14,24 +14,24 @@ namespace yade {
 class CollisionTrigger : public GlobalEngine {
 	/// A body when the collider last ran.
 	struct BodySnapshot {
-		Vector3r    position; ///< [m]
+		Vector3r position; ///< [m]
 		Quaternionr orientation;
-		bool        isRounded; ///< RoundedPolyhedron
-		Vector3r    halfExtents; ///< of its core [m]
-		Real        margin; ///< of its bounding box [m]
+		bool isRounded; ///< RoundedPolyhedron
+		Vector3r halfExtents; ///< of its core [m]
+		Real margin; ///< of its bounding box [m]
 	};
 	struct MotionSinceCollision {
 		Vector3r displacement; ///< of the centre [m]
-		Real     rotationBound; ///< bound of the displacement of the surface relative to the centre [m]
+		Real rotationBound; ///< bound of the displacement of the surface relative to the centre [m]
 	};
-	std::vector<BodySnapshot>         snapshots; ///< by body id
+	std::vector<BodySnapshot> snapshots; ///< by body id
 	std::vector<MotionSinceCollision> motions; ///< by body id
-	long                              lastStep = -1; ///< in which the motions were computed
+	long lastStep = -1; ///< in which the motions were computed
 
 	MotionSinceCollision motionOf(const Body&) const;
-	bool                 mayHaveLeftBox();
-	Real                 baseMargin() const;
-	void                 takeSnapshots();
+	bool mayHaveLeftBox();
+	Real baseMargin() const;
+	void takeSnapshots();
 
 public:
 	void action() override;

@@ -17,11 +17,11 @@ namespace {
 		own.position = s.pos;
 		own.velocity = own.newVelocity = s.vel;
 		own.spin = own.newSpin = s.angVel;
-		own.inverseMass        = 0;
+		own.inverseMass = 0;
 		own.inverseInertia.setZero();
 		if (!isFree(s)) return;
 		const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
-		own.inverseMass     = 1 / s.mass;
+		own.inverseMass = 1 / s.mass;
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
 				own.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j)); // as a product of matrices Eigen calls a function for each
@@ -50,7 +50,8 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& foun
 	for (const shared_ptr<Interaction>& I : *scene.interactions) {
 		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
-		if (!phys.isIdle()) found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.lostEnergy });
+		if (!phys.isIdle())
+			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.lostEnergy });
 	}
 }
 
@@ -87,7 +88,8 @@ void ContactForces::findIslands()
 {
 	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
 	links.resize(pairs.size());
-	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
+	std::transform(pairs.begin(), pairs.end(), links.begin(),
+	        [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
 	islands.find(bodies.size(), links);
 }
 
@@ -101,7 +103,8 @@ void ContactForces::prepareContacts(timber::ContactSolver& solver, size_t k, con
 
 void ContactForces::storeForces(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)
 {
-	const timber::PairForce f = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
+	const timber::PairForce f
+	        = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
 	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
 	if (bodies[p.id2].inverseMass > 0) sums.add(p.id2, f.onB, f.torqueB);
 }
@@ -109,9 +112,9 @@ void ContactForces::storeForces(timber::ContactSolver& solver, size_t k, const C
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
 ContactForces::IslandResult ContactForces::solve(timber::Islands::Island island)
 {
-	IslandResult           result;
+	IslandResult result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
-	const int              count  = int(island.size());
+	const int count = int(island.size());
 	solver.begin(sweeps);
 	for (const int pair : island)
 		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
@@ -127,7 +130,9 @@ void ContactForces::solveAll()
 	const int count = int(islands.count());
 	results.resize(count);
 	solvers.resize(timber::threadCount());
-	if (count > 0) timber::forAll(count, [this](int k) { results[k] = solve(islands[k]); }, int(pairs.size()) / count);
+	if (count > 0)
+		timber::forAll(
+		        count, [this](int k) { results[k] = solve(islands[k]); }, int(pairs.size()) / count);
 }
 
 void ContactForces::sumResults()
@@ -160,19 +165,21 @@ void ContactForces::action()
 
 Real ContactForces::largestEigenvalue() const
 {
-	const Scene&                    now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
+	const Scene& now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
 	std::vector<timber::SolverBody> masses(now.bodies->size());
 	for (const shared_ptr<Body>& b : *now.bodies)
 		if (b) setBody(masses[b->getId()], *b->state);
 	std::vector<ContactPair> contacts;
 	findPairs(now, contacts);
-	std::sort(contacts.begin(), contacts.end(), [](const ContactPair& p, const ContactPair& q) { return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2); });
+	std::sort(contacts.begin(), contacts.end(),
+	        [](const ContactPair& p, const ContactPair& q) { return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2); });
 	std::vector<timber::PointSpring> springs;
 	for (const ContactPair& pair : contacts)
 		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
-			const Real                  kn = pair.phys->records[k].stiffness;
-			springs.push_back({ pair.id1, pair.id2, at.position - masses[pair.id1].position, at.position - masses[pair.id2].position, at.normal, kn, pair.phys->shearRatio * kn });
+			const Real kn = pair.phys->records[k].stiffness;
+			springs.push_back({ pair.id1, pair.id2, at.position - masses[pair.id1].position, at.position - masses[pair.id2].position, at.normal, kn,
+			        pair.phys->shearRatio * kn });
 		}
 	if (const JointEngine* joints = findEngine<JointEngine>(now)) joints->addSprings(now, springs);
 	return timber::largestEigenvalue(masses, springs);

@@ -13,37 +13,37 @@ class ContactForces : public GlobalEngine {
 	/// A pair in this step. Pairs are ordered by island and body ids, not by the container's order: the sums then depend neither on threads
 	/// nor on the history of the collider.
 	struct ContactPair {
-		Body::id_t          id1, id2;
+		Body::id_t id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
-		ManifoldPhys*       phys;
-		size_t              points; ///< copy of the number of phys's records
-		Real                lost; ///< copy of phys->lostEnergy [J]
-		bool                hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
+		ManifoldPhys* phys;
+		size_t points; ///< copy of the number of phys's records
+		Real lost; ///< copy of phys->lostEnergy [J]
+		bool hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
-		int                  sweeps = 0;
+		int sweeps = 0;
 	};
-	std::vector<ContactPair>           pairs, found; ///< ordered by body ids, and in the container's order
-	std::vector<size_t>                order; ///< of each of `pairs`, its index in `found`
-	timber::Islands                    islands;
-	std::vector<timber::Link>          links; ///< of each pair
+	std::vector<ContactPair> pairs, found; ///< ordered by body ids, and in the container's order
+	std::vector<size_t> order; ///< of each of `pairs`, its index in `found`
+	timber::Islands islands;
+	std::vector<timber::Link> links; ///< of each pair
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
-	std::vector<timber::SolverBody>    bodies; ///< indexed by body id
-	std::vector<IslandResult>          results; ///< of each island
-	BodyForces                         sums; ///< of the contacts, on free bodies
+	std::vector<timber::SolverBody> bodies; ///< indexed by body id
+	std::vector<IslandResult> results; ///< of each island
+	BodyForces sums; ///< of the contacts, on free bodies
 
-	static void  findPairs(const Scene&, std::vector<ContactPair>&);
-	void         sortPairs();
-	void         collectPairs();
-	void         collectBody(Body::id_t);
-	void         collectBodies();
-	void         findIslands();
-	void         prepareContacts(timber::ContactSolver&, size_t k, const ContactPair&);
-	void         storeForces(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
+	static void findPairs(const Scene&, std::vector<ContactPair>&);
+	void sortPairs();
+	void collectPairs();
+	void collectBody(Body::id_t);
+	void collectBodies();
+	void findIslands();
+	void prepareContacts(timber::ContactSolver&, size_t k, const ContactPair&);
+	void storeForces(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
 	IslandResult solve(timber::Islands::Island);
-	void         solveAll();
-	void         sumResults();
+	void solveAll();
+	void sumResults();
 
 public:
 	void postLoad(ContactForces&) { validate(); }

@@ -8,7 +8,7 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::ContactPoint& p, const unsigned int)
 	{
-		ar & make_nvp("id", p.id.bits) & make_nvp("position", p.position) & make_nvp("normal", p.normal) & make_nvp("overlap", p.overlap);
+		ar& make_nvp("id", p.id.bits) & make_nvp("position", p.position) & make_nvp("normal", p.normal) & make_nvp("overlap", p.overlap);
 	}
 }
 }
@@ -19,7 +19,7 @@ namespace yade {
 class ManifoldGeom : public IGeom {
 public:
 	timber::CandidateCache cache;
-	Real                   safeDisplacement = 0; ///< relative motion of the bodies before which there is no contact; 0: unknown [m]
+	Real safeDisplacement = 0; ///< relative motion of the bodies before which there is no contact; 0: unknown [m]
 
 	boost::python::list pyPoints() const;
 	// clang-format off
@@ -35,7 +35,8 @@ REGISTER_SERIALIZABLE(ManifoldGeom);
 
 class Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom : public IGeomFunctor {
 public:
-	bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>&) override;
+	bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&, const Vector3r& shift2, const bool& force,
+	        const shared_ptr<Interaction>&) override;
 	FUNCTOR2D(RoundedPolyhedron, RoundedPolyhedron);
 	DEFINE_FUNCTOR_ORDER_2D(RoundedPolyhedron, RoundedPolyhedron);
 	// clang-format off

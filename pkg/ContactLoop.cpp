@@ -48,7 +48,7 @@ void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
 		allRounded = allRounded && isRounded(*scene, t.id1) && isRounded(*scene, t.id2);
 	}
 	interactionCount = scene->interactions->size();
-	colliderRuns     = trigger && allRounded ? trigger->runs : -1;
+	colliderRuns = trigger && allRounded ? trigger->runs : -1;
 }
 
 /// As InteractionLoop does for one pair. A pair without points and history needs no law until the collider runs.
@@ -57,11 +57,11 @@ void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& t
 	const Real approach = trigger.approach(t.id1, t.id2);
 	if (approach < t.separation) return;
 	const shared_ptr<Interaction>& I = t.interaction;
-	const Body &                   b1 = *(*scene->bodies)[t.id1], &b2 = *(*scene->bodies)[t.id2];
+	const Body &b1 = *(*scene->bodies)[t.id1], &b2 = *(*scene->bodies)[t.id2];
 	I->functorCache.geom->go(b1.shape, b2.shape, *b1.state, *b2.state, Vector3r::Zero(), false, I);
-	const ManifoldGeom& geom     = *static_cast<ManifoldGeom*>(I->geom.get());
-	const ManifoldPhys& phys     = *static_cast<ManifoldPhys*>(I->phys.get());
-	const bool          needsLaw = !geom.contactPoints.empty() || !phys.isIdle();
+	const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
+	const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
+	const bool needsLaw = !geom.contactPoints.empty() || !phys.isIdle();
 	if (needsLaw && !I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
 	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }

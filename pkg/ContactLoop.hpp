@@ -18,13 +18,13 @@ class CollisionTrigger;
 class ContactLoop : public GlobalEngine {
 	struct TrackedInteraction {
 		shared_ptr<Interaction> interaction;
-		Body::id_t              id1, id2;
-		Real                    separation; ///< no contact while the approach since the collider ran is less than this [m]
+		Body::id_t id1, id2;
+		Real separation; ///< no contact while the approach since the collider ran is less than this [m]
 	};
 	std::vector<TrackedInteraction> tracked; ///< with geometry and physics
 	std::vector<TrackedInteraction> fixedPairs; ///< of two fixed bodies
-	size_t                          interactionCount = 0; ///< when the InteractionLoop ran
-	long                            colliderRuns     = -1; ///< when the InteractionLoop ran; < 0: it must run in each step
+	size_t interactionCount = 0; ///< when the InteractionLoop ran
+	long colliderRuns = -1; ///< when the InteractionLoop ran; < 0: it must run in each step
 
 	bool areBothFixed(const TrackedInteraction&) const;
 	bool isCurrent(const CollisionTrigger*) const;

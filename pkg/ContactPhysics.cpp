@@ -5,8 +5,8 @@
 
 namespace yade {
 
-YADE_PLUGIN((ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_ElementMat_ElementMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(
-        Law2_ManifoldGeom_SnowPhys_Linear));
+YADE_PLUGIN((
+        ManifoldPhys)(TimberPhys)(SnowPhys)(Ip2_TimberMat_TimberMat_TimberPhys)(Ip2_ElementMat_ElementMat_SnowPhys)(Law2_ManifoldGeom_TimberPhys_Hertz)(Law2_ManifoldGeom_SnowPhys_Linear));
 
 namespace {
 
@@ -17,9 +17,9 @@ namespace {
 
 	void setProperties(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2, Real shearRatio, Real dampingRatio)
 	{
-		phys.mass         = timber::reduced(massOf(b1), massOf(b2));
-		phys.friction     = std::min(friction1, friction2);
-		phys.shearRatio   = shearRatio;
+		phys.mass = timber::reduced(massOf(b1), massOf(b2));
+		phys.friction = std::min(friction1, friction2);
+		phys.shearRatio = shearRatio;
 		phys.dampingRatio = dampingRatio;
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
 	}
@@ -42,14 +42,15 @@ namespace {
 	template <class Phys> bool elasticForces(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
 	{
 		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
-		Phys&               phys = *static_cast<Phys*>(p);
-		const Body &        b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+		Phys& phys = *static_cast<Phys*>(p);
+		const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 		if (geom.contactPoints.empty() && phys.records.empty()) {
 			phys.lostEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
 		const timber::PairProperties pair = phys.properties();
-		phys.lostEnergy = timber::elasticPair(phys.law(), { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) }, geom.contactPoints, phys.records);
+		phys.lostEnergy = timber::elasticPair(phys.law(), { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) },
+		        geom.contactPoints, phys.records);
 		return true;
 	}
 
@@ -92,24 +93,24 @@ boost::python::list ManifoldPhys::pyPoints() const
 void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
 	if (I->phys) return;
-	const TimberMat &     t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
-	const Body &          b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
+	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	shared_ptr<TimberPhys> phys(new TimberPhys);
-	const Real            poisson = (t1.poisson + t2.poisson) / 2;
+	const Real poisson = (t1.poisson + t2.poisson) / 2;
 	setProperties(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
-	phys->radius  = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
-	I->phys       = phys;
+	phys->radius = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
+	I->phys = phys;
 }
 
 void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
 	if (I->phys) return;
-	const Body &         b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	shared_ptr<SnowPhys> phys(new SnowPhys);
 	setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
 	phys->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
-	I->phys         = phys;
+	I->phys = phys;
 }
 
 bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)

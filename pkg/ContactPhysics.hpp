@@ -10,12 +10,16 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
-		ar & make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
-		ar & make_nvp("normal", p.normal) & make_nvp("energy", p.energy) & make_nvp("shear", p.shear) & make_nvp("dashpot", p.dashpot) & make_nvp("closing", p.closing);
-		ar & make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
+		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
+		ar& make_nvp("normal", p.normal) & make_nvp("energy", p.energy) & make_nvp("shear", p.shear) & make_nvp("dashpot", p.dashpot)
+		        & make_nvp("closing", p.closing);
+		ar& make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
 	}
 	/// PointStep is not saved: it ends with its step.
-	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int) { ar & make_nvp("history", static_cast<timber::PointHistory&>(p)); }
+	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
+	{
+		ar& make_nvp("history", static_cast<timber::PointHistory&>(p));
+	}
 }
 }
 
@@ -27,7 +31,7 @@ public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
 	/// No contact points, and no energy released in the last step.
-	bool                   isIdle() const { return records.empty() && lostEnergy == 0; }
+	bool isIdle() const { return records.empty() && lostEnergy == 0; }
 	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio }; }
 	/// Contact points as dictionaries, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;

@@ -34,8 +34,8 @@ namespace {
 
 void Gl1_RoundedPolyhedron::go(const shared_ptr<Shape>& shape, const shared_ptr<State>&, bool wire, const GLViewInfo&)
 {
-	const timber::Polyhedron& body  = static_cast<RoundedPolyhedron*>(shape.get())->geometry->sharp;
-	const Vector3r&           color = shape->color;
+	const timber::Polyhedron& body = static_cast<RoundedPolyhedron*>(shape.get())->geometry->sharp;
+	const Vector3r& color = shape->color;
 	if (!wire && !shape->wire) {
 		glColor3d(color.x(), color.y(), color.z());
 		glPolygonOffset(1, 1); // draws the edges in front of their faces

@@ -21,9 +21,9 @@ Vector3r GroundMotionEngine::at(Real time) const
 {
 	const Real sample = (time - start) / step;
 	if (acceleration.empty() || !(sample >= 0) || sample > acceleration.size() - 1) return Vector3r::Zero();
-	const size_t   k      = math::min(size_t(sample), acceleration.size() - 1);
-	const Real     weight = sample - k;
-	const Vector3r next   = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];
+	const size_t k = math::min(size_t(sample), acceleration.size() - 1);
+	const Real weight = sample - k;
+	const Vector3r next = k + 1 < acceleration.size() ? acceleration[k + 1] : acceleration[k];
 	return scale * ((1 - weight) * acceleration[k] + weight * next);
 }
 
@@ -50,8 +50,8 @@ Real GroundMotionEngine::workUntilNow(const Scene& of) const { return work - of.
 
 void GroundMotionEngine::action()
 {
-	work             = workUntilNow(*scene);
-	lastMomentum     = freeMomentum(*scene);
+	work = workUntilNow(*scene);
+	lastMomentum = freeMomentum(*scene);
 	lastAcceleration = at(scene->time);
 	addBodyForce(*scene, -lastAcceleration);
 }

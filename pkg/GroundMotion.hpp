@@ -11,11 +11,11 @@ public:
 	void validate() const;
 	void action() override;
 	/// Work done on the bodies of a scene until the end of the last step. [J]
-	Real     workUntilNow(const Scene&) const;
+	Real workUntilNow(const Scene&) const;
 	/// Ground acceleration at a time, linear between samples, zero before the first and after the last. [m/s2]
 	Vector3r at(Real time) const;
 	/// Largest ground acceleration between two times. [m/s2]
-	Real     peakBetween(Real from, Real until) const;
+	Real peakBetween(Real from, Real until) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GroundMotionEngine, GlobalEngine,

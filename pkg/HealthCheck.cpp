@@ -17,7 +17,8 @@ void HealthCheck::validate() const
 bool HealthCheck::hasSceneChanged() const
 {
 	const auto isSame = [](const Engine* checked, const shared_ptr<Engine>& now) { return checked == now.get(); };
-	return scene->doSort || checkedEngines.size() != scene->engines.size() || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
+	return scene->doSort || checkedEngines.size() != scene->engines.size()
+	        || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
 }
 
 void HealthCheck::checkBodies() const
@@ -49,8 +50,8 @@ void HealthCheck::checkState(const Body& b) const
 	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) return;
 	checkBodies(); // another cause than the time step
 	std::ostringstream what;
-	what << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity " << s.vel.transpose()
-	     << " m/s; the time step " << scene->dt << " s is probably too large";
+	what << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
+	     << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s; the time step " << scene->dt << " s is probably too large";
 	throw std::runtime_error(what.str());
 }
 

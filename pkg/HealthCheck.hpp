@@ -7,7 +7,7 @@ namespace yade {
 
 class HealthCheck : public GlobalEngine {
 	std::vector<const Engine*> checkedEngines; ///< list of engines at the last check of the scene
-	boost::weak_ptr<Scene>     checkedScene;
+	boost::weak_ptr<Scene> checkedScene;
 
 	bool hasSceneChanged() const;
 	void checkScene();

@@ -11,7 +11,8 @@ YADE_PLUGIN((HouseMonitor));
 
 namespace {
 	/// Names of energies(), in the same order.
-	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts" };
+	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear",
+		"friction", "broken_springs", "lost_contacts" };
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
@@ -38,7 +39,7 @@ namespace {
 	Real gravityEnergy(const Scene& scene)
 	{
 		const Vector3r gravity = gravityOf(scene);
-		Real           sum     = 0;
+		Real sum = 0;
 		for (const shared_ptr<Body>& b : *scene.bodies) {
 			if (!b || !isFree(*b->state)) continue;
 			const State& s = *b->state;
@@ -58,12 +59,13 @@ namespace {
 	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
 	std::vector<Real> energies(const Scene& scene)
 	{
-		const ContactForces*      c    = findEngine<ContactForces>(scene);
-		const JointEngine*        j    = findEngine<JointEngine>(scene);
-		const GroundMotionEngine* g    = findEngine<GroundMotionEngine>(scene);
-		const Real                half = scene.dt / 2;
-		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0, j ? j->elastic + half * j->elasticPower(scene) : 0,
-			     g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
+		const ContactForces* c = findEngine<ContactForces>(scene);
+		const JointEngine* j = findEngine<JointEngine>(scene);
+		const GroundMotionEngine* g = findEngine<GroundMotionEngine>(scene);
+		const Real half = scene.dt / 2;
+		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0,
+			j ? j->elastic + half * j->elasticPower(scene) : 0, g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
+			c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
 	}
 }
 
@@ -76,13 +78,14 @@ void HouseMonitor::validate() const
 	for (int level : levels)
 		require(level >= 0, "HouseMonitor.levels", level, ">= 0");
 	const bool isComplete = !levels.empty() && !bodies.empty(); // attributes may be set one after the other
-	require(!isComplete || levels.size() == bodies.size(), "HouseMonitor.levels: length", levels.size(), "that of HouseMonitor.bodies; set both with updateAttrs()");
+	require(!isComplete || levels.size() == bodies.size(), "HouseMonitor.levels: length", levels.size(),
+	        "that of HouseMonitor.bodies; set both with updateAttrs()");
 }
 
 Vector3r HouseMonitor::meanDisplacement(int level) const
 {
-	Vector3r sum   = Vector3r::Zero();
-	int      count = 0;
+	Vector3r sum = Vector3r::Zero();
+	int count = 0;
 	for (size_t k = 0; k < math::min(bodies.size(), levels.size()); ++k) {
 		const Body* b = bodyAt(*scene, bodies[k]);
 		if (!b || levels[k] != level) continue;
@@ -96,7 +99,7 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 /// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
 boost::python::dict HouseMonitor::pyEnergy() const
 {
-	boost::python::dict     all;
+	boost::python::dict all;
 	const std::vector<Real> values = energies(*Omega::instance().getScene());
 	for (size_t k = 0; k < values.size(); ++k)
 		all[energyTerms[k]] = values[k];
@@ -123,13 +126,13 @@ void HouseMonitor::record()
 	Vector3r below = Vector3r::Zero();
 	peak.resize(2 * heights.size(), 0);
 	for (size_t level = 1; level <= heights.size(); ++level) {
-		const Vector3r above  = meanDisplacement(level);
-		const Real     height = heights[level - 1];
-		const Real     ns = (above - below).y() / height, ew = (above - below).x() / height;
+		const Vector3r above = meanDisplacement(level);
+		const Real height = heights[level - 1];
+		const Real ns = (above - below).y() / height, ew = (above - below).x() / height;
 		peak[2 * level - 2] = math::max(peak[2 * level - 2], math::abs(ns));
 		peak[2 * level - 1] = math::max(peak[2 * level - 1], math::abs(ew));
 		if (!(tiltTime >= 0) && math::max(math::abs(ns), math::abs(ew)) > tiltDrift) {
-			tiltTime      = scene->time;
+			tiltTime = scene->time;
 			tiltDirection = math::abs(ns) > math::abs(ew) ? "ns" : "ew";
 		}
 		if (!(collapseTime >= 0) && above.z() < -height / 2) collapseTime = scene->time;

@@ -9,7 +9,7 @@ namespace yade {
 
 class HouseMonitor : public GlobalEngine {
 	Vector3r meanDisplacement(int level) const;
-	void     record();
+	void record();
 
 public:
 	void postLoad(HouseMonitor&) { validate(); }

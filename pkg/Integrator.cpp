@@ -43,10 +43,11 @@ template <class Number> void SymplecticIntegrator::rotate(State* const* states, 
 		using Vector = std::remove_reference_t<decltype(member(**states))>;
 		return timber::Group<Number, Vector>(count, [&](size_t i) { return &member(*states[i]); });
 	};
-	const auto orientation = all([](State& s) -> auto& { return s.ori.coeffs(); });
-	const timber::Vec3Of<Number> momentum = all([](State& s) -> auto& { return s.angMom; }).vectors(), inertia = all([](State& s) -> auto& { return s.inertia; }).vectors();
+	const auto orientation = all([](State & s) -> auto& { return s.ori.coeffs(); });
+	const timber::Vec3Of<Number> momentum = all([](State & s) -> auto& { return s.angMom; }).vectors(),
+	                             inertia = all([](State & s) -> auto& { return s.inertia; }).vectors();
 	timber::QuatOf<Number> rotated(orientation.vectors());
-	all([](State& s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
+	all([](State & s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
 	orientation.set(rotated.coeffs());
 }
 
@@ -74,7 +75,8 @@ void SymplecticIntegrator::action()
 {
 	scene->forces.sync();
 	const int groups = int(timber::groupsOf(scene->bodies->size()));
-	timber::forAll(groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);
+	timber::forAll(
+	        groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);
 }
 
 } // namespace yade

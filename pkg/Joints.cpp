@@ -82,9 +82,9 @@ boost::python::list TimberJoint::pySprings() const
 	boost::python::list all;
 	for (size_t k = 0; k < broken.size(); ++k) {
 		boost::python::dict one;
-		one["force"]   = Vector3r(forces[k]);
+		one["force"] = Vector3r(forces[k]);
 		one["stretch"] = stretches[k].norm();
-		one["broken"]  = bool(broken[k]);
+		one["broken"] = bool(broken[k]);
 		all.append(one);
 	}
 	return all;
@@ -92,7 +92,8 @@ boost::python::list TimberJoint::pySprings() const
 
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
-	if (!joint || joint->anchors1.empty() || joint->anchors2.empty()) throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
+	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
+		throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
 	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
@@ -142,16 +143,17 @@ void JointEngine::pullAll()
 void JointEngine::breakSprings(size_t index)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
-	TimberJoint&             joint   = *joints[index];
-	const State &            s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	TimberJoint& joint = *joints[index];
+	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
-	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
+	for (const timber::SpringBreak& found :
+	        timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
 		const shared_ptr<JointBreak> entry(new JointBreak);
-		entry->time   = scene->time;
-		entry->joint  = int(index);
+		entry->time = scene->time;
+		entry->joint = int(index);
 		entry->spring = int(found.spring);
-		entry->cause  = names[int(found.cause)];
-		entry->force  = found.force;
+		entry->cause = names[int(found.cause)];
+		entry->force = found.force;
 		breaks.push_back(entry);
 		released += found.energy;
 		joint.breakSpring(found.spring);
@@ -182,7 +184,7 @@ Real JointEngine::elasticPower(const Scene& of) const
 		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
-			const State &  s1 = *b1->state, &s2 = *b2->state;
+			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r end = s2.pos + s2.ori * j->anchors2[k];
 			power += j->forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
 		}
@@ -194,10 +196,10 @@ void JointEngine::addSprings(const Scene& of, std::vector<timber::PointSpring>& 
 {
 	for (const shared_ptr<TimberJoint>& j : joints) {
 		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
-		const Real  stiffness = math::max(j->stiffness().normal, j->stiffness().shear);
+		const Real stiffness = math::max(j->stiffness().normal, j->stiffness().shear);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
-			const State &  s1 = *b1->state, &s2 = *b2->state;
+			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
 			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, Vector3r::UnitZ(), stiffness, stiffness });
 		}

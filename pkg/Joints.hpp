@@ -13,14 +13,14 @@ public:
 	void validate() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const;
-	bool                   isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
+	bool isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
-	Real                   load() const;
-	boost::python::list    pySprings() const;
-	timber::JointStrength  strengthRule() const { return { strength, perJoint }; }
-	timber::JointSprings   springs() { return { anchors1, anchors2, broken, stretches, forces }; }
-	void                   breakSpring(size_t spring);
-	void                   breakAll();
+	Real load() const;
+	boost::python::list pySprings() const;
+	timber::JointStrength strengthRule() const { return { strength, perJoint }; }
+	timber::JointSprings springs() { return { anchors1, anchors2, broken, stretches, forces }; }
+	void breakSpring(size_t spring);
+	void breakAll();
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in both (paper, section 4: at the four corners of the contact area). It acts beside contact.",
@@ -61,26 +61,29 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
-	std::vector<Matrix3r>          axes; ///< rotation matrices of the bodies, by id
+	std::vector<Matrix3r> axes; ///< rotation matrices of the bodies, by id
 	std::vector<timber::JointPull> pulls; ///< of the joints' unbroken springs in this step
-	BodyForces                     sums; ///< of the joints
+	BodyForces sums; ///< of the joints
 
-	void                   collectAxes();
-	timber::JointPlacement placement(const TimberJoint& joint, const State& s1, const State& s2) const { return { axes[joint.id1], axes[joint.id2], s2.pos - s1.pos }; }
-	timber::JointPull      pull(TimberJoint&) const;
-	void                   pullAll();
-	void                   breakSprings(size_t joint);
-	void                   sumPulls();
+	void collectAxes();
+	timber::JointPlacement placement(const TimberJoint& joint, const State& s1, const State& s2) const
+	{
+		return { axes[joint.id1], axes[joint.id2], s2.pos - s1.pos };
+	}
+	timber::JointPull pull(TimberJoint&) const;
+	void pullAll();
+	void breakSprings(size_t joint);
+	void sumPulls();
 
 public:
-	void                action() override;
-	int                 append(const shared_ptr<TimberJoint>&);
+	void action() override;
+	int append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
 	/// Rate of change of the springs' elastic energy at the present velocities of a scene's bodies. [W]
-	Real                elasticPower(const Scene&) const;
+	Real elasticPower(const Scene&) const;
 	/// Adds the linearised unbroken springs, with the larger one of their two stiffnesses in all directions.
-	void                addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
+	void addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a spring whose force exceeds the strength breaks and never acts again.",

@@ -18,9 +18,6 @@ void TimberMat::validate() const
 	require(poisson > -1 && poisson <= 0.5, "TimberMat.poisson", poisson, "in (-1, 0.5]");
 }
 
-void SnowMat::validate() const
-{
-	requirePositive("SnowMat.stiffnessPerMass", stiffnessPerMass);
-}
+void SnowMat::validate() const { requirePositive("SnowMat.stiffnessPerMass", stiffnessPerMass); }
 
 } // namespace yade

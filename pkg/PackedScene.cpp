@@ -7,7 +7,8 @@ namespace yade {
 namespace {
 	template <class T> boost::python::object bytes(const std::vector<T>& values)
 	{
-		return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
+		return boost::python::object(boost::python::handle<>(
+		        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
 	}
 
 	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
@@ -18,7 +19,9 @@ namespace {
 		std::vector<Interaction*> found;
 		for (const shared_ptr<Interaction>& i : *scene.interactions)
 			if (i->isReal()) found.push_back(i.get());
-		std::sort(found.begin(), found.end(), [](const Interaction* a, const Interaction* b) { return std::make_pair(a->getId1(), a->getId2()) < std::make_pair(b->getId1(), b->getId2()); });
+		std::sort(found.begin(), found.end(), [](const Interaction* a, const Interaction* b) {
+			return std::make_pair(a->getId1(), a->getId2()) < std::make_pair(b->getId1(), b->getId2());
+		});
 		return found;
 	}
 }
@@ -26,11 +29,11 @@ namespace {
 boost::python::tuple packedPlacements()
 {
 	const BodyContainer& bodies = *Omega::instance().getScene()->bodies;
-	const Real           nan    = std::numeric_limits<Real>::quiet_NaN();
-	std::vector<float>   positions, orientations;
+	const Real nan = std::numeric_limits<Real>::quiet_NaN();
+	std::vector<float> positions, orientations;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& b = bodies[Body::id_t(id)];
-		const Quaternionr       q = b ? b->state->ori : Quaternionr(nan, nan, nan, nan);
+		const Quaternionr q = b ? b->state->ori : Quaternionr(nan, nan, nan, nan);
 		append(positions, b ? b->state->pos : Vector3r(nan, nan, nan));
 		orientations.insert(orientations.end(), { float(q.w()), float(q.x()), float(q.y()), float(q.z()) });
 	}
@@ -40,7 +43,7 @@ boost::python::tuple packedPlacements()
 boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 {
 	if (!engine) throw std::invalid_argument("packed_joints: engine = None: it must be a JointEngine");
-	std::vector<float>        loads;
+	std::vector<float> loads;
 	std::vector<std::uint8_t> broken;
 	for (const shared_ptr<TimberJoint>& j : engine->joints) {
 		loads.push_back(float(j->load()));
@@ -52,13 +55,14 @@ boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 boost::python::tuple packedContacts()
 {
 	std::vector<std::int32_t> pairs;
-	std::vector<float>        positions, forces;
+	std::vector<float> positions, forces;
 	for (const Interaction* i : interactionsById(*Omega::instance().getScene())) {
 		const auto geom = dynamic_cast<const ManifoldGeom*>(i->geom.get());
 		const auto phys = dynamic_cast<const ManifoldPhys*>(i->phys.get());
 		if (!geom || !phys) continue;
 		for (const timber::ContactPoint& point : geom->contactPoints) {
-			const auto record = std::find_if(phys->records.begin(), phys->records.end(), [&](const timber::PointRecord& p) { return p.id == point.id; });
+			const auto record
+			        = std::find_if(phys->records.begin(), phys->records.end(), [&](const timber::PointRecord& p) { return p.id == point.id; });
 			if (record == phys->records.end()) continue;
 			pairs.insert(pairs.end(), { i->getId1(), i->getId2() });
 			append(positions, point.position);

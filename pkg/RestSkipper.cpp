@@ -44,7 +44,7 @@ Real RestSkipper::largestDisplacement(const vector<Vector3r>& from) const
 
 void RestSkipper::restart()
 {
-	startPositions  = positions();
+	startPositions = positions();
 	observedStrides = 0;
 	middlePositions.clear();
 }
@@ -58,12 +58,12 @@ void RestSkipper::observe()
 	const long half = stridesPerHalf();
 	++observedStrides;
 	const bool halfway = middlePositions.empty() && observedStrides >= half;
-	const bool grows   = !middlePositions.empty() && observedStrides >= 2 * half && largestDisplacement(middlePositions) > growth * firstHalfDisplacement;
+	const bool grows = !middlePositions.empty() && observedStrides >= 2 * half && largestDisplacement(middlePositions) > growth * firstHalfDisplacement;
 	if (!halfway && !grows) return;
 	if (grows) startPositions = middlePositions; // the second half becomes the first one of a new observation
-	middlePositions       = positions();
+	middlePositions = positions();
 	firstHalfDisplacement = largestDisplacement(startPositions);
-	observedStrides       = half;
+	observedStrides = half;
 }
 
 bool RestSkipper::isResting() const { return !middlePositions.empty() && observedStrides >= 2 * stridesPerHalf(); }
@@ -77,7 +77,7 @@ bool RestSkipper::isGroundAtRest() const
 /// YADE ends O.run(n) and O.stopAtTime at exactly that step or never: neither they nor the step `last` may be skipped.
 bool RestSkipper::isEndBeyondStride() const
 {
-	const long next     = scene->iter + stride;
+	const long next = scene->iter + stride;
 	const auto isBefore = [next](long end) { return end <= 0 || next < end; };
 	return isBefore(last) && isBefore(scene->stopAtIter) && (scene->stopAtTime <= 0 || scene->time + stride * scene->dt < scene->stopAtTime);
 }

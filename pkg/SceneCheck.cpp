@@ -16,9 +16,9 @@ namespace {
 
 	/// Task of an engine. Engines of a lower rank come before those of a higher one.
 	struct Role {
-		const char*              name;
-		int                      rank;
-		bool                     isRequired;
+		const char* name;
+		int rank;
+		bool isRequired;
 		std::vector<const char*> classes;
 	};
 	const std::vector<Role> roles {
@@ -38,9 +38,11 @@ namespace {
 	/// Null for an engine that the rules do not concern.
 	const Role* roleOf(const Engine& engine)
 	{
-		const string name  = engine.getClassName();
-		const auto   match = [&](const Role& role) { return std::any_of(role.classes.begin(), role.classes.end(), [&](const char* base) { return isKindOf(name, base); }); };
-		const auto   found = std::find_if(roles.begin(), roles.end(), match);
+		const string name = engine.getClassName();
+		const auto match = [&](const Role& role) {
+			return std::any_of(role.classes.begin(), role.classes.end(), [&](const char* base) { return isKindOf(name, base); });
+		};
+		const auto found = std::find_if(roles.begin(), roles.end(), match);
 		return found == roles.end() ? nullptr : &*found;
 	}
 
@@ -54,7 +56,7 @@ namespace {
 	const InteractionLoop& findLoop(const Scene& scene)
 	{
 		const auto* wrapper = findEngine<ContactLoop>(scene);
-		const auto* loop    = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get()) : findEngine<InteractionLoop>(scene);
+		const auto* loop = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get()) : findEngine<InteractionLoop>(scene);
 		if (!loop) refuseEngines("ContactLoop.loop is no InteractionLoop");
 		return *loop;
 	}
@@ -62,7 +64,7 @@ namespace {
 	/// The scene's collider, alone or in a CollisionTrigger.
 	const Collider& findCollider(const Scene& scene)
 	{
-		const auto* wrapper  = findEngine<CollisionTrigger>(scene);
+		const auto* wrapper = findEngine<CollisionTrigger>(scene);
 		const auto* collider = wrapper ? dynamic_cast<Collider*>(wrapper->collider.get()) : findEngine<Collider>(scene);
 		if (!collider) refuseEngines("CollisionTrigger.collider is no collider");
 		return *collider;
@@ -81,15 +83,18 @@ namespace {
 	std::vector<const Body*> kindsOfBodies(const Scene& scene)
 	{
 		std::set<std::tuple<int, int, mask_t>> known;
-		std::vector<const Body*>               kinds;
+		std::vector<const Body*> kinds;
 		for (const shared_ptr<Body>& b : *scene.bodies)
-			if (b && b->shape && b->isBounded() && known.emplace(b->shape->getClassIndex(), b->material ? b->material->getClassIndex() : -1, b->groupMask).second) kinds.push_back(b.get());
+			if (b && b->shape && b->isBounded()
+			        && known.emplace(b->shape->getClassIndex(), b->material ? b->material->getClassIndex() : -1, b->groupMask).second)
+				kinds.push_back(b.get());
 		return kinds;
 	}
 
 	[[noreturn]] void refusePair(const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
 	{
-		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId()) + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB);
+		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId()) + ": the InteractionLoop has no " + functor
+		        + " functor for " + classA + " and " + classB);
 	}
 
 	void checkPair(const InteractionLoop& loop, const Body& a, const Body& b)
@@ -99,8 +104,8 @@ namespace {
 		if (!isRounded(a) || !isRounded(b)) return; // laws of other packages
 		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
 		if (!dispatches(loop.physDispatcher->functors, materialA, materialB)) refusePair(a, b, "Ip2", materialA, materialB);
-		const bool   isSnow = materialA == "SnowMat" || materialB == "SnowMat";
-		const string phys   = isSnow ? "SnowPhys" : "TimberPhys";
+		const bool isSnow = materialA == "SnowMat" || materialB == "SnowMat";
+		const string phys = isSnow ? "SnowPhys" : "TimberPhys";
 		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", phys)) refusePair(a, b, "Law2", "ManifoldGeom", phys);
 	}
 }
@@ -108,7 +113,7 @@ namespace {
 void checkEngines(const Scene& scene)
 {
 	std::map<const Role*, int> count;
-	const Role*                last = nullptr;
+	const Role* last = nullptr;
 	for (const shared_ptr<Engine>& engine : scene.engines) {
 		const Role* role = roleOf(*engine);
 		if (!role) continue;
@@ -123,15 +128,16 @@ void checkEngines(const Scene& scene)
 void checkContacts(const Scene& scene)
 {
 	if (scene.isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
-	const InteractionLoop&         loop  = findLoop(scene);
-	const auto&                    boxes = findCollider(scene).boundDispatcher->functors;
+	const InteractionLoop& loop = findLoop(scene);
+	const auto& boxes = findCollider(scene).boundDispatcher->functors;
 	const std::vector<const Body*> kinds = kindsOfBodies(scene);
 	for (const Body* b : kinds)
 		if (isRounded(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) { return f->get1DFunctorType1() == "RoundedPolyhedron"; }))
 			refuseEngines("the collider has no Bo1_RoundedPolyhedron_Aabb");
 	for (size_t i = 0; i < kinds.size(); ++i)
 		for (size_t k = i; k < kinds.size(); ++k)
-			if ((isRounded(*kinds[i]) || isRounded(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask)) checkPair(loop, *kinds[i], *kinds[k]);
+			if ((isRounded(*kinds[i]) || isRounded(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask))
+				checkPair(loop, *kinds[i], *kinds[k]);
 }
 
 void checkBody(const Body& b)
@@ -139,7 +145,8 @@ void checkBody(const Body& b)
 	if (b.isClump()) refuseBody(b, "a clump is not supported: make one convex polyhedron of it, or join its parts");
 	if (!b.state) refuseBody(b, "it has no state");
 	const State& s = *b.state;
-	if (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) refuseBody(b, "some degrees of freedom are blocked: contacts allow for free and fixed bodies only");
+	if (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL)
+		refuseBody(b, "some degrees of freedom are blocked: contacts allow for free and fixed bodies only");
 	if (isFree(s) && !(s.mass > 0 && std::isfinite(s.mass) && (s.inertia.array() > 0).all() && s.inertia.allFinite())) {
 		std::ostringstream fault;
 		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose() << " kg m2: they must be finite and > 0";

@@ -23,9 +23,9 @@ namespace {
 	/// Geometries by radius and vertices. Unused ones are removed when the map has grown.
 	class SharedGeometries {
 		using Geometry = const timber::RoundedPolyhedron;
-		std::mutex                                             guard;
+		std::mutex guard;
 		std::map<std::vector<Real>, boost::weak_ptr<Geometry>> geometries;
-		size_t                                                 sizeLimit = 1000; ///< at which unused ones are removed
+		size_t sizeLimit = 1000; ///< at which unused ones are removed
 
 		void removeUnused()
 		{
@@ -40,11 +40,11 @@ namespace {
 		{
 			const std::lock_guard<std::mutex> lock(guard);
 			removeUnused();
-			const std::vector<Real> key   = keyOf(vertices, radius);
-			const auto              place = geometries.find(key);
-			shared_ptr<Geometry>    found = place == geometries.end() ? nullptr : place->second.lock();
+			const std::vector<Real> key = keyOf(vertices, radius);
+			const auto place = geometries.find(key);
+			shared_ptr<Geometry> found = place == geometries.end() ? nullptr : place->second.lock();
 			if (found) return found;
-			found           = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
 			geometries[key] = found;
 			return found;
 		}
@@ -63,9 +63,9 @@ void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
 	validate();
 	if (vertices.empty()) return; // default-constructed
 	const auto made = sharedGeometries.findOrMake(vertices, radius);
-	volume          = timber::massProperties(made->sharp).volume;
-	radius          = made->radius;
-	geometry        = made;
+	volume = timber::massProperties(made->sharp).volume;
+	radius = made->radius;
+	geometry = made;
 }
 
 boost::python::tuple RoundedPolyhedron::massProperties() const
@@ -87,21 +87,22 @@ boost::python::list RoundedPolyhedron::faces() const
 	return all;
 }
 
-constexpr int  fastBodySteps  = 32; ///< for which the box of a fast body is sufficient
+constexpr int fastBodySteps = 32; ///< for which the box of a fast body is sufficient
 constexpr Real maxMarginRatio = 20; ///< of the margin of a fast body to that of a slow one
 
 Real boxMargin(const Body& b, Real margin, Real dt)
 {
 	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
 	if (!shape) return 0;
-	const State& s            = *b.state;
-	const Real   displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
+	const State& s = *b.state;
+	const Real displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
 	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
 }
 
 void Bo1_RoundedPolyhedron_Aabb::validate() const
 {
-	if (!(margin >= 0 && std::isfinite(margin))) throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
+	if (!(margin >= 0 && std::isfinite(margin)))
+		throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
 }
 
 void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)
@@ -109,15 +110,15 @@ void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<B
 	const timber::RoundedPolyhedron& body = *static_cast<RoundedPolyhedron*>(shape.get())->geometry;
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
 	const Matrix3r rotation = se3.orientation.toRotationMatrix();
-	Vector3r       low      = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;
+	Vector3r low = Vector3r::Constant(std::numeric_limits<Real>::infinity()), high = -low;
 	for (const Vector3r& v : body.core.vertices) {
 		const Vector3r x = rotation * v;
-		low              = low.cwiseMin(x);
-		high             = high.cwiseMax(x);
+		low = low.cwiseMin(x);
+		high = high.cwiseMax(x);
 	}
 	const Vector3r grow = Vector3r::Constant(body.radius + (b ? boxMargin(*b, margin, scene->dt) : margin));
-	bound->min          = se3.position + low - grow;
-	bound->max          = se3.position + high + grow;
+	bound->min = se3.position + low - grow;
+	bound->max = se3.position + high + grow;
 }
 
 } // namespace yade

@@ -10,7 +10,7 @@ class RoundedPolyhedron : public Shape {
 public:
 	/// Made from the attributes by postLoad. Equal elements share one geometry, which saves memory traffic in each step.
 	shared_ptr<const timber::RoundedPolyhedron> geometry { new timber::RoundedPolyhedron };
-	Real                      volume = 0; ///< of the sharp polyhedron [m3]
+	Real volume = 0; ///< of the sharp polyhedron [m3]
 
 	/// Throws for an attribute outside its range.
 	void validate() const;
@@ -19,7 +19,7 @@ public:
 	/// (volume, centroid, inertia matrix about it for unit density, quaternion of the principal axes), frame of the vertices.
 	boost::python::tuple massProperties() const;
 	/// Faces as lists of vertex indices, counter-clockwise seen from outside.
-	boost::python::list  faces() const;
+	boost::python::list faces() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RoundedPolyhedron, Shape,

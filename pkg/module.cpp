@@ -33,9 +33,9 @@ boost::python::list registerClasses()
 /// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps.
 void finishStep()
 {
-	yade::Omega&   omega    = yade::Omega::instance();
+	yade::Omega& omega = yade::Omega::instance();
 	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
-	const long     before   = omega.getScene()->iter;
+	const long before = omega.getScene()->iter;
 	while (omega.isRunning() && omega.getScene()->iter == before) // stop() must not come before the run's thread has started
 		std::this_thread::sleep_for(std::chrono::microseconds(20));
 	omega.stop();

@@ -10,10 +10,10 @@
 
 #pragma push_macro("_YADE_CLASS_BASE_DOC_ATTRS_DEPREC_PY")
 #undef _YADE_CLASS_BASE_DOC_ATTRS_DEPREC_PY
-#define _YADE_CLASS_BASE_DOC_ATTRS_DEPREC_PY(thisClass, baseClass, docString, attrs, deprec, extras) \
-	_REGISTER_ATTRIBUTES_DEPREC(thisClass, baseClass, attrs, deprec) \
-	REGISTER_CLASS_AND_BASE(thisClass, baseClass) \
-	BOOST_PP_SEQ_FOR_EACH(_ACCESS_DEPREC, thisClass, deprec) \
+#define _YADE_CLASS_BASE_DOC_ATTRS_DEPREC_PY(thisClass, baseClass, docString, attrs, deprec, extras)                                                           \
+	_REGISTER_ATTRIBUTES_DEPREC(thisClass, baseClass, attrs, deprec)                                                                                       \
+	REGISTER_CLASS_AND_BASE(thisClass, baseClass)                                                                                                          \
+	BOOST_PP_SEQ_FOR_EACH(_ACCESS_DEPREC, thisClass, deprec)                                                                                               \
 	void pyRegisterClass(::boost::python::object) override;
 
 #include <core/Aabb.hpp>

@@ -106,19 +106,26 @@ template <class Law> double initialOverlap(const Law& law, double overlap, doubl
 /// Energy of a tangential spring. [J]
 template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number stiffness)
 {
-	return selectLazily(stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
+	return selectLazily(
+	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
-template <class Number> Number shearEnergy(const Springs<Number>& s, const PairProperties& p) { return shearEnergy<Number>(s.shear, Number(p.shearRatio) * s.stiffness); }
+template <class Number> Number shearEnergy(const Springs<Number>& s, const PairProperties& p)
+{
+	return shearEnergy<Number>(s.shear, Number(p.shearRatio) * s.stiffness);
+}
 
 /// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the plane normal to n.
 /// The magnitude is preserved.
-template <class Number> [[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
+template <class Number>
+[[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
 {
 	const Number length = shear.squaredNorm();
 	Vec3Of<Number> t = shear + broadcast<Number>(rotation).cross(shear);
 	t -= t.dot(normal) * normal;
 	const Number rest = t.squaredNorm(), none = 0.;
-	return t * selectLazily(rest > none, [&] { return sqrt(Number(length / rest)); }, [&] { return none; });
+	return t
+	        * selectLazily(
+	                rest > none, [&] { return sqrt(Number(length / rest)); }, [&] { return none; });
 }
 
 /// Force of a point that begins or ends within a step: its overlap n [m] is below its displacement d in a step [m]. The trapezoidal sum
@@ -152,8 +159,8 @@ enum class NormalForm { Closed, Increment };
 /// energy. Sliding is decided where the total normal force is known (contact_solver.hpp).
 /// in: law, pair, point, motion, step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
-[[gnu::always_inline]] inline ShearIncrement<Number> elasticStep(
-        const Law& law, const PairProperties& pair, const Point& point, const RelativeMotion<Number>& motion, double step, NormalForm form, Springs<Number>& springs)
+[[gnu::always_inline]] inline ShearIncrement<Number> elasticStep(const Law& law, const PairProperties& pair, const Point& point,
+        const RelativeMotion<Number>& motion, double step, NormalForm form, Springs<Number>& springs)
 {
 	ShearIncrement<Number> increment;
 	const Number h = step, none = 0., limit = pair.overlapLimit, closing = -motion.velocity.dot(point.normal) * h;
@@ -165,16 +172,17 @@ template <class Law, class Point, class Number>
 		springs.normal = law.force(springs.overlap);
 		const Number displacement = max(closing, Number(-closing));
 		const auto grazes = logicalAnd(none < springs.overlap, springs.overlap < min(displacement, limit));
-		springs.normal = selectLazily(grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normal; });
-	} else
-		springs.normal = max(none, Number(springs.normal + springs.stiffness * (springs.overlap - before)));
+		springs.normal = selectLazily(
+		        grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normal; });
+	} else springs.normal = max(none, Number(springs.normal + springs.stiffness * (springs.overlap - before)));
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normal;
 
 	const Number shearStiffness = Number(pair.shearRatio) * springs.stiffness;
 	springs.shear = rotatedShear<Number>(springs.shear, motion.spin * step, point.normal);
 	increment.shearBefore = springs.shear;
 	increment.shearEnergyBefore = shearEnergy<Number>(springs.shear, Number(pair.shearRatio) * stiffnessBefore);
-	springs.shear *= selectLazily(springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
+	springs.shear *= selectLazily(
+	        springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
 	increment.slip = (motion.velocity + Number(closing / h) * point.normal) * h;
 	springs.shear -= shearStiffness * increment.slip;
 	return increment;

@@ -27,8 +27,8 @@ namespace {
 
 	template <class Law> void elasticPoint(const Law& law, const PairStep& step, const ContactPoint& point, PointRecord& record)
 	{
-		static_cast<ShearIncrement<double>&>(record)
-		        = elasticStep<Law, ContactPoint, double>(law, step.pair, point, relativeMotion<double>(point.position, step), step.h, step.form, record);
+		static_cast<ShearIncrement<double>&>(record) = elasticStep<Law, ContactPoint, double>(
+		        law, step.pair, point, relativeMotion<double>(point.position, step), step.h, step.form, record);
 	}
 
 	/// Energy released with a point that ceases to exist. The part that its normal spring returns within the step is not released: all of
@@ -43,11 +43,13 @@ namespace {
 	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of it that the point takes. [J]
 	template <class Law> double initialisePoint(const Law& law, const PairStep& step, const ContactPoint& point, double available, PointRecord& record)
 	{
-		const double speed = std::max(0., -relativeMotion<double>(point.position, step).velocity.dot(point.normal)), approach = approachOverlap(law, step.pair.mass, speed, step.h);
+		const double speed = std::max(0., -relativeMotion<double>(point.position, step).velocity.dot(point.normal)),
+		             approach = approachOverlap(law, step.pair.mass, speed, step.h);
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, step, point, record);
-		if (initial <= std::min(approach, step.pair.overlapLimit) && step.form == NormalForm::Closed) record.impactOverlap = std::max(speed * step.h, record.overlap);
+		if (initial <= std::min(approach, step.pair.overlapLimit) && step.form == NormalForm::Closed)
+			record.impactOverlap = std::max(speed * step.h, record.overlap);
 		return law.energy(initial) - law.energy(std::min(initial, approach));
 	}
 
@@ -73,8 +75,8 @@ namespace {
 			if (form == NormalForm::Increment) s.normal = record.get(&SpringsOf::normal);
 			s.shear = record.get(&SpringsOf::shear);
 			const Placement placement { point.get(&ContactPoint::normal), point.get(&ContactPoint::overlap) };
-			const ShearIncrement<Number> increment
-			        = elasticStep<Law, Placement, Number>(law, step.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), step), h, form, s);
+			const ShearIncrement<Number> increment = elasticStep<Law, Placement, Number>(
+			        law, step.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), step), h, form, s);
 			record.set(&SpringsOf::excess, s.excess);
 			record.set(&SpringsOf::overlap, s.overlap);
 			record.set(&SpringsOf::stiffness, s.stiffness);
@@ -139,12 +141,14 @@ namespace {
 	[[maybe_unused]] bool isValid(const PairStep& step)
 	{
 		const auto isValidBody = [](const BodyKinematics& body) { return isFinite(body.position) && isFinite(body.velocity) && isFinite(body.spin); };
-		return step.h > 0 && std::isfinite(step.h) && isValidBody(step.a) && isValidBody(step.b) && step.pair.shearRatio > 0 && step.pair.overlapLimit >= 0;
+		return step.h > 0 && std::isfinite(step.h) && isValidBody(step.a) && isValidBody(step.b) && step.pair.shearRatio > 0
+		        && step.pair.overlapLimit >= 0;
 	}
 	[[maybe_unused]] bool isValid(const Points& points)
 	{
 		const auto isBefore = [](const ContactPoint& p, const ContactPoint& q) { return p.id < q.id; };
-		const auto isValidPoint = [](const ContactPoint& p) { return isFinite(p.position) && isUnit(p.normal) && p.overlap > 0 && std::isfinite(p.overlap); };
+		const auto isValidPoint
+		        = [](const ContactPoint& p) { return isFinite(p.position) && isUnit(p.normal) && p.overlap > 0 && std::isfinite(p.overlap); };
 		return std::is_sorted(points.begin(), points.end(), isBefore) && std::all_of(points.begin(), points.end(), isValidPoint);
 	}
 
@@ -167,7 +171,8 @@ void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pai
 	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
 	for (size_t i = 0; i < points.size(); ++i)
 		if (refresh || records[i].pairInverseMass != inverseMass(a, b))
-			static_cast<PointResponse&>(records[i]) = responseAt(a, b, points[i].position - a.position, points[i].position - b.position, points[i].normal);
+			static_cast<PointResponse&>(records[i])
+			        = responseAt(a, b, points[i].position - a.position, points[i].position - b.position, points[i].normal);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
@@ -219,10 +224,14 @@ PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pa
 		if (!energies) return;
 		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Vec mean = (before + after) / Number(2.);
-		const Number dashpotForce = dashpot.dot(normal), stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
-		const Number normalWork = -(Number(h) * dashpotForce * mean.dot(normal)), shearWork = -(Number(h) * (dashpot - dashpotForce * normal).dot(mean));
-		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shear) / Number(2.) + stored - record.get(&PointRecord::shearEnergyBefore));
-		sums.add<Number>(count, normalWork, shearWork, friction, Number(record.get(&PointRecord::energy)), stored, Number(-(elasticNormal * normal + shear).dot(after)));
+		const Number dashpotForce = dashpot.dot(normal),
+		             stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
+		const Number normalWork = -(Number(h) * dashpotForce * mean.dot(normal)),
+		             shearWork = -(Number(h) * (dashpot - dashpotForce * normal).dot(mean));
+		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shear) / Number(2.) + stored
+		        - record.get(&PointRecord::shearEnergyBefore));
+		sums.add<Number>(count, normalWork, shearWork, friction, Number(record.get(&PointRecord::energy)), stored,
+		        Number(-(elasticNormal * normal + shear).dot(after)));
 	});
 	own = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
 	reassignImpactEnergy(step, k, records, own);

@@ -30,7 +30,8 @@ struct SolverStep {
 };
 
 /// Constraints of the k-th pair of the solver. refresh: recompute the points' responses.
-void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+void prepareContacts(
+        const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {

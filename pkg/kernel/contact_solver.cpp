@@ -78,7 +78,8 @@ namespace {
 		const Vec3Of<Number> v = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Number vn = v.dot(p.normal), normal = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normal;
 		const Vec3Of<Number> dashpot = p.shearDamping * (v - vn * p.normal);
-		const Vec3Of<Number> shear = selectLazily(p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
+		const Vec3Of<Number> shear = selectLazily(
+		        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
 		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
 	}
 
@@ -100,7 +101,10 @@ namespace {
 		        , spinB(sums.vector(9))
 		{
 		}
-		Vec3 at(const ContactSolver::Constraint& c) const { return velocityB + spinB.cross(c.armB) - velocityA - spinA.cross(c.armA); } // relativeVelocity(), but in registers
+		Vec3 at(const ContactSolver::Constraint& c) const
+		{
+			return velocityB + spinB.cross(c.armB) - velocityA - spinA.cross(c.armA);
+		} // relativeVelocity(), but in registers
 		void apply(const SolverBody& a, const SolverBody& b, const ContactSolver::Constraint& c, const Vec3& impulse)
 		{
 			velocityA -= a.inverseMass * impulse;
@@ -117,9 +121,10 @@ namespace {
 
 	template <class Number> [[maybe_unused]] bool isValid(const ContactInput<Number>& p)
 	{
-		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal) && isFinite(p.elasticShear) && isFinite(p.impulse)
-		        && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping) && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness)
-		        && isFinite(p.normalResponse) && isNonNegative(p.shearResponse);
+		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
+		        && isFinite(p.elasticShear) && isFinite(p.impulse) && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping)
+		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isFinite(p.normalResponse)
+		        && isNonNegative(p.shearResponse);
 	}
 
 } // namespace
@@ -171,8 +176,10 @@ void ContactSolver::warmStart(std::vector<SolverBody>& bodies, const SolverPair&
 	Sums<12> all(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 	for (size_t point = 0; point < pair.count; point += laneCount) {
 		const ConstraintGroup& group = groupAt(pair, point);
-		const Vec3s spinA = broadcast<Lanes>(a.inverseInertia) * group.armA.cross(group.impulse), spinB = broadcast<Lanes>(b.inverseInertia) * group.armB.cross(group.impulse);
-		all.add<Lanes>(pair.count - point, Vec3s(Lanes(-a.inverseMass) * group.impulse), Vec3s(-spinA), Vec3s(Lanes(b.inverseMass) * group.impulse), spinB);
+		const Vec3s spinA = broadcast<Lanes>(a.inverseInertia) * group.armA.cross(group.impulse),
+		            spinB = broadcast<Lanes>(b.inverseInertia) * group.armB.cross(group.impulse);
+		all.add<Lanes>(
+		        pair.count - point, Vec3s(Lanes(-a.inverseMass) * group.impulse), Vec3s(-spinA), Vec3s(Lanes(b.inverseMass) * group.impulse), spinB);
 	}
 	PairVelocity(all).store(a, b);
 }

@@ -111,11 +111,15 @@ template <class ConstraintX, class ConstraintY, class Work> void forMembers(Cons
 template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
 {
 	const Number square = v.squaredNorm();
-	return selectLazily(square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
+	return selectLazily(
+	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
 }
 
 /// e_s after sliding: at most friction times the normal force. [N]
-template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce) { return clipped<Number>(elasticShear, friction * normalForce); }
+template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce)
+{
+	return clipped<Number>(elasticShear, friction * normalForce);
+}
 
 /// Two bodies in contact and their constraints.
 struct SolverPair {

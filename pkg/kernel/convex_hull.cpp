@@ -37,7 +37,8 @@ namespace {
 		for (size_t k = 0; k < points.size(); ++k)
 			for (size_t l = k + 1; l < points.size(); ++l)
 				if ((points[k] - points[l]).norm() <= tolerance)
-					throw PolyhedronError("vertices " + std::to_string(k) + " and " + std::to_string(l) + " are the same point " + toText(points[k]));
+					throw PolyhedronError(
+					        "vertices " + std::to_string(k) + " and " + std::to_string(l) + " are the same point " + toText(points[k]));
 	}
 
 	using Vec2 = Eigen::Vector2d;
@@ -159,7 +160,8 @@ namespace {
 			face.sidePlanes.push_back(through((next - corner).cross(face.plane.normal).normalized(), corner));
 		}
 		for (size_t k = 0; k < count; ++k)
-			face.bevelPlanes.push_back(through((face.sidePlanes[k].normal + face.sidePlanes[(k + count - 1) % count].normal).normalized(), points[face.corners[k]]));
+			face.bevelPlanes.push_back(
+			        through((face.sidePlanes[k].normal + face.sidePlanes[(k + count - 1) % count].normal).normalized(), points[face.corners[k]]));
 	}
 
 	/// Face from its unordered corners: Newell normal, corners counter-clockwise seen from outside.
@@ -207,9 +209,10 @@ namespace {
 		std::vector<Edge> edges;
 		for (const auto& [ends, left] : faceLeftOf) {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
-			if (back == faceLeftOf.end()) throw OpenSurface("the faces do not close around the edge between vertices " + std::to_string(ends.first) + " and " + std::to_string(ends.second));
-			if (ends.first < ends.second)
-				edges.push_back(edgeBetween(points, faces, ends.first, ends.second, left, back->second));
+			if (back == faceLeftOf.end())
+				throw OpenSurface("the faces do not close around the edge between vertices " + std::to_string(ends.first) + " and "
+				        + std::to_string(ends.second));
+			if (ends.first < ends.second) edges.push_back(edgeBetween(points, faces, ends.first, ends.second, left, back->second));
 		}
 		return edges;
 	}

@@ -45,10 +45,12 @@ namespace {
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t f = 0; f < b.faces.size(); ++f)
-					testVertexFace({ FeatureKind::VertexFace, int(v), int(f) }, verticesA[v], b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
+					testVertexFace(
+					        { FeatureKind::VertexFace, int(v), int(f) }, verticesA[v], b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
 			for (size_t f = 0; f < a.faces.size(); ++f)
 				for (size_t v = 0; v < b.vertices.size(); ++v)
-					testVertexFace({ FeatureKind::FaceVertex, int(f), int(v) }, verticesB[v], a.faces[f], pair.a.coreHalfThickness, verticesB[v].position);
+					testVertexFace({ FeatureKind::FaceVertex, int(f), int(v) }, verticesB[v], a.faces[f], pair.a.coreHalfThickness,
+					        verticesB[v].position);
 		}
 		/// Edge-edge, and the extra patterns if they are on.
 		void searchOtherKinds()
@@ -98,8 +100,9 @@ namespace {
 			const size_t count = edges.size() - first;
 			const Group<Lanes, const Edge> group(&edges[first], count);
 			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) { return &verticesB[edges[first + i].tail].position; }).vectors();
-			EdgeBatch batch { first, tails, broadcast<Lanes>(pair.rotation) * group.get(&Edge::direction), broadcast<Lanes>(pair.rotation) * group.get(&Edge::outward),
-				group.get(&Edge::length), std::numeric_limits<double>::infinity() };
+			EdgeBatch batch { first, tails, broadcast<Lanes>(pair.rotation) * group.get(&Edge::direction),
+				broadcast<Lanes>(pair.rotation) * group.get(&Edge::outward), group.get(&Edge::length),
+				std::numeric_limits<double>::infinity() };
 			for (size_t i = 0; i < laneCount && i < count; ++i)
 				setLane(batch.depth, i, std::min(depthInB(edges[first + i].tail), depthInB(edges[first + i].head)));
 			return batch;
@@ -114,7 +117,8 @@ namespace {
 		/// Distance within which an edge of B can be in contact with an edge of A within the margin, for nearly parallel edges. [m]
 		double edgeRange(const Edge& ea) const
 		{
-			return std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation) + std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion);
+			return std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation)
+			        + std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion);
 		}
 
 		/// position: of the candidate, frame of A [m]
@@ -128,7 +132,8 @@ namespace {
 		void testVertexFace(FeatureId id, const Vertex& x, const Face& face, double depth, const Vec3& position)
 		{
 			const double distance = signedDistance<double>(face.plane, x.position);
-			if (distance <= pair.contactDistance() + x.motion && distance >= -depth - x.motion && projectsOntoFace<double>(face, x.position, flushTolerance + x.motion))
+			if (distance <= pair.contactDistance() + x.motion && distance >= -depth - x.motion
+			        && projectsOntoFace<double>(face, x.position, flushTolerance + x.motion))
 				add(id, position, distance <= x.motion);
 		}
 
@@ -146,7 +151,8 @@ namespace {
 			const auto inside = [&](Lanes at, Lanes length) { return logicalAnd(at >= -slack, at <= length + slack); };
 			const Lanes height = c.normal.dot(Vec3s(b.tail - tail)), distance = max(height, -height);
 			const auto mayFace = c.normal.dot(broadcast<Lanes>(ea.outward)) * c.normal.dot(b.outward) <= Lanes(3 * maxRotation) / c.sine;
-			const auto mayCross = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)), logicalAnd(distance <= range, mayFace));
+			const auto mayCross
+			        = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)), logicalAnd(distance <= range, mayFace));
 			for (size_t i = 0; i < laneCount; ++i) {
 				if (!lane(inRange, i)) continue;
 				const int edgeB = int(b.first + i);
@@ -177,10 +183,12 @@ namespace {
 					testVertexEdge({ FeatureKind::VertexEdge, int(v), int(e) }, verticesA[v].position, b, b.edges[e], a.vertices[v]);
 			for (size_t e = 0; e < a.edges.size(); ++e)
 				for (size_t v = 0; v < b.vertices.size(); ++v)
-					testVertexEdge({ FeatureKind::EdgeVertex, int(e), int(v) }, verticesB[v].position, a, a.edges[e], verticesB[v].position);
+					testVertexEdge(
+					        { FeatureKind::EdgeVertex, int(e), int(v) }, verticesB[v].position, a, a.edges[e], verticesB[v].position);
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t w = 0; w < verticesB.size(); ++w)
-					testDistance({ FeatureKind::VertexVertex, int(v), int(w) }, (verticesB[w].position - a.vertices[v]).norm(), a.vertices[v]);
+					testDistance(
+					        { FeatureKind::VertexVertex, int(v), int(w) }, (verticesB[w].position - a.vertices[v]).norm(), a.vertices[v]);
 		}
 		/// x: vertex in the frame of the edge's body [m]
 		void testVertexEdge(FeatureId id, const Vec3& x, const Polyhedron& body, const Edge& edge, const Vec3& position)
@@ -199,8 +207,8 @@ namespace {
 	void centreOnSmallerBody(const ShapePair& pair, CandidateCache& cache)
 	{
 		cache.centre = pair.b.boundingRadius <= pair.a.boundingRadius ? pair.translation : Vec3(Vec3::Zero());
-		cache.regionRadius
-		        = std::max(minRegionSkins * cache.skin, std::min(pair.a.boundingRadius, pair.b.boundingRadius) + pair.contactDistance() + 2 * cache.skin);
+		cache.regionRadius = std::max(
+		        minRegionSkins * cache.skin, std::min(pair.a.boundingRadius, pair.b.boundingRadius) + pair.contactDistance() + 2 * cache.skin);
 	}
 
 	/// Step 3.

@@ -12,7 +12,10 @@
 namespace timber {
 
 /// Distance of a point from a plane, > 0 outside. [m]
-template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3Of<Number>& x) { return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset); }
+template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3Of<Number>& x)
+{
+	return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset);
+}
 
 /// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative: inside them) [m].
 /// Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This changes nothing at a right angle, and keeps the

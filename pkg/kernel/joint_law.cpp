@@ -31,23 +31,27 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, 
 	JointPull pull;
 	Sums<11> sums;
 	const Vec3 worldNormal = placement.axesA * normal;
-	inLanes(springs.broken.size(), [&](auto number, size_t i) __attribute__((always_inline)) {
-		using Number = decltype(number);
-		using Vec = Vec3Of<Number>;
-		const size_t count = springs.broken.size() - i;
-		const auto vectors = [&](const std::vector<Vec3>& of) -> Vec { return Group<Number, const Vec3>(&of[i], count).vectors(); };
-		const auto intact = Group<Number, const int>(&springs.broken[i], count).numbers() <= Number(0.);
-		const Vec armB = broadcast<Number>(placement.axesB) * vectors(springs.anchorsB), armA = broadcast<Number>(placement.axesA) * vectors(springs.anchorsA), end = broadcast<Number>(placement.distance) + armB;
-		const Vec stretch = select(intact, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
-		const SpringForce<Number> f = springForce<Number>(k, stretch, worldNormal);
-		Group<Number, Vec3>(&springs.stretches[i], count).set(stretch);
-		Group<Number, Vec3>(&springs.forces[i], count).set(f.force);
-		const Number square = f.force.squaredNorm();
-		const Vec torqueA = end.cross(f.force), torqueB = -armB.cross(f.force); // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
-		sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, sqrt(square));
-		for (size_t l = 0; l < laneCount; ++l)
-			pull.largestSquared = std::max(pull.largestSquared, lane(square, l));
-	});
+	inLanes(
+	        springs.broken.size(), [&](auto number, size_t i) __attribute__((always_inline)) {
+		        using Number = decltype(number);
+		        using Vec = Vec3Of<Number>;
+		        const size_t count = springs.broken.size() - i;
+		        const auto vectors = [&](const std::vector<Vec3>& of) -> Vec { return Group<Number, const Vec3>(&of[i], count).vectors(); };
+		        const auto intact = Group<Number, const int>(&springs.broken[i], count).numbers() <= Number(0.);
+		        const Vec armB = broadcast<Number>(placement.axesB) * vectors(springs.anchorsB),
+		                  armA = broadcast<Number>(placement.axesA) * vectors(springs.anchorsA), end = broadcast<Number>(placement.distance) + armB;
+		        const Vec stretch = select(intact, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
+		        const SpringForce<Number> f = springForce<Number>(k, stretch, worldNormal);
+		        Group<Number, Vec3>(&springs.stretches[i], count).set(stretch);
+		        Group<Number, Vec3>(&springs.forces[i], count).set(f.force);
+		        const Number square = f.force.squaredNorm();
+		        const Vec torqueA = end.cross(f.force),
+		                  torqueB = -armB.cross(
+		                          f.force); // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
+		        sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, sqrt(square));
+		        for (size_t l = 0; l < laneCount; ++l)
+			        pull.largestSquared = std::max(pull.largestSquared, lane(square, l));
+	        });
 	pull.force = sums.vector(0);
 	pull.torqueA = sums.vector(3);
 	pull.torqueB = sums.vector(6);
@@ -68,8 +72,8 @@ BreakCause breakCause(const SpringForce<double>& f)
 	return f.normal > 0 ? BreakCause::Tension : BreakCause::Compression;
 }
 
-std::vector<SpringBreak> springBreaks(
-        const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion)
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal,
+        const JointSprings& springs, const JointMotion& motion)
 {
 	assert(strength.limit > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;

@@ -82,7 +82,7 @@ struct JointMotion {
 };
 
 /// Breaks of an overloaded joint, in the order of its springs. springs: as pullSprings() left them.
-std::vector<SpringBreak> springBreaks(
-        const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion);
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal,
+        const JointSprings& springs, const JointMotion& motion);
 
 } // namespace timber

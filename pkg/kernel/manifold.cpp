@@ -61,7 +61,8 @@ namespace {
 		{
 			const Number overlap = Number(pair.contactDistance()) - contact.distance;
 			const Vec3Of<Number> middle = contact.pointA + (Number(pair.a.radius) - overlap / Number(2.)) * contact.normal;
-			const Vec3Of<Number> position = broadcast<Number>(positionA) + broadcast<Number>(rotationA) * middle, normal = broadcast<Number>(rotationA) * contact.normal;
+			const Vec3Of<Number> position = broadcast<Number>(positionA) + broadcast<Number>(rotationA) * middle,
+			                     normal = broadcast<Number>(rotationA) * contact.normal;
 			for (size_t i = 0; i < count; ++i) {
 				if (!lane(valid, i)) continue;
 				const ContactPoint next { first[i], lane(position, i), lane(normal, i), lane(overlap, i) };
@@ -79,7 +80,7 @@ namespace {
 		const Face& f = body.core.faces[face];
 		const Number side = pair.sideTolerance(), zero = 0.;
 		distance = signedDistance(f.plane, x);
-		auto valid = logicalAnd(distance < Number(pair.contactDistance()), distance > Number(-(pair.isDeep() ? body.coreHalfThickness : flushTolerance)));
+		auto valid = logicalAnd(distance<Number(pair.contactDistance()), distance> Number(-(pair.isDeep() ? body.coreHalfThickness : flushTolerance)));
 		if (!any(valid)) return valid;
 		valid = logicalAnd(valid, projectsOntoFace(f, x, pair.isDeep() ? side : min(side, distance)));
 		if (!pair.isDeep()) return valid;
@@ -94,7 +95,8 @@ namespace {
 		const RoundedPolyhedron &body = isFaceOfB ? pair.b : pair.a, &other = isFaceOfB ? pair.a : pair.b;
 		const int face = isFaceOfB ? first->b() : first->a();
 		assert(size_t(face) < body.core.faces.size());
-		const Vec own = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[isFaceOfB ? first[i].a() : first[i].b()]; }).vectors();
+		const Vec own
+		        = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[isFaceOfB ? first[i].a() : first[i].b()]; }).vectors();
 		const Vec inA = isFaceOfB ? own : pair.toA<Number>(own);
 		const auto valid = isVertexOnFace<Number>(
 		        pair, body, isFaceOfB ? pair.supportFaceB : pair.supportFaceA, face, isFaceOfB ? pair.toB<Number>(own) : inA, contact.distance);
@@ -122,14 +124,18 @@ namespace {
 		auto valid = c.sine >= Number(parallelSine);
 		if (!any(valid)) return valid;
 		const Number end = Number(flushTolerance) / c.sine;
-		valid = logicalAnd(valid, logicalAnd(logicalAnd(c.alongA > end, c.alongA < a.get(&Edge::length) - end), logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
+		valid = logicalAnd(valid,
+		        logicalAnd(logicalAnd(c.alongA > end, c.alongA < a.get(&Edge::length) - end),
+		                logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
 		if (!any(valid)) return valid;
 		contact.normal = select(c.normal.dot(a.get(&Edge::outward)) < zero, Vec(-c.normal), c.normal);
-		valid = logicalAnd(valid, contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < zero); // otherwise on the far side of B
+		valid = logicalAnd(
+		        valid, contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < zero); // otherwise on the far side of B
 		contact.pointA = tailA + c.alongA * directionA;
 		contact.distance = contact.normal.dot(Vec(tailB + c.alongB * directionB - contact.pointA));
 		return logicalAnd(valid,
-		        logicalAnd(contact.distance < Number(pair.contactDistance()), contact.distance > Number(-(pair.isDeep() ? pair.depthLimit() : flushTolerance))));
+		        logicalAnd(contact.distance<Number(pair.contactDistance()), contact.distance> Number(
+		                -(pair.isDeep() ? pair.depthLimit() : flushTolerance))));
 	}
 
 	/// Whether a vertex is the support point of its body along a direction (unit): no edge from it rises by more than `slope` (cosine).
@@ -197,8 +203,8 @@ namespace {
 		const double distance = difference.norm();
 		if (distance >= pair.contactDistance() || distance <= flushTolerance) return false;
 		const double slope = -flushTolerance / distance; // strictly beyond the ends of all edges: no vertex-edge contact
-		return isSupportVertex(a, vertexA, difference / distance, slope) && isSupportVertex(b, vertexB, pair.rotation.transpose() * -difference / distance, slope)
-		        && pointPointContact(pointA, pointB, contact);
+		return isSupportVertex(a, vertexA, difference / distance, slope)
+		        && isSupportVertex(b, vertexB, pair.rotation.transpose() * -difference / distance, slope) && pointPointContact(pointA, pointB, contact);
 	}
 
 	/// Patterns::vertexEdge.
@@ -330,7 +336,8 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	const bool wasInContact = !points.empty();
 	points.clear();
 	const Mat3 rotationA = poseA.orientation.toRotationMatrix();
-	ShapePair pair { a, b, rotationA.transpose() * poseB.orientation.toRotationMatrix(), rotationA.transpose() * (poseB.position - poseA.position), patterns };
+	ShapePair pair { a, b, rotationA.transpose() * poseB.orientation.toRotationMatrix(), rotationA.transpose() * (poseB.position - poseA.position),
+		patterns };
 
 	if (!wasInContact) // 1.
 		if (const double displacement = safeDisplacement(pair, gapAlongCachedAxis(pair, cache)); displacement > 0) return displacement;

@@ -76,7 +76,10 @@ struct CandidateCache {
 	        , patterns(p)
 	{
 	}
-	bool matches(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const { return serialA == a.serial && serialB == b.serial && patterns == p; }
+	bool matches(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const
+	{
+		return serialA == a.serial && serialB == b.serial && patterns == p;
+	}
 	bool isSearched() const { return margin >= 0; }
 	/// Relative motion since the search, to be compared with the margin. [m]
 	double motion(const Mat3& newRotation, const Vec3& newTranslation) const

@@ -21,7 +21,8 @@ namespace {
 		double scale = 0;
 		const auto inside = [&](const Vec3& p) {
 			const double distance = p.norm();
-			return std::all_of(planes.begin(), planes.end(), [&](const HalfSpace& h) { return h.normal.dot(p) - h.offset <= 1e-9 * (std::abs(h.offset) + distance); });
+			return std::all_of(planes.begin(), planes.end(),
+			        [&](const HalfSpace& h) { return h.normal.dot(p) - h.offset <= 1e-9 * (std::abs(h.offset) + distance); });
 		};
 		for (size_t a = 0; a < planes.size(); ++a)
 			for (size_t b = a + 1; b < planes.size(); ++b)
@@ -36,7 +37,8 @@ namespace {
 				}
 		std::vector<Vec3> distinct;
 		for (const Vec3& p : corners)
-			if (std::none_of(distinct.begin(), distinct.end(), [&](const Vec3& q) { return (p - q).norm() <= 4 * planarShare * scale; })) distinct.push_back(p);
+			if (std::none_of(distinct.begin(), distinct.end(), [&](const Vec3& q) { return (p - q).norm() <= 4 * planarShare * scale; }))
+				distinct.push_back(p);
 		return distinct;
 	}
 
@@ -47,7 +49,8 @@ namespace {
 		if (corners.size() < 4) throw PolyhedronError("the half-spaces enclose no volume");
 		Polyhedron body = closedConvexHull(corners);
 		for (const Face& face : body.faces) { // an unbounded intersection has a closing face that is none of the planes
-			const bool given = std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
+			const bool given
+			        = std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
 			if (!given) throw PolyhedronError("the half-spaces do not bound a volume in the direction " + toText(face.plane.normal));
 		}
 		return body;
@@ -115,7 +118,8 @@ MassProperties massProperties(const Polyhedron& body)
 	Mat3 second = Mat3::Zero();
 	for (const Face& face : body.faces)
 		for (size_t k = 1; k + 1 < face.corners.size(); ++k) {
-			const Vec3 a = body.vertices[face.corners[0]] - origin, b = body.vertices[face.corners[k]] - origin, c = body.vertices[face.corners[k + 1]] - origin;
+			const Vec3 a = body.vertices[face.corners[0]] - origin, b = body.vertices[face.corners[k]] - origin,
+			           c = body.vertices[face.corners[k + 1]] - origin;
 			const double part = a.dot(b.cross(c)) / 6;
 			const Vec3 sum = a + b + c;
 			volume += part;
@@ -163,7 +167,8 @@ RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 	bool isDistinct = false; // corners of the core
 	for (double share = planarShare; !isDistinct && share < 2 * warpShare; share *= 10)
 		try {
-			Polyhedron planar = share > planarShare ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices)) : sharp, core = coreOf(planar, body.radius);
+			Polyhedron planar = share > planarShare ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices)) : sharp,
+			           core = coreOf(planar, body.radius);
 			isDistinct = core.shortestEdge() > 2 * flushTolerance;
 			if (!isDistinct && !body.core.vertices.empty()) continue;
 			body.sharp = std::move(planar);

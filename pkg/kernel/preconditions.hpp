@@ -26,7 +26,7 @@ inline bool isNonNegative(const Lanes& x) { return !any(x < Lanes(0.)); }
 template <class Number> bool isUnit(const Eigen::Matrix<Number, 3, 1>& n)
 {
 	const Number square = n.squaredNorm();
-	return isFinite(square) && !any(logicalOr(square < Number(1 - 1e-9), square > Number(1 + 1e-9)));
+	return isFinite(square) && !any(logicalOr(square<Number(1 - 1e-9), square> Number(1 + 1e-9)));
 }
 
 inline bool isRotation(const Mat3& m) { return (m * m.transpose() - Mat3::Identity()).norm() < 1e-9; }

@@ -10,8 +10,14 @@ namespace timber {
 
 inline double sine(double x) { return std::sin(x); }
 inline double cosine(double x) { return std::cos(x); }
-inline Lanes sine(Lanes x) { return eachLane(x, [](double one) { return std::sin(one); }); }
-inline Lanes cosine(Lanes x) { return eachLane(x, [](double one) { return std::cos(one); }); }
+inline Lanes sine(Lanes x)
+{
+	return eachLane(x, [](double one) { return std::sin(one); });
+}
+inline Lanes cosine(Lanes x)
+{
+	return eachLane(x, [](double one) { return std::cos(one); });
+}
 
 /// Sine and cosine; for small arguments by power series, exact to rounding.
 template <class Number> std::pair<Number, Number> sineCosine(Number x)
@@ -21,7 +27,10 @@ template <class Number> std::pair<Number, Number> sineCosine(Number x)
 	const auto over = [y](double divisor) { return Number(y / Number(divisor)); };
 	const auto shortSine = [&] { return Number(x * (one - over(6) * (one - over(20) * (one - over(42))))); };
 	const auto shortCosine = [&] { return Number(one - over(2) * (one - over(12) * (one - over(30) * (one - over(56))))); };
-	return { selectLazily(isLong, [x] { return sine(x); }, shortSine), selectLazily(isLong, [x] { return cosine(x); }, shortCosine) };
+	return { selectLazily(
+		         isLong, [x] { return sine(x); }, shortSine),
+		selectLazily(
+		        isLong, [x] { return cosine(x); }, shortCosine) };
 }
 
 template <class Number> using QuatOf = Eigen::Quaternion<Number>;
@@ -49,7 +58,8 @@ template <int axis, class Number> void rotateAboutAxis(QuatOf<Number>& orientati
 /// velocity after the step, world [rad/s].
 template <class Number> Vec3Of<Number> freeRotation(QuatOf<Number>& orientation, const Vec3Of<Number>& momentum, const Vec3Of<Number>& inertia, double h)
 {
-	assert(std::isfinite(h) && isFinite(momentum) && isFinite(inertia) && !any(logicalOr(inertia[0] <= Number(0.), logicalOr(inertia[1] <= Number(0.), inertia[2] <= Number(0.)))));
+	assert(std::isfinite(h) && isFinite(momentum) && isFinite(inertia)
+	        && !any(logicalOr(inertia[0] <= Number(0.), logicalOr(inertia[1] <= Number(0.), inertia[2] <= Number(0.)))));
 	const Number whole = h, half = h / 2;
 	const Vec3Of<Number> inverse = inertia.cwiseInverse();
 	Vec3Of<Number> body = orientation.conjugate() * momentum;

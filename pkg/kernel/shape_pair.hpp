@@ -26,7 +26,10 @@ struct ShapePair {
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); } ///< [m]
 	/// A projection beyond a side of a face by less than this still belongs to the face. [m]
 	double sideTolerance() const { return patterns.flushSupports ? flushTolerance : -flushTolerance; }
-	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation)); }
+	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const
+	{
+		return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation));
+	}
 	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation) * x + broadcast<Number>(translation); }
 };
 

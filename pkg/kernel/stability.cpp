@@ -33,8 +33,8 @@ namespace {
 
 	[[maybe_unused]] bool isValid(const PointSpring& p, size_t bodies)
 	{
-		return p.bodyA >= 0 && p.bodyB >= 0 && size_t(std::max(p.bodyA, p.bodyB)) < bodies && isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && p.normalStiffness >= 0
-		        && p.shearStiffness >= 0;
+		return p.bodyA >= 0 && p.bodyB >= 0 && size_t(std::max(p.bodyA, p.bodyB)) < bodies && isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal)
+		        && p.normalStiffness >= 0 && p.shearStiffness >= 0;
 	}
 
 	double norm(const std::vector<Twist>& x)

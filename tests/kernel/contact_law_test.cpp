@@ -24,7 +24,8 @@ template <class Law> struct Spring {
 	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(), const Vec3& normal = Vec3::UnitZ())
 	{
 		const ContactPoint point { {}, Vec3::Zero(), normal, overlap };
-		static_cast<ShearIncrement<double>&>(state) = elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
+		static_cast<ShearIncrement<double>&>(state)
+		        = elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
 	}
 };
 
@@ -234,7 +235,8 @@ TEST(ShearSpring, ClosedCyclesDissipate)
 	for (int trial = 0; trial < 200; ++trial) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(1 / 2.8) };
 		spring.step(1e-3, 1e-3, Vec3::Zero());
-		const double a = uniform(random, 0, 9e-4), p = uniform(random, 0, 2 * M_PI), q = uniform(random, 0, 2 * M_PI), amplitude = uniform(random, 0, 1e-3);
+		const double a = uniform(random, 0, 9e-4), p = uniform(random, 0, 2 * M_PI), q = uniform(random, 0, 2 * M_PI),
+		             amplitude = uniform(random, 0, 1e-3);
 		const auto overlap = [&](double t) { return 1e-3 + a * (std::sin(t + p) - std::sin(p)); };
 		const auto place = [&](double t) { return Vec3(amplitude * (std::sin(2 * t + q) - std::sin(q)), amplitude * (std::cos(t) - 1), 0); };
 		double work = 0, largest = 0;

@@ -13,7 +13,8 @@ constexpr double overlap = 1e-3; // [m]
 constexpr double h = 1e-4; // [s]
 constexpr double rounding = 1e-12; ///< of a root and a few products, relative
 const PairProperties pair { 1e6, 0.5, 0.4, 1 }; ///< heavy: contacts do not stop it within a step
-const FeatureId vertex(FeatureKind::VertexFace, 3, 1), face(FeatureKind::FaceVertex, 2, 5), edge(FeatureKind::EdgeEdge, 4, 7), otherEdge(FeatureKind::EdgeEdge, 4, 8);
+const FeatureId vertex(FeatureKind::VertexFace, 3, 1), face(FeatureKind::FaceVertex, 2, 5), edge(FeatureKind::EdgeEdge, 4, 7),
+        otherEdge(FeatureKind::EdgeEdge, 4, 8);
 
 ContactPoint pointOf(FeatureId id, double at) { return { id, Vec3::Zero(), Vec3::UnitZ(), at }; }
 
@@ -33,8 +34,10 @@ PointRecord loaded(FeatureId id, double at)
 double step(const std::vector<ContactPoint>& points, std::vector<PointRecord>& records, double speed = 0, bool placedInContact = false)
 {
 	const Vec3 none = Vec3::Zero(), approach(0, 0, -speed);
-	const double released = elasticPair(law, { pair, { none, none, none }, { none, approach, none }, h, NormalForm::Closed, placedInContact }, points, records);
-	EXPECT_TRUE(std::equal(points.begin(), points.end(), records.begin(), records.end(), [](const ContactPoint& p, const PointRecord& s) { return p.id == s.id; }));
+	const double released
+	        = elasticPair(law, { pair, { none, none, none }, { none, approach, none }, h, NormalForm::Closed, placedInContact }, points, records);
+	EXPECT_TRUE(std::equal(
+	        points.begin(), points.end(), records.begin(), records.end(), [](const ContactPoint& p, const PointRecord& s) { return p.id == s.id; }));
 	return released;
 }
 

@@ -53,7 +53,8 @@ TEST(Balance, DashpotsNeverAddEnergy)
 				Heap heap(seed, 3 + seed % 5, 4 + seed % 17, damping, seed % 3 ? 0.5 : 0);
 				const double before = kineticEnergy(heap.bodies);
 				heap.solve(1e-4, sweeps);
-				EXPECT_LE(kineticEnergy(heap.bodies), before * (1 + rounding)) << "seed " << seed << " sweeps " << sweeps << " damping " << damping;
+				EXPECT_LE(kineticEnergy(heap.bodies), before * (1 + rounding))
+				        << "seed " << seed << " sweeps " << sweeps << " damping " << damping;
 			}
 }
 
@@ -64,8 +65,10 @@ namespace {
 Eigen::VectorXd denseSolution(const Heap& heap, double h)
 {
 	const int count = int(heap.points.size());
-	Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * count, 6 * int(heap.bodies.size())), inverseMass = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
-	const auto cross = [](const Vec3& r) { return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished(); }; // w -> w x r
+	Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * count, 6 * int(heap.bodies.size())),
+	                inverseMass = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+	const auto cross
+	        = [](const Vec3& r) { return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished(); }; // w -> w x r
 	Eigen::VectorXd before(jacobian.cols()), free(jacobian.cols());
 	for (size_t k = 0; k < heap.bodies.size(); ++k) {
 		const SolverBody& b = heap.bodies[k];
@@ -90,7 +93,8 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * own * across).eigenvalues().maxCoeff();
 		const auto weight = [](double x) { return 0.5 + x / (12 + 2 * x); };
 		damping.block<3, 3>(3 * k, 3 * k) = p.normalDamping * along + p.shearDamping * across;
-		theta.block<3, 3>(3 * k, 3 * k) = weight(h * p.normalDamping * p.normal.dot(own * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
+		theta.block<3, 3>(3 * k, 3 * k)
+		        = weight(h * p.normalDamping * p.normal.dot(own * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
 		elastic.segment<3>(3 * k) = p.elasticNormal * p.normal + p.elasticShear;
 	}
 	const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(3 * count, 3 * count);
@@ -317,7 +321,9 @@ TEST(Islands, DependOnThePresentStepOnly)
 			ContactSolver once;
 			Islands islands;
 			const size_t before = reusedIslands.count();
-			EXPECT_EQ(solveContacts(reused, reusedIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6)) << seed;
+			EXPECT_EQ(
+			        solveContacts(reused, reusedIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6))
+			        << seed;
 			ASSERT_EQ(reusedIslands.count(), islands.count()) << seed << " after " << before;
 			for (size_t k = 0; k < islands.count(); ++k)
 				ASSERT_TRUE(std::equal(reusedIslands[k].begin(), reusedIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;

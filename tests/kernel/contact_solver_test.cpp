@@ -107,7 +107,8 @@ TEST(SinglePair, SpringsSetNoLimitToTheStep)
 		m.velocity.z() = start * (1 - std::cos(phase)) / m.h; // half a step earlier, on the orbit of start cos(phase k)
 		for (int k = 1; k <= 200; ++k) {
 			m.step(1);
-			EXPECT_NEAR(m.displacement.z(), start * std::cos(phase * k), 1e-7 * start * std::max(1., turn)) << turn << " " << k; // rounding of the load adds up
+			EXPECT_NEAR(m.displacement.z(), start * std::cos(phase * k), 1e-7 * start * std::max(1., turn))
+			        << turn << " " << k; // rounding of the load adds up
 		}
 	}
 }
@@ -129,10 +130,8 @@ TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
 				m.step(2000); // coupled points: linear convergence of the sweeps
 				largest = std::max(largest, std::abs(m.displacement.z()));
 			}
-			if (all <= 8 * y + 4)
-				EXPECT_LT(largest, 1.001 * start) << turn << " " << points;
-			else
-				EXPECT_GT(largest, 10 * start) << turn << " " << points;
+			if (all <= 8 * y + 4) EXPECT_LT(largest, 1.001 * start) << turn << " " << points;
+			else EXPECT_GT(largest, 10 * start) << turn << " " << points;
 		}
 }
 

@@ -94,9 +94,11 @@ const std::vector<RoundedPolyhedron>& knownBodies()
 	using namespace shapes;
 	static const std::vector<RoundedPolyhedron> bodies = [] {
 		std::vector<RoundedPolyhedron> all;
-		for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(0.105, 7.28, 0.12), Vec3(7.28, 8.19, 0.2), Vec3(1, 1, 1), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1e-3) })
+		for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(0.105, 7.28, 0.12), Vec3(7.28, 8.19, 0.2), Vec3(1, 1, 1), Vec3(1, 1, 1e-3),
+		             Vec3(1, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1e-3) })
 			all.push_back(roundedBox(extents));
-		for (const auto& points : { Brace { 0.91, 2.73, 0.09, 0.045 }.vertices(), HipSlab { 8, 0.5, 0.4, 0.12 }.vertices(), tetrahedronVertices(0.3), octahedronVertices(0.2), hexagonalPrismVertices(0.1, 1.5), pyramidVertices(1, 0.2) }) {
+		for (const auto& points : { Brace { 0.91, 2.73, 0.09, 0.045 }.vertices(), HipSlab { 8, 0.5, 0.4, 0.12 }.vertices(), tetrahedronVertices(0.3),
+		             octahedronVertices(0.2), hexagonalPrismVertices(0.1, 1.5), pyramidVertices(1, 0.2) }) {
 			const Vec3 centre = massProperties(Polyhedron::fromVertices(points)).centroid;
 			all.push_back(rounded(moved(points, Quat::Identity(), -centre)));
 		}
@@ -127,7 +129,8 @@ void require(bool condition, const char* what)
 void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const std::vector<ContactPoint>& points)
 {
 	Vec3 axis;
-	const double gap = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(), poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
+	const double gap = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(),
+	        poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
 	const double limit = a.radius + b.radius + std::max({ -gap, a.coreHalfThickness, b.coreHalfThickness, 1e-4 });
 	const double noise = 1e-12 * (a.boundingRadius + b.boundingRadius); // cores that just touch in a pattern that is off have no point
 	require(gap >= -noise || !points.empty(), "overlapping cores without a point");

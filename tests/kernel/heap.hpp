@@ -37,7 +37,8 @@ inline HeapPoint central(double damping, double elastic = 0)
 
 /// One step of points sorted by pairs, by a solver and islands that may have been used before. Returns the number of
 /// sweeps of the island that took most.
-inline int solveContacts(ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveContacts(
+        ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	using Place = std::vector<HeapPoint>::iterator;
 	std::vector<std::pair<Place, Place>> pairs; // points of each
@@ -90,7 +91,8 @@ inline double kineticEnergy(const std::vector<SolverBody>& bodies)
 {
 	double energy = 0;
 	for (const auto& b : bodies)
-		if (b.inverseMass > 0) energy += 0.5 * b.newVelocity.squaredNorm() / b.inverseMass + 0.5 * b.newSpin.dot(b.inverseInertia.inverse() * b.newSpin);
+		if (b.inverseMass > 0)
+			energy += 0.5 * b.newVelocity.squaredNorm() / b.inverseMass + 0.5 * b.newSpin.dot(b.inverseInertia.inverse() * b.newSpin);
 	return energy;
 }
 

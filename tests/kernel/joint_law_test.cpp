@@ -38,7 +38,8 @@ TEST(JointSpring, ForceIsTheGradientOfTheEnergy)
 		const double h = 1e-5;
 		for (int axis = 0; axis < 3; ++axis) {
 			const Vec3 e = h * Vec3::Unit(axis);
-			const double slope = (springForce<double>(k, stretch + e, normal).energy - springForce<double>(k, stretch - e, normal).energy) / (2 * h);
+			const double slope
+			        = (springForce<double>(k, stretch + e, normal).energy - springForce<double>(k, stretch - e, normal).energy) / (2 * h);
 			EXPECT_NEAR(force[axis], slope, 1e-5); // the energy is quadratic: only cancellation, 500 J * 1e-16 / h
 		}
 	}
@@ -61,7 +62,8 @@ TEST(JointSpring, TurnsWithTheScene)
 	for (int trial = 0; trial < 100; ++trial) {
 		const Vec3 stretch = randomVector(random, 0.1), normal = randomDirection(random);
 		const Quat rotation = randomRotation(random);
-		const SpringForce<double> here = springForce<double>({ 5e4, 2e4 }, stretch, normal), there = springForce<double>({ 5e4, 2e4 }, rotation * stretch, rotation * normal);
+		const SpringForce<double> here = springForce<double>({ 5e4, 2e4 }, stretch, normal),
+		                          there = springForce<double>({ 5e4, 2e4 }, rotation * stretch, rotation * normal);
 		EXPECT_LT((rotation * here.force - there.force).norm(), rounding * 5000);
 		EXPECT_NEAR(here.energy, there.energy, rounding * 500);
 	}

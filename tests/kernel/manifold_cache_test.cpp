@@ -55,7 +55,8 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 	std::vector<ContactPoint> points;
 	int inContact = 0;
 	for (int step = 0; step < steps; ++step) {
-		const Pose poseA = carried({}, about({ 1, 2, 3 }, 1e-3 * step) * turn, place), poseB = carried(walk.next(), about({ 1, 2, 3 }, 1e-3 * step) * turn, place);
+		const Pose poseA = carried({}, about({ 1, 2, 3 }, 1e-3 * step) * turn, place),
+		           poseB = carried(walk.next(), about({ 1, 2, 3 }, 1e-3 * step) * turn, place);
 		updateManifold(a, b, poseA, poseB, patterns, cache, points);
 		EXPECT_TRUE(identical(points, contacts(a, b, poseA, poseB, patterns))) << "seed " << seed << " step " << step;
 		inContact += !points.empty();
@@ -64,7 +65,8 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 }
 
 /// Points after a motion within the margin, from the candidates before it; compared with those from an empty cache.
-std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before, const Pose& after, const Patterns& patterns = {})
+std::vector<ContactPoint> afterMove(
+        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before, const Pose& after, const Patterns& patterns = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
@@ -83,7 +85,8 @@ TEST(CandidateCache, SimilarBodies)
 {
 	int inContact = 0;
 	for (unsigned seed = 0; seed < 20; ++seed)
-		inContact += follow(roundedBox({ 1, 0.5, 0.3 }), rounded(hexagonalPrismVertices(0.2, 0.9), 0.02), 1, 0.5, { seed % 2 == 0, seed % 3 == 0 }, seed, 300);
+		inContact += follow(
+		        roundedBox({ 1, 0.5, 0.3 }), rounded(hexagonalPrismVertices(0.2, 0.9), 0.02), 1, 0.5, { seed % 2 == 0, seed % 3 == 0 }, seed, 300);
 	EXPECT_GT(inContact, 600);
 }
 
@@ -217,7 +220,8 @@ TEST(CandidateCache, PairsAfterRest)
 			poseB.position += displacement * randomDirection(random);
 			poseB.orientation = (about(randomDirection(random), displacement) * poseB.orientation).normalized();
 			updateManifold(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }, cache, points);
-			ASSERT_TRUE(identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }))) << "seed " << seed << " step " << step;
+			ASSERT_TRUE(identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 })))
+			        << "seed " << seed << " step " << step;
 			inContact += !points.empty();
 			if (cache.skin == candidateSkin) most = std::max(most, cache.candidates.size());
 			else ++atRest, fewer += cache.candidates.size() < most;

@@ -151,7 +151,8 @@ TEST(DeepOverlap, CrossedBeams)
 TEST(DeepOverlap, RandomPairsArePushedApart)
 {
 	Random random(31);
-	const std::vector<RoundedPolyhedron> bodies { roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 0.1, 0.1 }), roundedBox({ 0.6, 0.5, 0.05 }), rounded(hexagonalPrismVertices(0.2, 0.5), 0.02), rounded(octahedronVertices(0.5)) };
+	const std::vector<RoundedPolyhedron> bodies { roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 0.1, 0.1 }), roundedBox({ 0.6, 0.5, 0.05 }),
+		rounded(hexagonalPrismVertices(0.2, 0.5), 0.02), rounded(octahedronVertices(0.5)) };
 	int deep = 0, stuck = 0;
 	for (int trial = 0; trial < 400; ++trial) {
 		const auto &a = bodies[trial % 5], &b = bodies[trial / 5 % 5];

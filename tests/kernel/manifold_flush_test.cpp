@@ -17,7 +17,10 @@ struct FlushColumn {
 	Pose onBeam(double alongY = 0) const { return { { 0.2, alongY, 0.06 + 1.365 - press }, Quat::Identity() }; }
 };
 
-Pose noisy(const Pose& pose, Random& random, double size) { return { pose.position + randomVector(random, size), about(randomDirection(random), size) * pose.orientation }; }
+Pose noisy(const Pose& pose, Random& random, double size)
+{
+	return { pose.position + randomVector(random, size), about(randomDirection(random), size) * pose.orientation };
+}
 
 } // namespace
 

@@ -25,7 +25,8 @@ void expectPositions(const std::vector<ContactPoint>& points, const std::vector<
 {
 	EXPECT_EQ(points.size(), positions.size());
 	for (const Vec3& position : positions)
-		EXPECT_EQ(std::count_if(points.begin(), points.end(), [&](const ContactPoint& p) { return (p.position - position).norm() < tolerance; }), 1) << position.transpose();
+		EXPECT_EQ(std::count_if(points.begin(), points.end(), [&](const ContactPoint& p) { return (p.position - position).norm() < tolerance; }), 1)
+		        << position.transpose();
 }
 
 std::vector<Vec3> rectangle(double x, double y, double z) { return { { x, y, z }, { -x, y, z }, { x, -y, z }, { -x, -y, z } }; }
@@ -309,9 +310,13 @@ TEST(Symmetry, SwappedBodies)
 		ASSERT_EQ(points.size(), swapped.size());
 		touching += !points.empty();
 		for (const auto& p : points)
-			EXPECT_EQ(std::count_if(swapped.begin(), swapped.end(), [&](const ContactPoint& q) { // nearly parallel edges: rounding / parallelSine
-				return (p.position - q.position).norm() < 1e-10 && (p.normal + q.normal).norm() < 1e-10 && std::abs(p.overlap - q.overlap) < 1e-10;
-			}), 1) << trial;
+			EXPECT_EQ(std::count_if(swapped.begin(), swapped.end(),
+			                  [&](const ContactPoint& q) { // nearly parallel edges: rounding / parallelSine
+				                  return (p.position - q.position).norm() < 1e-10 && (p.normal + q.normal).norm() < 1e-10
+				                          && std::abs(p.overlap - q.overlap) < 1e-10;
+			                  }),
+			        1)
+			        << trial;
 	}
 	EXPECT_GT(touching, 500);
 }

@@ -34,7 +34,8 @@ void expectRefusal(const std::vector<Vec3>& points, const std::string& part)
 
 TEST(HalfSpaces, RoundTrip)
 {
-	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 2) }) {
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(),
+	             brace.vertices(), pyramidVertices(1, 2) }) {
 		const Polyhedron body = Polyhedron::fromVertices(points), again = Polyhedron::fromHalfSpaces(planesOf(body));
 		expectCounts(again, body.vertices.size(), body.edges.size(), body.faces.size());
 		EXPECT_NEAR(massProperties(again).volume, massProperties(body).volume, 1e-12 * massProperties(body).volume); // three-plane solves
@@ -95,12 +96,14 @@ TEST(HalfSpaces, OpenPrismAndHalfSpaceAreUnbounded)
 
 TEST(Core, PlanesMoveByTheRadius)
 {
-	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 1) }) {
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(),
+	             brace.vertices(), pyramidVertices(1, 1) }) {
 		const RoundedPolyhedron body = rounded(points, 0.004);
 		expectCounts(body.core, body.sharp.vertices.size(), body.sharp.edges.size(), body.sharp.faces.size());
 		for (const Face& inner : body.core.faces) {
 			const auto& faces = body.sharp.faces;
-			const auto outer = std::max_element(faces.begin(), faces.end(), [&](const Face& p, const Face& q) { return p.plane.normal.dot(inner.plane.normal) < q.plane.normal.dot(inner.plane.normal); });
+			const auto outer = std::max_element(faces.begin(), faces.end(),
+			        [&](const Face& p, const Face& q) { return p.plane.normal.dot(inner.plane.normal) < q.plane.normal.dot(inner.plane.normal); });
 			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004, 1e-12); // three-plane solves, metre-sized
 			EXPECT_NEAR(outer->plane.normal.dot(inner.plane.normal), 1, rounding);
 		}
@@ -165,7 +168,8 @@ TEST(Core, WarpedFaces)
 			const RoundedPolyhedron body = rounded(typed, 0.004), wanted = rounded(exact, 0.004);
 			expectSound(body.core, 1e-3); // warpShare
 			EXPECT_GT(body.core.shortestEdge(), 2e-4); // twice flushTolerance
-			EXPECT_NEAR(massProperties(body.sharp).volume, massProperties(wanted.sharp).volume, 0.06 * grid / 1e-3 * massProperties(wanted.sharp).volume); // 1 mm of 45 mm, both sides
+			EXPECT_NEAR(massProperties(body.sharp).volume, massProperties(wanted.sharp).volume,
+			        0.06 * grid / 1e-3 * massProperties(wanted.sharp).volume); // 1 mm of 45 mm, both sides
 		}
 }
 

@@ -42,7 +42,8 @@ TEST(Topology, FacesTurnCounterClockwiseAndSidePlanesPointOut)
 	for (const Face& face : body.faces)
 		for (size_t k = 0; k < face.corners.size(); ++k) {
 			const size_t n = face.corners.size();
-			const Vec3 &p = body.vertices[face.corners[k]], &q = body.vertices[face.corners[(k + 1) % n]], &r = body.vertices[face.corners[(k + 2) % n]];
+			const Vec3 &p = body.vertices[face.corners[k]], &q = body.vertices[face.corners[(k + 1) % n]],
+			           &r = body.vertices[face.corners[(k + 2) % n]];
 			EXPECT_GT((q - p).cross(r - q).dot(face.plane.normal), 0);
 			EXPECT_LT(face.sidePlanes[k].normal.dot(r - q), 0);
 			EXPECT_NEAR(face.sidePlanes[k].normal.dot(q - p), 0, rounding * 10); // a few m long

@@ -27,7 +27,10 @@ const Vec3 none = Vec3::Zero();
 	std::vector<PointRecord> records;
 	elasticPair(law, { pair, { none, none, none }, { none, none, none }, h }, points, records);
 }
-[[maybe_unused]] ContactPoint pointOf(int vertex, const Vec3& normal = Vec3::UnitZ(), double overlap = 1e-3) { return { { FeatureKind::VertexFace, vertex, 0 }, none, normal, overlap }; }
+[[maybe_unused]] ContactPoint pointOf(int vertex, const Vec3& normal = Vec3::UnitZ(), double overlap = 1e-3)
+{
+	return { { FeatureKind::VertexFace, vertex, 0 }, none, normal, overlap };
+}
 
 [[maybe_unused]] void solve(HeapPoint point, double h = 1e-4, double tolerance = 0)
 {

@@ -29,7 +29,8 @@ std::vector<RoundedPolyhedron> randomBodies(Random& random, int wanted, int& ref
 			const bool box = kind == 2;
 			auto points = box ? boxVertices(axes * size) : ellipsoidPoints(random, 4 + int(uniform(random, 0, 9)), axes * size);
 			const Quat turn = randomRotation(random);
-			const Polyhedron sharp = Polyhedron::fromVertices(moved(points, turn, -(turn * massProperties(Polyhedron::fromVertices(points)).centroid)));
+			const Polyhedron sharp
+			        = Polyhedron::fromVertices(moved(points, turn, -(turn * massProperties(Polyhedron::fromVertices(points)).centroid)));
 			bodies.push_back(RoundedPolyhedron::fromSharp(sharp, uniform(random, 0.02, 0.2) * std::min(sharp.shortestEdge(), sharp.thickness())));
 		} catch (const PolyhedronError&) {
 			++refused;
@@ -45,7 +46,8 @@ double depthOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pos
 	return std::max(0., -coreGap(a.core, b.core, rotation, poseA.orientation.conjugate() * (poseB.position - poseA.position), axis));
 }
 
-void expectSound(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, double depth, const std::vector<ContactPoint>& points)
+void expectSound(
+        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, double depth, const std::vector<ContactPoint>& points)
 {
 	const double touch = a.radius + b.radius;
 	const double limit = touch + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0., 1e-4 }); // 1e-4: flushTolerance
@@ -74,7 +76,8 @@ TEST(RandomPairs, TwentyThousand)
 		const Vec3 far = trial % 4 == 0 ? Vec3(1000 * randomDirection(random)) : Vec3(Vec3::Zero());
 		const Pose poseA { far, randomRotation(random) };
 		const Vec3& vertex = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
-		const Pose poseB { far + poseA.orientation * vertex + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random), randomRotation(random) };
+		const Pose poseB { far + poseA.orientation * vertex + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random),
+			randomRotation(random) };
 		const auto points = contacts(a, b, poseA, poseB, { trial % 2 == 0, trial % 3 != 0 });
 		const double depth = depthOf(a, b, poseA, poseB);
 		expectSound(a, b, poseA, poseB, depth, points);

@@ -87,7 +87,8 @@ struct Brace {
 	{
 		std::vector<Vec3> points;
 		for (const double y : { -depth / 2, depth / 2 })
-			for (const Vec3& p : { Vec3(0, y, 0), Vec3(cutX(), y, 0), Vec3(run, y, rise - cutZ()), Vec3(run, y, rise), Vec3(run - cutX(), y, rise), Vec3(0, y, cutZ()) })
+			for (const Vec3& p : { Vec3(0, y, 0), Vec3(cutX(), y, 0), Vec3(run, y, rise - cutZ()), Vec3(run, y, rise), Vec3(run - cutX(), y, rise),
+			             Vec3(0, y, cutZ()) })
 				points.push_back(p);
 		return points;
 	}
@@ -102,7 +103,8 @@ struct HipSlab {
 		const double w = eave / 2;
 		std::vector<Vec3> points;
 		for (const double z : { -thickness / 2, thickness / 2 })
-			for (const auto& p : { Eigen::Vector2d(cut - w, 0), Eigen::Vector2d(w - cut, 0), Eigen::Vector2d(w - cut, cut), Eigen::Vector2d(cut, w - cut), Eigen::Vector2d(-cut, w - cut), Eigen::Vector2d(cut - w, cut) })
+			for (const auto& p : { Eigen::Vector2d(cut - w, 0), Eigen::Vector2d(w - cut, 0), Eigen::Vector2d(w - cut, cut),
+			             Eigen::Vector2d(cut, w - cut), Eigen::Vector2d(-cut, w - cut), Eigen::Vector2d(cut - w, cut) })
 				points.emplace_back(p.x(), p.y(), z + slope * p.y());
 		return points;
 	}
@@ -131,14 +133,21 @@ inline std::vector<Vec3> moved(std::vector<Vec3> points, const Quat& rotation, c
 	return points;
 }
 
-inline RoundedPolyhedron rounded(const std::vector<Vec3>& points, double radius = 0) { return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), radius); }
+inline RoundedPolyhedron rounded(const std::vector<Vec3>& points, double radius = 0)
+{
+	return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), radius);
+}
 inline RoundedPolyhedron roundedBox(const Vec3& extents, double radius = 0) { return rounded(boxVertices(extents), radius); }
 
 /// The pose after a rotation and translation of the whole scene.
-inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translation) { return { rotation * pose.position + translation, rotation * pose.orientation }; }
+inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translation)
+{
+	return { rotation * pose.position + translation, rotation * pose.orientation };
+}
 
 /// Contact points from an empty cache.
-inline std::vector<ContactPoint> contacts(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns = {})
+inline std::vector<ContactPoint> contacts(
+        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;

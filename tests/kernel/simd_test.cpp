@@ -32,7 +32,8 @@ struct MovingPair {
 		for (SolverBody& b : bodies)
 			b.position = randomVector(random, 1);
 		for (size_t k = 0; k < count; ++k) {
-			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1), randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
+			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1), randomDirection(random),
+			        std::pow(10, uniform(random, -9, -2)) });
 			PointRecord s;
 			s.id = points[k].id;
 			s.excess = k % 3 == 0 ? uniform(random, 0, 1e-3) : 0;
@@ -83,9 +84,13 @@ TEST(LanesOfAPair, ElasticForcesAreThoseOfEachPoint)
 				elasticPair(pair.law, pair.step(form), alone.points, alone.records);
 				expectSame(alone.records[0], pair.records[k]);
 				const Vec3 armA = pair.points[k].position - pair.bodies[0].position, armB = pair.points[k].position - pair.bodies[1].position;
-				const auto velocity = [&](const SolverBody& b, const Vec3& arm) { return Vec3(b.velocity + b.spin.cross(arm - pair.h / 2 * b.spin.cross(arm))); };
-				const RelativeMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA), (pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
-				static_cast<ShearIncrement<double>&>(each[k]) = elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
+				const auto velocity = [&](const SolverBody& b, const Vec3& arm) {
+					return Vec3(b.velocity + b.spin.cross(arm - pair.h / 2 * b.spin.cross(arm)));
+				};
+				const RelativeMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA),
+					(pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
+				static_cast<ShearIncrement<double>&>(each[k])
+				        = elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
 				expectSame(each[k], pair.records[k]);
 			}
 		}
@@ -106,10 +111,12 @@ TEST(LanesOfAPair, ConstraintsAreThoseOfEachPoint)
 			for (size_t k = 0; k < p.points.size(); ++k) {
 				const PointRecord& s = p.records[k];
 				const double damping = 2 * std::sqrt(properties.mass * s.stiffness);
-				const Vec3 armA = p.points[k].position - p.bodies[0].position, armB = p.points[k].position - p.bodies[1].position, normal = p.points[k].normal;
+				const Vec3 armA = p.points[k].position - p.bodies[0].position, armB = p.points[k].position - p.bodies[1].position,
+				           normal = p.points[k].normal;
 				const PointResponse r = responseAt(p.bodies[0], p.bodies[1], armA, armB, normal);
-				const ContactInput<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio), properties.friction,
-					p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness, properties.shearRatio * s.stiffness };
+				const ContactInput<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio),
+					properties.friction, p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness,
+					properties.shearRatio * s.stiffness };
 				each.prepare<double>(0, k, p.bodies, one, p.h);
 				const ContactSolver::Constraint x = together.constraint(0, k), y = each.constraint(0, k);
 				using C = ContactSolver::Constraint;
@@ -139,14 +146,17 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		for (size_t k = 0; k < p.points.size(); ++k) {
 			const ContactSolver::Constraint c = solver.constraint(0, k);
 			const PointRecord& s = p.records[k];
-			const Vec3 f = c.impulse / p.h, after = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
+			const Vec3 f = c.impulse / p.h,
+			           after = relativeVelocity<double>(
+			                   c.armA, c.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
 			sum += f;
 			torqueA -= c.armA.cross(f);
 			torqueB += c.armB.cross(f);
 			EXPECT_LE(s.shear.norm(), properties.friction * f.dot(c.normal) * (1 + rounding));
 			EXPECT_EQ(s.dashpot, Vec3(f - s.normal * c.normal - s.shear));
 			EXPECT_EQ(s.closing, -after.dot(c.normal) * p.h);
-			const Vec3 before = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
+			const Vec3 before
+			        = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
 			const Vec3 mean = (before + after) / 2, along = s.dashpot.dot(c.normal) * c.normal;
 			const double shearEnergy = s.stiffness > 0 ? s.shear.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;
 			wanted.dashpotNormal -= p.h * along.dot(mean);
@@ -159,8 +169,10 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		EXPECT_EQ(force.onB, sum);
 		EXPECT_EQ(force.torqueA, torqueA);
 		EXPECT_EQ(force.torqueB, torqueB);
-		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear, &PairEnergies::friction, &PairEnergies::elasticNormal, &PairEnergies::elasticShear, &PairEnergies::elasticPower })
-			EXPECT_NEAR(found.*member, wanted.*member, 1e-12 * (std::abs(found.elasticPower) + found.elasticNormal + std::abs(found.*member))); // other orders of some products
+		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear, &PairEnergies::friction, &PairEnergies::elasticNormal,
+		             &PairEnergies::elasticShear, &PairEnergies::elasticPower })
+			EXPECT_NEAR(found.*member, wanted.*member,
+			        1e-12 * (std::abs(found.elasticPower) + found.elasticNormal + std::abs(found.*member))); // other orders of some products
 	}
 }
 
@@ -258,7 +270,8 @@ TEST(LanesOfBodies, FreeRotationIsThatOfEachBody)
 		}
 		const double h = 1e-3;
 		QuatOf<Lanes> turned(Group<Lanes, const Eigen::Vector4d>(orientations.data(), laneCount).vectors());
-		const Vec3s spin = freeRotation<Lanes>(turned, Group<Lanes, const Vec3>(momenta.data(), laneCount).vectors(), Group<Lanes, const Vec3>(inertias.data(), laneCount).vectors(), h);
+		const Vec3s spin = freeRotation<Lanes>(turned, Group<Lanes, const Vec3>(momenta.data(), laneCount).vectors(),
+		        Group<Lanes, const Vec3>(inertias.data(), laneCount).vectors(), h);
 		for (int i = 0; i < laneCount; ++i) {
 			Quat one(orientations[i]);
 			EXPECT_EQ(lane(spin, i), freeRotation<double>(one, momenta[i], inertias[i], h)) << trial;
@@ -281,7 +294,8 @@ TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 		const Group<Lanes, const Vec3> all(points.data(), points.size());
 		const double limit = uniform(random, -0.05, 0.05);
 		for (int f = 0; f < int(wedge.faces.size()); ++f) {
-			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], all.vectors(), Lanes(limit)), inside = isInsideOtherFaces(wedge, f, all.vectors(), Lanes(limit));
+			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], all.vectors(), Lanes(limit)),
+			                  inside = isInsideOtherFaces(wedge, f, all.vectors(), Lanes(limit));
 			for (int i = 0; i < laneCount; ++i) {
 				EXPECT_EQ(over[i] != 0, projectsOntoFace<double>(wedge.faces[f], points[i], limit));
 				EXPECT_EQ(inside[i] != 0, isInsideOtherFaces<double>(wedge, f, points[i], limit));
