@@ -21,7 +21,8 @@ def positive(text):
 def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("run", type=path, metavar="folder", help="folder of a run's results, or its frames.h5")
-    parser.add_argument("--every", type=positive, default=1, metavar="N", help=f"export every N-th of the {frames.FRAMES_PER_SECOND} frames per second (default 1)")
+    parser.add_argument("--every", type=positive, default=1, metavar="N",
+                        help=f"export every N-th of the {frames.FRAMES_PER_SECOND} frames per second (default 1)")
     parser.add_argument("--out", type=path, help="folder to write to (default: the folder vtk beside the frames)")
     return parser.parse_args()
 

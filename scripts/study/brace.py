@@ -36,7 +36,8 @@ def arguments():
 
 def rows(options, bays):
     """Rows of the batch, for each motion: the unchanged house, out of plumb to four sides, and with each brace."""
-    variants = [(UNCHANGED, "*", "*"), *((f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in SIDES), *((bay, bay, "*") for bay in bays)]
+    out_of_plumb = [(f"plumb_{side}", "*", f"plumb.drift=1e-4;plumb.towards={side}") for side in SIDES]
+    variants = [(UNCHANGED, "*", "*"), *out_of_plumb, *((bay, bay, "*") for bay in bays)]
     same = {"house": options.house, "scale": f"{options.scale:g}", "snow": f"{options.snow:g}"}
     return [
         {**same, "seed": seed, "description": f"{name}_{seed}", "braces": brace, "set": changes}

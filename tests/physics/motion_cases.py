@@ -54,6 +54,7 @@ class Jacobi:
         first = np.ceil(self.start / half)
         return (np.arange(first, first + count) * half - self.start) / self.rate
 
+
 FLIPS = 3
 JACOBI = Jacobi(MOMENTS, START)
 

@@ -194,6 +194,7 @@ def test_a_variant_is_built(tmp_path):
     counts = build_house(load_house(write_house(variant, "modelB1_quake", tmp_path))).counts()
     assert counts["braces"] == 16 and counts["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
 
+
 def fake_script(folder, body):
     """A folder of scripts with run.py, called like a run script."""
     (folder / "run.py").write_text(body)

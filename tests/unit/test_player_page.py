@@ -336,7 +336,6 @@ def test_a_scroll_that_begins_on_a_curve_keeps_the_time(driver, pages):
     driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
 
 
-
 HOSTILE = ["<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>", "'\"><svg/onload=document.title='RUN'>", "$\\frac{$", "__proto__"]
 
 

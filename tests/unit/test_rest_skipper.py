@@ -18,7 +18,7 @@ def block_on_plate(skip_rest, amplitude=3.0):
     time = np.arange(0, 6.5, 0.01)
     shaking = np.where(time > PULSE, amplitude * np.sin(2 * np.pi * (time - PULSE)), 0) * (time < PULSE + 0.5)
     motion = GroundMotion(0.01, np.column_stack([shaking, 0 * time, 0 * time]), "pulse")
-    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), material=yt.timber(friction=0.2), fixed=True))
+    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), material=yt.timber(friction=0.2), fixed=True))
     block = O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0.1), material=yt.timber(friction=0.2)))
     O.engines = yt.engines(ground_motion=motion, skip_rest=skip_rest)
     O.dt = 2e-4

@@ -70,7 +70,7 @@ def test_snow_put_on_later():
 
 def test_fixed_body_released():
     O.reset()
-    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+    O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
     block = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.11), fixed=True))
     O.dt, O.engines = 1e-4, yt.engines()
     O.run(100, True)

@@ -51,7 +51,8 @@ def near_pairs(elements, margin):
 
 def _rules(rules):
     """{(kind a, kind b, across): rule}; a is the column or brace of the two, or else the first kind of the rule."""
-    return {(*sorted((a, b), key=lambda kind: kind not in UPRIGHT), rule["across"]): rule for rule in rules for a in rule["between"][0] for b in rule["between"][1]}
+    pairs = ((a, b, rule) for rule in rules for a in rule["between"][0] for b in rule["between"][1])
+    return {(*sorted((a, b), key=lambda kind: kind not in UPRIGHT), rule["across"]): rule for a, b, rule in pairs}
 
 
 def _joint(a, b, rule, contact, data):

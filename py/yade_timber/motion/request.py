@@ -36,7 +36,8 @@ class MotionRequest:
     units: str = _option(str, "UNIT", "unit of the record where it states none: gal, m/s2 or g")
     shortest: bool = _option(bool, None, "cut components of different length at the shortest one instead of refusing them")
     azimuth: float = _option(
-        float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y; with 90 the north component acts along +x (default 0)", -360, 360
+        float, "DEG", "direction of the record's north in the house's axes [degrees], clockwise from +y; "
+        "with 90 the north component acts along +x (default 0)", -360, 360
     )
     start: float = _option(float, "S", "remove the record before this time [s]", 0, 1e5)
     end: float = _option(float, "S", "remove the record after this time [s]", 0, 1e5)

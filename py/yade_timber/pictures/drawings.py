@@ -95,7 +95,8 @@ def draw_elevation(ax, view, solids, model, dpi):
     draw_view(ax, window, Snapshot(solids), front_of(solids, view))
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
-    heights = sorted({0.0, *(z for levels in model.storey_levels.values() for pair in levels.values() for z in pair), max(e.vertices[:, 2].max() for e in model.elements)})
+    levels = (z for storeys in model.storey_levels.values() for pair in storeys.values() for z in pair)
+    heights = sorted({0.0, *levels, max(e.vertices[:, 2].max() for e in model.elements)})
     draw_heights(ax, heights, (box[3] - box[2]) / (ax.get_position().height * HEIGHT))
     frame_damage(ax, [(np.dot(j.centre, view.right), j.centre[2]) for j in model.joints if j.broken])
 
@@ -173,10 +174,13 @@ def legend(figure, solids, model):
     sections = sorted({max(e.section) for e in model.of_kind("column")}, reverse=True)
     entries = kind_entries(solids)
     for size in sections:
-        entries.append(Line2D([], [], linestyle="none", marker="s", markersize=6, markerfacecolor="black" if size >= THICK else "white", markeredgecolor="black",
+        entries.append(Line2D([], [], linestyle="none", marker="s", markersize=6,
+                              markerfacecolor="black" if size >= THICK else "white", markeredgecolor="black",
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
         entries.append(Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE, label="brace (plan; thin end: foot)"))
     if any(j.broken for j in model.joints):
-        entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black", label="joint broken before the start"))
-    figure.legend(handles=entries, loc="lower center", ncols=-(-len(entries) // 2) if len(entries) > 8 else len(entries), frameon=False, fontsize=8, handletextpad=0.5, columnspacing=1.4)
+        entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black",
+                              label="joint broken before the start"))
+    columns = -(-len(entries) // 2) if len(entries) > 8 else len(entries)
+    figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=8, handletextpad=0.5, columnspacing=1.4)

@@ -9,7 +9,9 @@ from contextlib import contextmanager
 
 import yade.wrapper as yw
 
-BODY_METHODS = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember")
+BODY_METHODS = (
+    "append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember",
+)
 INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
 BODY_PARTS = ("shape", "material", "state")
 

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 
 import yade.wrapper as yw
-from yade.minieigenHP import Vector3
 
 from ..base.colors import KINDS
 from ..base.time_step import DEFAULT_DT, MAX_DT, MIN_DT  # noqa: F401  (benchmarks and tests take the limits from here)

@@ -106,7 +106,8 @@ def damage_text(run):
 
 def run_text(run):
     """All quantities of a run that claims compare."""
-    return f"{run['model']}{' + snow' if run['snow'] else ''}: {outcome_text(run)}, {sway_text(run)}, leans {lean_text(run)}, {damage_text(run)}, {lost_columns(run)} columns lost"
+    house = f"{run['model']}{' + snow' if run['snow'] else ''}"
+    return f"{house}: {outcome_text(run)}, {sway_text(run)}, leans {lean_text(run)}, {damage_text(run)}, {lost_columns(run)} columns lost"
 
 
 def runs_text(*runs):
@@ -136,7 +137,8 @@ def tilts_and_collapses_under_snow(a):
     if not a["collapsed"] or a["leans_from_s"] is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
     holds = within(a["leans_from_s"], (0.0, SNOW_TILT_BY)) and within(a["collapse_time_s"], SNOW_COLLAPSE)
-    return holds, f"leans {direction_name(a['tilt_direction'])} from {a['leans_from_s']:.1f} s, exceeds 1/10 at {a['tilt_time_s']:.1f} s, collapsed {a['collapse_time_s']:.1f} s"
+    lean = f"leans {direction_name(a['tilt_direction'])} from {a['leans_from_s']:.1f} s"
+    return holds, f"{lean}, exceeds 1/10 at {a['tilt_time_s']:.1f} s, collapsed {a['collapse_time_s']:.1f} s"
 
 
 def stands_still(run):
@@ -194,14 +196,18 @@ CLAIMS = {  # name -> (claim, check, runs that the check takes)
     "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow, ("modelA_snow",)),
     "S2": ("B, snow: stands still", stands_still, ("modelB_snow",)),
     "S3": ("C, snow: stands still", stands_still, ("modelC_snow",)),
-    "D1": ("B1, earthquake: sways greatly E-W; on the first floor's west side column-beam joints break, brace-beam joints do not; no collapse", east_side_broken, ("modelB1_quake",)),
+    "D1": ("B1, earthquake: sways greatly E-W; on the first floor's west side column-beam joints break, brace-beam joints do not; no collapse",
+           east_side_broken, ("modelB1_quake",)),
     "D2": ("B2, earthquake: sways N-S; more damage N-S and less E-W than B1", south_side_broken, ("modelB2_quake", "modelB1_quake")),
     "D3": ("C1, earthquake: sways E-W, deforms less than B1", sways_less, ("modelC1_quake", "modelB1_quake")),
     "D4": ("C2, earthquake: very stable in both directions", very_stable, ("modelC2_quake",)),
-    "Q1": ("B1, earthquake and snow: no collapse, but more columns fall, leans more, more damage than without snow", snow_increases_damage, ("modelB1_snow", "modelB1_quake")),
+    "Q1": ("B1, earthquake and snow: no collapse, but more columns fall, leans more, more damage than without snow",
+           snow_increases_damage, ("modelB1_snow", "modelB1_quake")),
     "Q2": ("B2, earthquake and snow: more damage than without snow", more_damage, ("modelB2_snow", "modelB2_quake")),
-    "Q3": ("C1, earthquake and snow: more damage than without snow, less than B1 with snow", more_damage_but_less_than, ("modelC1_snow", "modelC1_quake", "modelB1_snow")),
-    "Q4": ("C2, earthquake and snow: second storey leans more than without snow; less damage than B2 with snow", second_storey_leans, ("modelC2_snow", "modelC2_quake", "modelB2_snow")),
+    "Q3": ("C1, earthquake and snow: more damage than without snow, less than B1 with snow",
+           more_damage_but_less_than, ("modelC1_snow", "modelC1_quake", "modelB1_snow")),
+    "Q4": ("C2, earthquake and snow: second storey leans more than without snow; less damage than B2 with snow",
+           second_storey_leans, ("modelC2_snow", "modelC2_quake", "modelB2_snow")),
 }
 RUNS = tuple(dict.fromkeys(run for _, _, runs in CLAIMS.values() for run in runs))
 """The paper's fourteen runs, in the order in which the claims first need them."""

@@ -42,7 +42,8 @@ def comparison(descriptions, results):
     rows = [(case, descriptions[case], sum(r.holds is True for r in found), *(signs[r.holds] for r in found)) for case, found in results.items()]
     known = [[r.holds for r in same if r.holds is not None] for same in zip(*(found for case, found in results.items() if case != MEDIAN))]
     rows.append(("all", "cases in which the claim holds, of those run", "", *(f"{sum(holds)}/{len(holds)}" for holds in known)))
-    return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *report.markdown_table(("case", "description", "claims that hold", *names), rows)]) + "\n"
+    table = report.markdown_table(("case", "description", "claims that hold", *names), rows)
+    return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *table]) + "\n"
 
 
 def median_runs(cases):

@@ -66,7 +66,8 @@ def friction(timber=None, snow=None):
     """Friction coefficients timber-timber and snow-roof; None: as shipped."""
     now = {tuple(entry["between"]): entry["coefficient"] for entry in shipped()["friction"]}
     timber, snow = timber or now["timber", "timber"], snow or now["snow", "snow"]
-    pairs = {("timber", "timber"): timber, ("roofing", "timber"): min(timber, snow), ("roofing", "roofing"): snow, ("snow", "roofing"): snow, ("snow", "snow"): snow}
+    pairs = {("timber", "timber"): timber, ("roofing", "timber"): min(timber, snow), ("roofing", "roofing"): snow,
+             ("snow", "roofing"): snow, ("snow", "snow"): snow}
     return {"friction": [{"between": list(pair), "coefficient": value} for pair, value in pairs.items()]}
 
 

@@ -125,7 +125,8 @@ def read_table(path):
     rows, above = [], {}
     for number, cells in body:
         if len(cells) != len(heads):
-            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; values contain no blanks, in CSV files no commas outside quotes")
+            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; "
+                             "values contain no blanks, in CSV files no commas outside quotes")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in zip(heads, cells)}
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
