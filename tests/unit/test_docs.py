@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands in README.md and docs/ run, links resolve, pages keep their limits of length.
+"""Commands in README.md and docs/ run, links resolve, pages keep their limits of length, each key of summary.json is defined.
 
 A fenced block of language `sh` is a list of commands; each must exit with status 0. A comment above the block changes this:
 `<!-- test: --duration 0.02 -->` adds these options to each command, `<!-- test: fails -->` requires status 1,
@@ -8,12 +8,14 @@ A fenced block of language `sh` is a list of commands; each must exit with statu
 file, `<!-- test: printed -->` requires each of its lines in the output of the last commands.
 The blocks of a page run in order, in a temporary folder that links to the repository's files.
 """
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 import pytest
@@ -24,7 +26,7 @@ LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROSE = [page for page in LINKED if page.parent.name not in ("accuracy", "performance")] + [ROOT / "CHANGELOG.md"]  # the others are written by scripts
 LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-SOURCE = re.compile(r"`((?:\w+/)+[\w.*]+\.(?:[ch]pp|py|yaml|\*))(?:: (\w+))?`")
+SOURCE = re.compile(r"`((?:\w+/)*[\w.*]+\.(?:[ch]pp|py|yaml|\*))(?:: (\w+))?`")
 SOURCE_ROOTS = (".", "pkg", "py/yade_timber")
 BLOCK = re.compile(r"(?:^<!-- (?P<note>[^\n]*) -->\n+)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 WHOLE_REPOSITORY = ("scripts/setup", "ctest --preset default")  # .ci/run executes lines that begin so, on a fresh clone
@@ -157,7 +159,11 @@ def unknown_sources(text):
 
 def test_named_sources_exist():
     assert unknown_sources((ROOT / "CONTRIBUTING.md").read_text()) == []
-    assert unknown_sources("`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `kernel/joint_law.*`") == ["house/joints.py: no_function", "house/no.py"]
+    assert unknown_sources("`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `No.cpp` `kernel/joint_law.*`") == [
+        "house/joints.py: no_function",
+        "house/no.py",
+        "No.cpp",
+    ]
 
 
 @pytest.mark.parametrize("page", LINKED, ids=lambda page: str(page.relative_to(ROOT)))
@@ -182,6 +188,43 @@ def test_links_and_sentences_are_found():
     words = "word " * 41
     assert all(longest_sentence(text).split() == words.split() for text in (words, f"Short. {words}", f"- {words}", f"1. Short.\n   {words}"))
     assert longest_sentence(f"```\n{words}\n```\n# {words}\n| {words} |\n\n    {words}\n").strip() == ""
+
+
+# --- keys of summary.json ---------------------------------------------------------------------------------------------
+
+
+def defined_keys(text):
+    """Keys in the first column of the table of results.md that lists all keys; `*` stands for any name."""
+    table = text[text.index("## All keys of `summary.json`"):]
+    return [key for row in re.findall(r"^\| (`[^|]*`) \|", table, re.M) for key in re.findall(r"`([^`]+)`", row)]
+
+
+def leaves(value, path=""):
+    """Paths of all entries of nested dictionaries that are no dictionaries themselves: 'energy.dissipated.friction'."""
+    if not isinstance(value, dict):
+        return [path]
+    return [leaf for key, entry in value.items() for leaf in leaves(entry, f"{path}.{key}".lstrip("."))]
+
+
+def differences(defined, found):
+    """(keys of a summary without a definition, definitions without a key). A key without parts, as `record`, may be defined beside its parts."""
+    undefined = [key for key in found if not any(fnmatchcase(key, pattern) for pattern in defined)]
+    unused = [pattern for pattern in defined if not any(fnmatchcase(key, pattern) or key.startswith(pattern + ".") for key in found)]
+    return undefined, unused
+
+
+def test_keys_of_the_summary_are_defined(tmp_path):
+    done = run(f"yade -n -x {ROOT}/scripts/modelB1_snow.py --duration 0.01 --no-frames --quiet --out out", tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    found = leaves(json.loads((tmp_path / "out" / "summary.json").read_text()))
+    assert differences(defined_keys((ROOT / "docs" / "results.md").read_text()), found) == ([], [])
+
+
+def test_missing_and_superfluous_keys_are_found():
+    text = "| `before` | x |\n## All keys of `summary.json`\n| `a`, `b.*` | x |\n| `c` | of `d` |\n"
+    assert defined_keys(text) == ["a", "b.*", "c"]
+    assert leaves({"a": {}, "b": {"x": {"y": 1}}, "d": None}) == ["b.x.y", "d"]
+    assert differences(["a", "b.*", "c"], ["a", "b.x.y", "d"]) == (["d"], ["c"])
 
 
 # --- the mechanism itself ---------------------------------------------------------------------------------------------
