@@ -364,9 +364,9 @@ def test_live_session(tmp_path):
     try:
         while "<modelA_snow" not in said:  # the prompt is back
             said += os.read(ours, 1 << 20).decode(errors="replace")
-        assert lock.held(tmp_path) or (tmp_path / "summary.json").exists()
+        assert lock.is_locked(tmp_path) or (tmp_path / "summary.json").exists()
         wait_for(lambda: (tmp_path / "summary.json").exists(), session)
-        wait_for(lambda: not lock.held(tmp_path), session)
+        wait_for(lambda: not lock.is_locked(tmp_path), session)
     finally:
         session.kill()
         session.wait()

@@ -45,7 +45,7 @@ class EventLog:
             if name != self.survey.structures[0]:
                 self.add(time, "structure_fallen", f"{name} has fallen: a level is down by half a storey")
         for roof in self.survey.fallen_snow(state):
-            self.add(time, "snow_fallen", f"snow has fallen from {roof}")
+            self.add(time, "snow_fallen", f"snow has fallen from {self._roof_name(roof)}")
         self._observe_columns(time, state)
 
     def _observe_columns(self, time, state):

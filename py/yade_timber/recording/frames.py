@@ -34,7 +34,7 @@ import numpy as np
 
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
-from ..base.regular_file import require_regular
+from ..base.input_file import require_regular
 from .history import History
 from .sentences import sentence
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.regular_file import require_regular
+from ..base.input_file import require_regular
 from ..base.table import csv_text
 
 NAME = "history.csv"
