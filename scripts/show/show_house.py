@@ -5,7 +5,7 @@ import json
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.house import HouseError, build_house, load_house, shipped_houses
+from yade_timber.house import build_house, load_house, shipped_houses
 from yade_timber.pictures import drawings
 from yade_timber.pictures.figures import stem_of
 
@@ -20,7 +20,7 @@ def arguments():
 
 def main():
     options = arguments()
-    with errors_in_a_line(options.out or "the picture", HouseError):
+    with errors_in_a_line(options.out or "the picture"):
         model = build_house(load_house(options.house), options.snow)
         print(json.dumps(model.counts(), indent=2))
         written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)

@@ -11,7 +11,6 @@ package. Needs no YADE.
 from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber.motion import (
-    RecordError,
     add_motion_options,
     arias,
     interpolation_error,
@@ -64,7 +63,7 @@ def arguments():
 def main():
     options = arguments()
     corner = options.corner or None
-    with errors_in_a_line(options.out or "the picture", RecordError):
+    with errors_in_a_line(options.out or "the picture"):
         request = motion_request(options)
         motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
