@@ -18,6 +18,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from ports import listening_ports
 from yade_timber.base import lock
 from yade_timber.recording import frames
 from yade_timber.recording.sentences import joint_place
@@ -294,6 +295,20 @@ def test_interrupted_at_once_or_twice(tmp_path, times):
     script.write_text(INTERRUPTED.format(times=times, options=[*SHORT, "--out", str(tmp_path / "out")]))
     done = subprocess.run([*YADE, "-j1", str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
     assert done.returncode == 128 + signal.SIGINT and len(own_errors(done)) == 1 and "SIGINT" in done.stderr, done.stderr
+
+
+def test_no_port_is_open_during_a_run(tmp_path):
+    """YADE has opened its ports when the script begins; with -x they are closed."""
+    command = [*YADE, "-j1", str(SCRIPTS / "modelA_snow.py"), *SHORT, "--duration", "60", "--out", str(tmp_path)]
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    try:
+        wait_for(lambda: listening_ports(process.pid), process)
+        wait_for(lambda: (tmp_path / lock.LOCK).exists(), process)
+        time.sleep(1.0)  # twice the time that a server takes to stop
+        assert process.poll() is None and listening_ports(process.pid) == []
+    finally:
+        process.kill()
+        process.communicate()
 
 
 def test_output_files_follow_the_umask(tmp_path):
