@@ -103,11 +103,6 @@ class History(namedtuple("Table", "columns rows")):
         """(F,) largest absolute drift of any storey and direction at each sample. [-]"""
         return np.abs([values for _, _, values in self.drifts()]).max(0)
 
-    @property
-    def energy_terms(self):
-        """Names of the terms of the energy balance that have a column."""
-        return tuple(name.removesuffix(" [J]") for name in self.columns if name.endswith(" [J]"))
-
     def energy(self, term):
         """(F,) term of the energy balance. [J]"""
         return self.column(f"{term} [J]")
