@@ -186,4 +186,4 @@ def test_picture_script(tmp_path):
     assert json.loads(run.stdout[: run.stdout.rindex("}") + 1])["joints_by_kind"]["column_beam"] == 180
     assert out.stat().st_size > 50_000
     bad = subprocess.run([sys.executable, ROOT / "scripts/show/show_house.py", "D"], capture_output=True, text=True)
-    assert bad.returncode == 1 and bad.stderr.startswith("unknown house 'D'") and bad.stderr.count("\n") == 1
+    assert bad.returncode == 1 and bad.stderr.startswith("error: unknown house 'D'") and bad.stderr.count("\n") == 1

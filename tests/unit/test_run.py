@@ -24,6 +24,7 @@ from yade_timber.recording import frames
 from yade_timber.recording.sentences import joint_place
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
+from yade_timber.motion.record import MAX_ACCELERATION
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 YADE = [shutil.which("yade") or "yade", "-n", "-x"]
@@ -348,13 +349,13 @@ def test_export_alone(tmp_path):
 
 
 def test_failed_run_leaves_no_summary(tmp_path):
-    """A ground motion beyond all physics: the health check's line, status 1, and the results of an earlier run are gone."""
+    """The largest ground motion that is read: the health check's line, status 1, and the results of an earlier run are gone."""
     record = tmp_path / "wild.csv"
-    write_csv(GroundMotion(0.01, np.full((20, 3), 1e5)), record, ["test"])
+    write_csv(GroundMotion(0.01, np.full((20, 3), MAX_ACCELERATION)), record, ["test"])
     (tmp_path / "summary.json").write_text("{}")
     done = run("modelA_quake", *SHORT, "--no-frames", "--duration", 0.2, "--record", record, "--out", tmp_path)
     lines = own_errors(done)
-    assert done.returncode == 1 and len(lines) == 2 and "is the unit right?" in lines[0] and "left the physical range" in lines[1] and "without results" in lines[1], done.stderr
+    assert done.returncode == 1 and len(lines) == 2 and "check the unit" in lines[0] and "left the physical range" in lines[1] and "without results" in lines[1], done.stderr
     assert not (tmp_path / "summary.json").exists() and not (tmp_path / frames.NAME).exists()
 
 
