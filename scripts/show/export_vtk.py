@@ -8,7 +8,6 @@ import argparse
 
 from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.base.errors import RunError
 from yade_timber.recording import frames
 
 
@@ -31,7 +30,7 @@ def main():
     options = arguments()
     file = frames_path(options.run)
     out = options.out or file.parent / "vtk"
-    with errors_in_a_line(out, RunError):
+    with errors_in_a_line(out):
         from yade_timber.pictures import vtk
 
         written = vtk.export(out, frames.load(file), options.every)

@@ -9,7 +9,6 @@ import argparse
 
 from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.base.errors import RunError
 from yade_timber.pictures import player
 from yade_timber.pictures.all_pictures import PLAYER
 from yade_timber.recording import frames
@@ -28,7 +27,7 @@ def main():
     files = [frames_path(run) for run in (options.run, options.other) if run]
     name = PLAYER if len(files) == 1 else f"compare_with_{files[1].resolve().parent.name}.html"
     page = options.out or files[0].parent / name
-    with errors_in_a_line(page, RunError):
+    with errors_in_a_line(page):
         player.make([(file, frames.load(file)) for file in files], page)
     print(f"{page}: {page.stat().st_size / 1e6:.1f} MB")
 

@@ -8,9 +8,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
+from yade_timber.base.errors import InputError  # noqa: E402
 
-UNUSABLE = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError, MemoryError)
-"""Raised by numpy and matplotlib for readable input with impossible content, such as a position that is not a number."""
+UNUSABLE = (ValueError, ArithmeticError, MemoryError)
+"""Raised by numpy and matplotlib for valid input with extreme numbers, such as a picture of too many pixels."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -40,11 +41,11 @@ def frames_path(run):
 
 
 @contextmanager
-def errors_in_a_line(output, *expected):
-    """Ends the script with one line and status 1: on an expected exception, on impossible content, or when the output cannot be written."""
+def errors_in_a_line(output):
+    """Ends the script with one line and status 1: on an InputError, on extreme numbers, or when the output cannot be written."""
     try:
         yield
-    except expected as problem:
+    except InputError as problem:
         sys.exit(f"error: {_line(problem)}")
     except UNUSABLE as problem:
         sys.exit(f"error: {output}: cannot be made from this input ({type(problem).__name__}: {_line(problem)[:200]})")

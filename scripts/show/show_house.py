@@ -5,14 +5,14 @@ import json
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.house import HouseError, build_house, load_house
+from yade_timber.house import build_house, load_house, shipped_houses
 from yade_timber.pictures import drawings
 from yade_timber.pictures.figures import stem_of
 
 
 def arguments():
     parser = Parser(description=__doc__)
-    parser.add_argument("house", help="A, B, C, B1, B2, C1, C2 or a YAML file")
+    parser.add_argument("house", help=f"{', '.join(shipped_houses())} or a YAML file")
     parser.add_argument("--snow", type=float, default=None, help="snow depth [m] (default: that of the house)")
     parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: house_<name>.png)")
     return parser.parse_args()
@@ -20,7 +20,7 @@ def arguments():
 
 def main():
     options = arguments()
-    with errors_in_a_line(options.out or "the picture", HouseError):
+    with errors_in_a_line(options.out or "the picture"):
         model = build_house(load_house(options.house), options.snow)
         print(json.dumps(model.counts(), indent=2))
         written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)

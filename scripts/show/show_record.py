@@ -10,7 +10,18 @@ package. Needs no YADE.
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber import motion as gm
+from yade_timber.motion import (
+    add_motion_options,
+    arias,
+    interpolation_error,
+    jma_intensity,
+    motion_request,
+    pga,
+    pgd,
+    pgv,
+    scaled,
+    significant_duration,
+)
 from yade_timber.pictures import motion_sheet
 from yade_timber.pictures.figures import stem_of
 
@@ -21,24 +32,24 @@ def print_measures(motion, corner):
     begins = f", from {motion.begins:%Y-%m-%d %H:%M:%S}" if motion.begins else ""
     print(f"{len(motion)} samples every {motion.dt:g} s, {motion.duration:g} s{begins}")
     print(f"{'':22}{'NS':>10}{'EW':>10}{'UD':>10}{'horizontal vector':>20}")
-    for label, measure in (("PGA [gal]", gm.pga), ("PGV [cm/s]", gm.pgv), ("PGD [cm]", gm.pgd)):
-        extra = {} if measure is gm.pga else {"corner": corner}
+    for label, measure in (("PGA [gal]", pga), ("PGV [cm/s]", pgv), ("PGD [cm]", pgd)):
+        extra = {} if measure is pga else {"corner": corner}
         row = [measure(motion, component, **extra) for component in ("ns", "ew", "ud", "h")]
         print(f"{label:22}{row[0]:10.2f}{row[1]:10.2f}{row[2]:10.2f}{row[3]:20.2f}")
-    arias = gm.arias(motion)
-    each = "".join(f"{arias[component]:10.3f}" for component in ("ns", "ew", "ud"))
-    print(f"{'Arias intensity [m/s]':22}{each}{arias['total']:14.3f} (sum)")
-    intensity = gm.jma_intensity(motion)
+    intensities = arias(motion)
+    each = "".join(f"{intensities[component]:10.3f}" for component in ("ns", "ew", "ud"))
+    print(f"{'Arias intensity [m/s]':22}{each}{intensities['total']:14.3f} (sum)")
+    intensity = jma_intensity(motion)
     print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
-    print(f"Duration D5-95 [s]    {gm.significant_duration(motion):.2f}")
-    print(f"Linear interpolation between samples errs by at most {100 * gm.interpolation_error(motion):.2g} % of the PGA (--resample: none)")
+    print(f"Duration D5-95 [s]    {significant_duration(motion):.2f}")
+    print(f"Linear interpolation between samples errs by at most {100 * interpolation_error(motion):.2g} % of the PGA (--resample: none)")
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
 def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("positional", nargs="?", metavar="RECORD", help="same as --record")
-    gm.add_motion_options(parser)
+    add_motion_options(parser)
     parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run, for --resample [s] (default %(default)g)")
     parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
@@ -52,9 +63,9 @@ def arguments():
 def main():
     options = arguments()
     corner = options.corner or None
-    with errors_in_a_line(options.out or "the picture", gm.RecordError):
-        request = gm.motion_request(options)
-        motion = gm.scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
+    with errors_in_a_line(options.out or "the picture"):
+        request = motion_request(options)
+        motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
         stem = stem_of(options.out) if options.out else file_name(motion.name)
         written = motion_sheet.write(stem, motion, corner)

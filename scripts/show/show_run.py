@@ -5,7 +5,6 @@ import sys
 
 from show_common import Parser, errors_in_a_line, path
 
-from yade_timber.base.errors import RunError
 from yade_timber.pictures import all_pictures
 
 
@@ -23,7 +22,7 @@ def main():
         sys.exit("error: --out: two runs have folders of the same name; show them one by one")
     for folder in options.folder:
         out = folder if options.out is None else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
-        with errors_in_a_line(out, RunError):
+        with errors_in_a_line(out):
             if out != folder:
                 out.mkdir(parents=True, exist_ok=True)
             written = all_pictures.write(out, folder)

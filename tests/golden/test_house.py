@@ -13,7 +13,7 @@ import yade_timber as yt
 from compare import assert_close
 from yade import O
 from yade_timber.scene import scenario
-from yade_timber.scene import engines as scene
+from yade_timber.scene.engines import find_engine
 from yade_timber.motion import GroundMotion, default_motion
 
 GOLDEN = Path(__file__).with_suffix(".json")
@@ -29,7 +29,7 @@ def shaken_house():
     cut = GroundMotion(motion.dt, motion.acceleration[first:], "cut")
     scenario.build(scenario.Scenario("golden", "B", cut, snow_depth=1.0))
     O.run(round(DURATION / O.dt), True)
-    monitor = scene.find_engine(yt.HouseMonitor)
+    monitor = find_engine(yt.HouseMonitor)
     numbers = {"peak drift " + str(k): value for k, value in enumerate(monitor.peak)}
     numbers.update({"energy " + name: value for name, value in yt.energy().items()})
     numbers["contact points"] = sum(len(i.geom.points) for i in O.interactions if i.isReal)

@@ -15,7 +15,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import held, locked  # noqa: E402
+from yade_timber.base.lock import is_locked, locked  # noqa: E402
 from yade_timber.study.batch import read_table  # noqa: E402
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
@@ -64,19 +64,19 @@ def children(process):
 @pytest.mark.skipif(shutil.which("yade") is None, reason="yade is not installed")
 def test_stopped_killed_resumed(folder):
     stopped = start(folder)
-    wait_for(folder, "long-*", stopped, held)
+    wait_for(folder, "long-*", stopped, is_locked)
     stopped.terminate()
     output, _ = stopped.communicate(timeout=120)
     assert stopped.returncode == 1 and "same command continues" in output
-    assert states(folder)["long"] == "unfinished" and not any(map(held, (folder / "results" / "runs").glob("long-*")))
+    assert states(folder)["long"] == "unfinished" and not any(map(is_locked, (folder / "results" / "runs").glob("long-*")))
 
     killed = start(folder)
-    long = wait_for(folder, "long-*", killed, held)
+    long = wait_for(folder, "long-*", killed, is_locked)
     runs = children(killed)
     for pid in [killed.pid, *runs]:
         os.kill(pid, signal.SIGKILL)
     killed.wait()
-    while held(long):
+    while is_locked(long):
         time.sleep(0.02)
     finished = {path: path.stat().st_mtime_ns for path in (folder / "results" / "runs").glob("*/run.json")}
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import EventLog
-from yade_timber.recording.sentences import sentence
+from yade_timber.recording.sentences import joint_place, sentence
 
 ROOF = list(frames_sample.PARTS).index("roof")
 
@@ -80,11 +80,32 @@ def snowy_house(drop, slide, tilt=0.0):
     return survey(run), State(position, orientation, run.broken[0])
 
 
-@pytest.mark.parametrize("drop, slide, tilt, fallen", [(0, 0, 0, []), (0.9, 3.0, 0, []), (1.1, 3.0, 0, ["roof"]), (0, 0, 1.5, []), (0, 5.0, -1.5, ["roof"])])
+@pytest.mark.parametrize("drop, slide, tilt, fallen", [(0, 0, 0, []), (0.9, 3.0, 0, []), (1.1, 3.0, 0, [ROOF]), (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
 def test_fallen_snow(drop, slide, tilt, fallen):
     """Snow that a leaning roof carries along has not fallen."""
     found, state = snowy_house(drop, slide, tilt)
     assert found.fallen_snow(state) == fallen
+
+
+@pytest.mark.parametrize("structure, name, expected", [
+    ("main", "main.roof.west", "west roof"), ("main", "main.roof", "roof"), ("entrance", "entrance.roof.north", "entrance's north roof"),
+    ("main", "main.roof2.east", "east roof2"),
+])
+def test_event_of_fallen_snow(structure, name, expected):
+    found, state = snowy_house(1.1, 3.0)
+    found.elements.group[ROOF] = found.elements.group[-1] = structure
+    found.elements.name[ROOF] = name
+    log = EventLog(found)
+    log.observe(1.0, state)
+    assert f"snow has fallen from the {expected}" in [event["what"] for event in log.records()]
+
+
+@pytest.mark.parametrize("place, expected", [
+    (("column_beam", "1", "west"), "column-beam joint, storey 1, west side"), (("roof_beam", "entrance", "inside"), "roof-beam joint, entrance, inside"),
+    (("column_beam", "2", "north+east"), "column-beam joint, storey 2, north and east sides"),
+])
+def test_joint_place(place, expected):
+    assert joint_place(*place) == expected
 
 
 def test_removed_elements_are_no_damage():

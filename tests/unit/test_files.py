@@ -6,8 +6,8 @@ import os
 import pytest
 from yade_timber.base.atomic_write import remove_parts, write_text, written_whole
 from yade_timber.base.errors import RunError
-from yade_timber.base.lock import held, locked
-from yade_timber.base.regular_file import require_regular
+from yade_timber.base.lock import is_locked, locked
+from yade_timber.base.input_file import require_regular
 from yade_timber.base.table import csv_text
 
 
@@ -53,10 +53,10 @@ def test_parts_of_killed_processes(tmp_path):
 
 
 def test_one_process_a_folder(tmp_path):
-    assert not held(tmp_path)
+    assert not is_locked(tmp_path)
     with locked(tmp_path) as first, locked(tmp_path) as second:
-        assert first and not second and held(tmp_path)
-    assert not held(tmp_path)
+        assert first and not second and is_locked(tmp_path)
+    assert not is_locked(tmp_path)
 
 
 @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: None])

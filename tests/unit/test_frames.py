@@ -2,6 +2,7 @@
 # runner: python
 """Recorded frames: written and read back, damaged files, placements in a frame. Needs no YADE."""
 import dataclasses
+import json
 import os
 
 import h5py
@@ -80,6 +81,10 @@ def replace(name, data):
     return change
 
 
+def change_summary(file, **changes):
+    file.attrs["summary"] = json.dumps({**json.loads(file.attrs["summary"]), **changes})
+
+
 def declare(name, shape):
     """A table of that shape of which nothing is stored."""
 
@@ -99,6 +104,16 @@ def declare(name, shape):
         lambda file: file.attrs.update(summary="{"),
         lambda file: file.attrs.update(summary="[]"),
         lambda file: file.attrs.update(summary='{"model": "A"}'),
+        lambda file: change_summary(file, model=3),
+        lambda file: change_summary(file, collapse_time_s="late"),
+        lambda file: change_summary(file, events=3),
+        lambda file: change_summary(file, events=[{"time_s": "soon", "kind": "tilt", "what": "a"}]),
+        lambda file: change_summary(file, events=[{"time_s": 1.0, "kind": "tilt", "what": 3}]),
+        lambda file: file["frames/position"].write_direct(np.full((61, 3, 3), np.inf, "f4")),
+        lambda file: file["frames/position"].__setitem__((5, 1, 0), np.nan),
+        lambda file: file["frames/orientation"].__setitem__((5, 1), np.nan),
+        lambda file: file["frames/time"].__setitem__(3, np.nan),
+        lambda file: file["elements/position"].__setitem__((0, 0), np.nan),
         lambda file: file["motion"].attrs.update(dt="fast"),
         replace("frames/position", np.zeros((2, 3, 3), "f4")),
         replace("frames/load", np.zeros(61, "f4")),
@@ -120,6 +135,14 @@ def test_damaged_or_hostile_tables(tmp_path, change):
     with pytest.raises(RunError, match="frames.h5: ") as raised:
         files.load(tmp_path / "frames.h5")
     assert "\n" not in str(raised.value)
+
+
+def test_a_removed_element(tmp_path):
+    """NaN in all its numbers of a frame."""
+    made = frames()
+    made.position[5:, 1] = made.orientation[5:, 1] = np.nan
+    files.save(tmp_path / "frames.h5", made)
+    assert np.isnan(files.load(tmp_path / "frames.h5").position[5:, 1]).all()
 
 
 def test_truncated_file(tmp_path):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The import guard refuses each kind of wrong host and accepts the right one."""
-import os
 from pathlib import Path
 
 import pytest
 import yade.wrapper
 import yade_timber
+from ports import listening_ports
 from yade_timber import host
 
 MODULE = Path(yade_timber.__path__[0]) / "_yade_timber.so"
@@ -103,19 +103,12 @@ def test_module_of_another_yade_is_not_even_loaded(tmp_path, facts):
 
 def test_servers_are_closed(monkeypatch):
     """YADE's Python prompt and XML-RPC server; a job of yade-batch keeps the latter."""
-
-    def ports():
-        """Of the sockets on which this process listens."""
-        own = {os.readlink(f"/proc/self/fd/{name}") for name in os.listdir("/proc/self/fd") if os.path.islink(f"/proc/self/fd/{name}")}
-        rows = [line.split() for line in Path("/proc/self/net/tcp").read_text().splitlines()[1:]]
-        return sorted(int(row[1].split(":")[1], 16) for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in own)
-
-    prompt, information = ports()
+    prompt, information = listening_ports()
     monkeypatch.setenv("PARAM_TABLE", "table:1")
     for thread in host.close_servers():
         thread.join()
-    assert 9000 <= prompt < 21000 <= information and ports() == [information]
+    assert 9000 <= prompt < 21000 <= information and listening_ports() == [information]
     monkeypatch.delenv("PARAM_TABLE")
     for thread in host.close_servers():
         thread.join()
-    assert ports() == []
+    assert listening_ports() == []

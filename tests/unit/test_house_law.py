@@ -3,6 +3,7 @@
 import pytest
 import yade.wrapper as yw
 from yade import O
+from yade_timber.house import friction
 from yade_timber.run.identity import identity
 from yade_timber.scene import engines, scenario
 
@@ -17,6 +18,11 @@ def built(tmp_path, law):
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, identity(built, model)
+
+
+def test_default_friction():
+    """A house file is read without YADE, so the default stands there and in the class."""
+    assert friction.DEFAULT == yw.TimberMat().friction == yw.SnowMat().friction
 
 
 def test_defaults(tmp_path):

@@ -40,7 +40,7 @@ def test_another_scene(tmp_path, capfd):
     begin(tmp_path)
     step_to(100)
     O.reset()
-    wait_for(lambda: not lock.held(tmp_path))
+    wait_for(lambda: not lock.is_locked(tmp_path))
     assert "another scene was loaded" in capfd.readouterr().err and not (tmp_path / "summary.json").exists()
 
 
@@ -55,7 +55,7 @@ def test_an_earlier_state(tmp_path):
     O.load(str(tmp_path / "state.yade.gz"), quiet=True)
     assert run.is_loaded()
     O.run(run.steps - O.iter)
-    wait_for(lambda: not lock.held(tmp_path))
+    wait_for(lambda: not lock.is_locked(tmp_path))
     made = frames.load(tmp_path / frames.NAME)
     assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary["steps"] == 1500
 
@@ -67,7 +67,7 @@ def test_removed_members(tmp_path):
     for body in (column, beam):
         O.bodies.erase(body)
     O.run(run.steps - O.iter)
-    wait_for(lambda: not lock.held(tmp_path))
+    wait_for(lambda: not lock.is_locked(tmp_path))
     assert frames.load(tmp_path / frames.NAME).summary["columns"]["total"] == len(run.model.of_kind("column")) - 1
 
 

@@ -6,7 +6,7 @@ import pytest
 import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
-from yade_timber.scene import engines as scene
+from yade_timber.scene.engines import find_engine
 
 NAN, INF = math.nan, math.inf
 PAIR = {"mass": 1, "friction": 0.5, "shearRatio": 0.4, "dampingRatio": 1, "overlapLimit": 0.01}
@@ -86,7 +86,7 @@ def test_stable_dt_changes_nothing():
     O.run(300, True)
     expected = as_hex()
     rocking_column()
-    solver = scene.find_engine(yw.ContactForces)
+    solver = find_engine(yw.ContactForces)
     for _ in range(30):
         O.run(10, True)
         before = solver.dict()
@@ -98,7 +98,7 @@ def test_stable_dt_changes_nothing():
 def test_stable_dt_counts_unbroken_springs_of_the_joint_engine():
     rocking_column()
     free = yt.stable_dt(1)  # no contact yet: the joint's four springs
-    joint = scene.find_engine(yw.JointEngine).joints[0]
+    joint = find_engine(yw.JointEngine).joints[0]
     joint.kn = joint.ks = 4 * joint.kn
     assert yt.stable_dt(1) == pytest.approx(free / 2, rel=1e-3)  # stop of the power iteration
     joint.broken = [1] * 4

@@ -1,6 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Exceptions of runs."""
+"""Exceptions for input that cannot be used; the message is one printable line: place, fault, admissible range, remedy. Needs no YADE."""
+
+MAX_MESSAGE = 900
+"""Longest error message; the middle of a longer one is left out. [characters]"""
 
 
-class RunError(ValueError):
-    """A run that cannot be done as requested; the message is one line: place, fault, admissible range."""
+class InputError(ValueError):
+    """Input that cannot be used. The message is one printable line: file:line: member: problem; admissible range; remedy."""
+
+    def __init__(self, message):
+        super().__init__(one_line(str(message)))
+
+
+class RunError(InputError):
+    """A run that cannot be done as requested, or a file of a run that cannot be used."""
+
+
+def one_line(text):
+    """`text` with line breaks, control characters and lone surrogates escaped, at most MAX_MESSAGE characters long."""
+    if len(text) > MAX_MESSAGE:
+        text = f"{text[: MAX_MESSAGE * 2 // 3]} ... {text[-MAX_MESSAGE // 4 :]}"
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

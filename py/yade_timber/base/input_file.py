@@ -1,29 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Input files of unknown content: only regular files, only up to a size; error messages of one printable line. Needs no YADE."""
+"""Input files of unknown content: only regular files, only up to a size. Needs no YADE."""
 
 import errno
 import os
 import stat
 from pathlib import Path
 
-MAX_MESSAGE = 900
-"""Longest error message; the middle of a longer one is left out. [characters]"""
+from .errors import RunError
+
 MAX_SHOWN = 80
 """Longest value that a message quotes in full. [characters]"""
-
-
-class InputError(ValueError):
-    """Input that cannot be used. The message is one printable line: file:line: member: problem; admissible range; remedy."""
-
-    def __init__(self, message):
-        super().__init__(one_line(str(message)))
-
-
-def one_line(text):
-    """`text` with line breaks, control characters and lone surrogates escaped, at most MAX_MESSAGE characters long."""
-    if len(text) > MAX_MESSAGE:
-        text = f"{text[: MAX_MESSAGE * 2 // 3]} ... {text[-MAX_MESSAGE // 4 :]}"
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def shown(value):
@@ -74,3 +60,15 @@ def read_bytes(path, limit):
     if len(content) > limit:
         raise OSError(errno.EFBIG, f"larger than {limit / 1e6:g} MB; give a smaller file")
     return content
+
+
+def require_regular(path, remedy=""):
+    """Raise RunError unless `path` is a regular file, or a link to one. remedy: end of the message for a missing file."""
+    try:
+        mode = Path(path).stat().st_mode
+    except FileNotFoundError:
+        raise RunError(f"{path}: no such file{remedy and f'; {remedy}'}") from None
+    except OSError as problem:
+        raise RunError(f"{path}: cannot be read: {problem.strerror}") from None
+    if not stat.S_ISREG(mode):
+        raise RunError(f"{path}: not a regular file")

@@ -28,7 +28,7 @@ def locked(folder):
         os.close(descriptor)
 
 
-def held(folder):
+def is_locked(folder):
     """Whether a process has the lock of a folder."""
     if not (folder / LOCK).exists():
         return False

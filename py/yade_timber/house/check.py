@@ -5,7 +5,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import contact_polygon, separation
-from .joints import UPRIGHT, near_pairs
+from .joints import END_JOINED, near_pairs
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
 LYING = 0.1  # vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees
@@ -43,7 +43,7 @@ def _report_overlap(a, b, gap, count):
 def _check_ends(model, touching):
     """Each column and brace needs a joint at its foot and one at its head."""
     jointed = {(joint.a, joint.end) for joint in model.joints}
-    for member in model.of_kind(*UPRIGHT):
+    for member in model.of_kind(*END_JOINED):
         for end in ("bottom", "top"):
             if (member.name, end) not in jointed:
                 _report_loose_end(member, end, touching)

@@ -23,7 +23,7 @@ class Description:
 
 
 def load_house(name_or_path):
-    """Path of a YAML file or name of a shipped house ('A' ... 'C2', 'storehouse') -> Description; raises HouseError (one line, file:line)."""
+    """Path of a YAML file or name of a shipped house (see shipped_houses) -> Description; raises HouseError (one line, file:line)."""
     path = house_path(name_or_path)
     data = checked(load_table(path), path)
     return Description(data["name"], path, data)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The exceptions of the house description."""
 
-from ..base.input_file import InputError
+from ..base.errors import InputError
 
 
 class HouseError(InputError):

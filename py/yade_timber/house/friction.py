@@ -3,7 +3,8 @@
 
 from .errors import HouseError
 
-DEFAULT = 0.5  # [-] of a material whose pair with itself is not in the file
+DEFAULT = 0.5
+"""Coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]"""
 
 
 def own_coefficient(name, law, pairs):

@@ -10,7 +10,7 @@ from .geometry import contact_polygon, plane_axes, polygon_area
 from .limits import MAX_PAIRS
 from .model import JointSpec
 
-UPRIGHT = ("column", "brace")  # kinds with a joint at the top and one at the bottom
+END_JOINED = ("column", "brace")  # kinds of members with a joint at each end
 
 
 def find_joints(elements, description):
@@ -52,7 +52,7 @@ def near_pairs(elements, margin):
 def _rules(rules):
     """{(kind a, kind b, across): rule}; a is the column or brace of the two, or else the first kind of the rule."""
     pairs = ((a, b, rule) for rule in rules for a in rule["between"][0] for b in rule["between"][1])
-    return {(*sorted((a, b), key=lambda kind: kind not in UPRIGHT), rule["across"]): rule for a, b, rule in pairs}
+    return {(*sorted((a, b), key=lambda kind: kind not in END_JOINED), rule["across"]): rule for a, b, rule in pairs}
 
 
 def _joint(a, b, rule, contact, data):
@@ -60,10 +60,10 @@ def _joint(a, b, rule, contact, data):
     values = data["joint_types"][rule["type"]]
     per = values["per"] or data["law"]["joint_reading"]
     points = spring_points(polygon, normal)
-    upright = a.kind in UPRIGHT
-    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if upright else ""
+    end_joined = a.kind in END_JOINED
+    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if end_joined else ""
     return JointSpec(a.name, b.name, rule["type"], rule["kind"], points, normal, area, values["kn"], values["ks"], values["strength"], per,
-                     storey=a.storey, side=a.side if upright else a.side or b.side, end=end, group=a.group)
+                     storey=a.storey, side=a.side if end_joined else a.side or b.side, end=end, group=a.group)
 
 
 def spring_points(polygon, normal):

@@ -100,7 +100,7 @@ structure = Record({
 
 material = Variants("law", {
     "timber": Record({"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000),
-                      "young": Number("Pa", 1e6, 1e12), "poisson": Number("", 0.0, 0.49)}),
+                      "young": Number("Pa", 1e6, 1e12), "poisson": Number("", 0.0, 0.49)}),  # of known materials; TimberMat takes (-1, 0.5]
     "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
                     "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
 })

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.input_file import exists, is_file, is_folder, one_line, shown
+from ..base.errors import one_line
+from ..base.input_file import exists, is_file, is_folder, shown
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning, require_possible

@@ -8,7 +8,8 @@ from datetime import datetime
 
 import numpy as np
 
-from ..base.input_file import InputError, shown
+from ..base.errors import InputError
+from ..base.input_file import shown
 
 GAL = 0.01
 """One gal (cm/s2) in m/s2."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first floor. Needs no YADE."""
+"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey. Needs no YADE."""
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Polygon, Rectangle
@@ -125,7 +125,7 @@ def draw_plan(ax, model):
             draw_brace(ax, element)
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
-    ax.set_title("Plan of the first floor, north up: columns and braces", fontsize=9, loc="left")
+    ax.set_title("Plan of the first storey, north up: columns and braces", fontsize=9, loc="left")
     finish_plan(ax, columns)
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
-from .. import motion as gm
 from ..base.colors import DIRECTIONS
+from ..motion import GAL, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity
 from .figures import A4, heading, new_figure, save
 
 DPI = 150
@@ -27,11 +27,11 @@ def page(motion, corner, dpi):
     figure.subplots_adjust(left=0.07, right=0.985, top=0.87, bottom=0.07, hspace=0.28, wspace=0.17)
     heading(figure, f"Ground motion {motion.name}", describe(motion))
     draw_accelerations(axes[:, 0], motion)
-    draw_curves(axes[0, 1], motion.time, 100 * gm.velocity(motion, corner), "velocity [cm/s]")
-    draw_curves(axes[1, 1], motion.time, 100 * gm.displacement(motion, corner), "displacement [cm]")
+    draw_curves(axes[0, 1], motion.time, 100 * velocity(motion, corner), "velocity [cm/s]")
+    draw_curves(axes[1, 1], motion.time, 100 * displacement(motion, corner), "displacement [cm]")
     axes[1, 1].set_xlabel("time [s]", fontsize=8)
     draw_spectra(axes[2, 1], motion)
-    first, last = gm.shaking_window(motion, QUIET * gm.pga(motion))
+    first, last = shaking_window(motion, QUIET * pga(motion))
     for axis in (*axes[:, 0], *axes[:2, 1]):
         axis.set_xlim(max(0.0, first - 2), min(motion.duration, last + 2))
     for axis in axes.flat:
@@ -42,15 +42,15 @@ def page(motion, corner, dpi):
 
 def describe(motion):
     """Source, JMA intensity and horizontal peaks."""
-    intensity = gm.jma_intensity(motion)
-    return f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {gm.pga(motion, 'h'):.0f} gal and {gm.pgv(motion):.0f} cm/s"
+    intensity = jma_intensity(motion)
+    return f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and {pgv(motion):.0f} cm/s"
 
 
 def draw_accelerations(axes, motion):
     """The components below each other on one scale, each with its peak."""
-    reach = 1.1 * gm.pga(motion)
+    reach = 1.1 * pga(motion)
     for axis, (key, column, name, _) in zip(axes, ROWS):
-        values = motion.acceleration[:, column] / gm.GAL
+        values = motion.acceleration[:, column] / GAL
         peak = np.argmax(np.abs(values))
         axis.plot(motion.time, values, color=DIRECTIONS[key], lw=0.6)
         axis.plot(motion.time[peak], values[peak], "o", markersize=4, markerfacecolor="none", color="black")
@@ -72,7 +72,7 @@ def draw_curves(axis, time, values, label):
 def draw_spectra(axis, motion):
     """Pseudo-velocity of oscillators with 5 % of critical damping."""
     for key, column, name, dashes in ROWS:
-        spectrum = gm.response_spectrum(motion.acceleration[:, column], motion.dt, PERIODS)
+        spectrum = response_spectrum(motion.acceleration[:, column], motion.dt, PERIODS)
         axis.loglog(PERIODS, np.maximum(spectrum.psv, 1e-6), color=DIRECTIONS[key], ls=dashes, lw=1.2, label=name)
     for direction in (axis.xaxis, axis.yaxis):
         direction.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

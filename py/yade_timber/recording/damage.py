@@ -149,11 +149,11 @@ class DamageSurvey:
         return found
 
     def fallen_snow(self, state):
-        """Names of the roof elements that have lost their snow (SNOW_DROP)."""
+        """Numbers of the roof elements that have lost their snow (SNOW_DROP)."""
         if not self._snow:
             return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
-        return [self.elements.name[roof] for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
+        return [roof for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
 
 
 def _vertical(q):

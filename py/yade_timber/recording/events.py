@@ -45,7 +45,7 @@ class EventLog:
             if name != self.survey.structures[0]:
                 self.add(time, "structure_fallen", f"{name} has fallen: a level is down by half a storey")
         for roof in self.survey.fallen_snow(state):
-            self.add(time, "snow_fallen", f"snow has fallen from {roof}")
+            self.add(time, "snow_fallen", f"snow has fallen from the {self._roof_name(roof)}")
         self._observe_columns(time, state)
 
     def _observe_columns(self, time, state):
@@ -55,3 +55,11 @@ class EventLog:
         known = max((event.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * known):
             self.add(time, "columns_lost", f"{lost} of {counts['total']} columns inclined by more than 45 degrees or without a joint", lost)
+
+    def _roof_name(self, roof):
+        """'west roof' of an element 'main.roof.west', 'entrance's roof' of 'entrance.roof'."""
+        e = self.survey.elements
+        structure, name = e.group[roof], e.name[roof]
+        layer, _, side = name.removeprefix(f"{structure}.").partition(".")
+        owner = "" if structure == self.survey.structures[0] else f"{structure}'s"
+        return " ".join(filter(None, (owner, side, layer)))

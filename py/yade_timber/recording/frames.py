@@ -34,7 +34,7 @@ import numpy as np
 
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
-from ..base.regular_file import require_regular
+from ..base.input_file import require_regular
 from .history import History
 from .sentences import sentence
 
@@ -296,8 +296,33 @@ def _check_shapes(frames):
     for name, values, limit in numbers:
         if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
             raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
+    _check_finite(frames)
     if frames.summary is not None:
-        sentence(frames.summary)
+        _check_summary(frames.summary)
+
+
+def _check_finite(frames):
+    """Raise ValueError for placements and times that are not finite. A removed element is NaN in all its numbers of a frame."""
+    parts = np.asarray(frames.position), np.asarray(frames.orientation)
+    finite = np.all([np.isfinite(part).all(2) for part in parts], axis=0)
+    removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)
+    tables = {"frames/position, orientation": finite | removed, "frames/time": np.isfinite(frames.time)}
+    tables |= {f"elements/{name}": np.isfinite(getattr(frames.elements, name)) for name in ("position", "orientation")}
+    for name, valid in tables.items():
+        if not valid.all():
+            raise ValueError(f"{name}: a number that is not finite")
+
+
+def _check_summary(found):
+    """Raise an exception for values of another type than in summary.json, where pictures and sentences use them."""
+    sentence(found)
+    collapse = found["collapse_time_s"]
+    members = [("model", found["model"], str), ("collapse_time_s", 0 if collapse is None else collapse, (int, float))]
+    for event in found.get("events", []):
+        members += [("events: time_s", event["time_s"], (int, float)), ("events: kind", event["kind"], str), ("events: what", event["what"], str)]
+    for name, value, kind in members:
+        if not isinstance(value, kind):
+            raise ValueError(f"summary: {name}: {value!r:.40} is of a wrong type")
 
 
 def _load(file):

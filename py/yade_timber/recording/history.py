@@ -21,7 +21,7 @@ import numpy as np
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.regular_file import require_regular
+from ..base.input_file import require_regular
 from ..base.table import csv_text
 
 NAME = "history.csv"
@@ -102,11 +102,6 @@ class History(namedtuple("Table", "columns rows")):
     def largest_drift(self):
         """(F,) largest absolute drift of any storey and direction at each sample. [-]"""
         return np.abs([values for _, _, values in self.drifts()]).max(0)
-
-    @property
-    def energy_terms(self):
-        """Names of the terms of the energy balance that have a column."""
-        return tuple(name.removesuffix(" [J]") for name in self.columns if name.endswith(" [J]"))
 
     def energy(self, term):
         """(F,) term of the energy balance. [J]"""

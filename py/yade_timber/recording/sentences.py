@@ -104,5 +104,6 @@ def ratio(drift, below="below "):
 
 
 def joint_place(kind, storey, side):
-    """'column-beam, storey 1, west' from the values of breaks.csv."""
-    return f"{kind.replace('_', '-')}, {f'storey {storey}' if storey.isdigit() else storey}, {side}"
+    """'column-beam joint, storey 1, west side' from the values of breaks.csv."""
+    walls = side if side == "inside" else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
+    return f"{kind.replace('_', '-')} joint, {f'storey {storey}' if storey.isdigit() else storey}, {walls}"

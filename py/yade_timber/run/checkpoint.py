@@ -12,7 +12,7 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
-from ..base.regular_file import require_regular
+from ..base.input_file import require_regular
 
 NAME = "checkpoint.yade"
 REMEDY = "run without --resume to start anew"

@@ -29,9 +29,7 @@ def launch(read, argv=None):
     """
     try:
         with _deferred_interrupt():
-            from ..base.errors import RunError
-            from ..house import HouseError
-            from ..motion import RecordError
+            from ..base.errors import InputError
             from . import cli
             from .runner import Interrupted
     except KeyboardInterrupt:
@@ -41,7 +39,7 @@ def launch(read, argv=None):
         with _deferred_interrupt():
             scenario, output = read(cli, sys.argv if argv is None else argv)
         return _run(scenario, output)
-    except (RunError, RecordError, HouseError) as problem:
+    except InputError as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
         remedy = "continue with --resume" if output.checkpoint_interval > 0 else "nothing was saved (--checkpoint 0)"
@@ -58,12 +56,15 @@ def _run(scenario, output):
     import yade.runtime
     import yade.wrapper as yw
 
+    from .. import host
     from ..base.errors import RunError
     from ..base.lock import locked
     from .cli import prepare_folder
     from .live import LiveRun
     from .runner import Run
 
+    if yade.runtime.opts.exitAfter:
+        host.close_servers()
     stays = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
     if stays and yw.Omega().running:  # a live run: the new one takes its place
         yw.Omega().pause()

@@ -14,7 +14,7 @@ from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import EventLog
 from ..recording.sentences import direction_name, joint_place
-from ..scene import engines as scene
+from ..scene.engines import find_engine
 from ..scene.scenario import level_marks
 
 BREAKS = ("time", "joint", "spring", "cause", "force")
@@ -46,7 +46,7 @@ def describe_elements(model):
 def describe_joints(model):
     """frames.Joints of the scene."""
     number = element_numbers(model)
-    specs, joints = model.joints, list(scene.find_engine(yw.JointEngine).joints)
+    specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
     return frames.Joints(
         name=[s.name for s in specs],
         kind=[s.kind for s in specs],
@@ -73,7 +73,7 @@ def describe_levels(model):
 
 def describe_motion():
     """frames.Motion of the scene's ground motion, or None."""
-    engine = scene.find_engine(yw.GroundMotionEngine)
+    engine = find_engine(yw.GroundMotionEngine)
     if engine is None:
         return None
     applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
@@ -82,7 +82,7 @@ def describe_motion():
 
 def describe_breaks():
     """Columns of frames.h5's /breaks."""
-    entries = list(scene.find_engine(yw.JointEngine).breaks)
+    entries = list(find_engine(yw.JointEngine).breaks)
     return {name: [getattr(entry, name) for entry in entries] for name in BREAKS}
 
 
@@ -118,7 +118,7 @@ def placements():
 
 def joint_loads():
     """((J,) load over strength, float32; (J,) number of broken springs, uint8)."""
-    load, broken = _plugin.packed_joints(scene.find_engine(yw.JointEngine))
+    load, broken = _plugin.packed_joints(find_engine(yw.JointEngine))
     return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
 
 
@@ -145,11 +145,10 @@ class Observer:
     def observe(self, time):
         """Note the events up to a time [s], that of the scene's state."""
         self.log.drop_after(time)
-        monitor, first = scene.find_engine(yw.HouseMonitor), next(iter(scene.find_engine(yw.JointEngine).breaks), None)
+        monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
         if first:
-            _, name, kind, storey, side, _, cause, force = break_row(first, self.model)
-            place = f"{joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN (joint {name})"
-            self.log.add(first.time, "first_break", f"first spring breaks: {place}")
+            _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
+            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN")
         if math.isfinite(monitor.tiltTime):
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):

@@ -6,7 +6,7 @@ import yade.wrapper as yw
 from tqdm import tqdm
 
 from ..recording.sentences import ratio
-from ..scene import engines as scene
+from ..scene.engines import find_engine
 
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
@@ -37,8 +37,8 @@ class Progress:
         for event in self.log.events[self.shown:]:
             self.bar.write(f"{event.time_s:7.2f} s  {event.what}", file=sys.stderr)
         self.shown = len(self.log.events)
-        joints = scene.find_engine(yw.JointEngine).joints
+        joints = find_engine(yw.JointEngine).joints
         broken = sum(joint.isFinished for joint in joints) - int(self.log.survey.joints.damaged.sum())
-        peak = max(scene.find_engine(yw.HouseMonitor).peak, default=0.0)
+        peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
         self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken}/{len(joints)} joints broken", refresh=False)
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)

@@ -6,7 +6,7 @@ import yade.wrapper as yw
 from ..base.errors import RunError
 from ..recording import frames
 from ..recording.history import History
-from ..scene import engines as scene
+from ..scene.engines import find_engine
 from . import observer
 from .versions import versions
 
@@ -62,7 +62,7 @@ class Recorder:
 
     def finish(self, path, found):
         """Write the frames with all that is known at the end. found: the summary. Raises OSError."""
-        monitor = scene.find_engine(yw.HouseMonitor)
+        monitor = find_engine(yw.HouseMonitor)
         self.frames.summary = found
         self.frames.history = History(monitor.columns(), monitor.rows)
         self.frames.breaks = observer.describe_breaks()

@@ -12,11 +12,10 @@ from ..house import build_house, load_house
 from ..pictures import all_pictures
 from ..recording import frames
 from ..recording.sentences import sentence
-from ..scene import engines as scene
+from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
-from . import checkpoint
-from . import summary as summary_files
+from . import checkpoint, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Progress
@@ -49,7 +48,7 @@ class Run:
         self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
         if not (output.resume and self.checkpoint_path.exists() and self._resume()):
             self._start()
-        skipper = scene.find_engine(yw.RestSkipper)
+        skipper = find_engine(yw.RestSkipper)
         if skipper:
             skipper.last = self.steps
 
@@ -105,7 +104,7 @@ class Run:
     def _clear(self, *more):
         """Remove results of an earlier run and the files `more`: they must not be taken for results of this run."""
         try:
-            for name in (summary_files.SUMMARY, summary_files.HISTORY, summary_files.BREAKS, *all_pictures.NAMES, *more):
+            for name in (summary.SUMMARY, summary.HISTORY, summary.BREAKS, *all_pictures.NAMES, *more):
                 (self.output.folder / name).unlink(missing_ok=True)
             remove_parts(self.output.folder)
         except OSError as problem:
@@ -206,7 +205,7 @@ class Run:
             self.report(f"written: {self.output.export}")
             return
         self.take(O.time, last=True)
-        found = {**summary_files.summary(self.scenario, self.observer, self.wall_s), "made_from": made_from(self.output.options)}
+        found = {**summary.summary(self.scenario, self.observer, self.wall_s), "made_from": made_from(self.output.options)}
         written = self._results(found)
         if self.output.views:
             written += self._pictures()
@@ -220,7 +219,7 @@ class Run:
             if self.recorder:
                 self.recorder.finish(self.frames_path, found)
                 written.append(self.frames_path)
-            return written + summary_files.write(self.output.folder, found, self.model)
+            return written + summary.write(self.output.folder, found, self.model)
         except OSError as problem:
             raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 

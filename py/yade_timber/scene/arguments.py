@@ -20,31 +20,27 @@ def refuse(error, name, value, form):
 
 def number(name, value, unit="-"):
     """A finite real number. Ranges of attributes are checked by the classes themselves."""
-    if not isinstance(value, numbers.Real):
-        refuse(TypeError, name, value, f"a finite number [{unit}]")
-    if not math.isfinite(value):
-        refuse(ValueError, name, value, f"a finite number [{unit}]")
-    return float(value)
+    return float(_checked(name, value, numbers.Real, math.isfinite, f"a finite number [{unit}]"))
 
 
 def positive(name, value, unit="-", infinite=False):
     """A number > 0; `infinite`: whether infinity is admissible."""
     form = f"a {'' if infinite else 'finite '}number > 0 [{unit}]"
-    if not isinstance(value, numbers.Real):
-        refuse(TypeError, name, value, form)
-    if not (value > 0 and (infinite or math.isfinite(value))):
-        refuse(ValueError, name, value, form)
-    return float(value)
+    return float(_checked(name, value, numbers.Real, lambda v: v > 0 and (infinite or math.isfinite(v)), form))
 
 
 def count(name, value):
     """An integer >= 0 that fits into a C++ int."""
-    form = f"an integer from 0 to {2**31 - 1}"
-    if not isinstance(value, numbers.Integral):
+    return int(_checked(name, value, numbers.Integral, lambda v: 0 <= v < 2**31, f"an integer from 0 to {2**31 - 1}"))
+
+
+def _checked(name, value, kind, is_valid, form):
+    """The value. Raises TypeError for another kind of number, ValueError for one that is not valid."""
+    if not isinstance(value, kind):
         refuse(TypeError, name, value, form)
-    if not 0 <= value < 2**31:
+    if not is_valid(value):
         refuse(ValueError, name, value, form)
-    return int(value)
+    return value
 
 
 def flag(name, value):

@@ -6,13 +6,10 @@ from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
 
-TIMBER_DENSITY = 340.0
-"""Japanese cypress. [kg/m3] (paper, section 3.4)"""
-TIMBER_YOUNG = 90e3 * 9.8e4
-"""90e3 kgf/cm2 with the paper's 9.8 N per kgf. [Pa] (paper, section 3.1)"""
+_TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 
-def timber(young=TIMBER_YOUNG, poisson=0.4, density=TIMBER_DENSITY, friction=0.5, label=""):
+def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density, friction=_TIMBER.friction, label=""):
     """Material of timber elements: Young's modulus [Pa], Poisson's ratio [-], density [kg/m3], friction coefficient [-].
 
     A pair of materials has the smaller of its two friction coefficients. Raises ValueError outside the physical range.
@@ -26,7 +23,7 @@ def timber(young=TIMBER_YOUNG, poisson=0.4, density=TIMBER_DENSITY, friction=0.5
     )
 
 
-def snow(density=90.0, stiffness_per_kg=3.948e4, friction=0.5, label=""):
+def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, friction=_SNOW.friction, label=""):
     """Material of snow elements: density [kg/m3], contact stiffness per mass [N/m/kg] (paper, Table 1), friction [-]."""
     return yw.SnowMat(
         density=arguments.number("snow: density", density, "kg/m3"),
@@ -57,27 +54,33 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     fixed = arguments.flag("fixed", fixed)
     radius = 0 if radius is None else arguments.positive("radius", radius, "m")
     name, kind = arguments.text("name", name), arguments.text("kind", kind)
-    vertices = arguments.points("vertices", vertices)
+    look = {} if color is None else {"color": arguments.vector("color", color)}
+    body = principal_body(arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind, **look)
+    body.material = material
+    body.bound = yw.Aabb()
+    body.dynamic = not fixed
+    return body
+
+
+def principal_body(vertices, density, radius, **look):
+    """Body with its shape, and a state whose axes are the principal axes of inertia.
+
+    vertices (n, 3) world frame [m]; density [kg/m3]; radius [m], 0 for the default; look: name, kind, color of the shape
+    """
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
     raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
     volume, centroid, inertia, axes = raw.massProperties()
     axes = Quaternion(axes)
     corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
-    local = [Vector3(*v) for v in to_digits(corners)]
     principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    look = {} if color is None else {"color": arguments.vector("color", color)}
-    body.shape = yw.RoundedPolyhedron(vertices=local, radius=radius, name=name, kind=kind, **look)
-    body.material = material
-    body.state.mass = material.density * volume
-    body.state.inertia = material.density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
+    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in to_digits(corners)], radius=radius, **look)
+    body.state.mass = density * volume
+    body.state.inertia = density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
     body.state.pos = body.state.refPos = Vector3(*origin) + centroid
     body.state.ori = body.state.refOri = axes
-    body.bound = yw.Aabb()
     body.aspherical = True
-    if fixed:
-        body.dynamic = False
     return body
 
 

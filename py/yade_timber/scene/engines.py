@@ -7,11 +7,12 @@ from yade.minieigenHP import Vector3
 
 from . import arguments
 
-GRAVITY = (0.0, 0.0, -9.81)
+GRAVITY = tuple(yw.UniformGravity().gravity)
 """[m/s2]"""
 BOUND_MARGIN = 5e-3
 """Distance that bodies may move before the collider runs again [m]; results do not depend on it."""
 
+_FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().dampingRatio  # with their defaults
 O = yw.Omega()
 
 
@@ -37,9 +38,10 @@ class ContactOptions:
     def loop(self):
         """ContactLoop with the functors of timber and snow. YADE ends the process for a pair of materials without a functor."""
         geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge, flushSupports=self.flush_supports)
-        pairs = [kind(dampingRatio=self.damping_ratio) for kind in (yw.Ip2_TimberMat_TimberMat_TimberPhys, yw.Ip2_ElementMat_ElementMat_SnowPhys)]
+        functors = (yw.Ip2_TimberMat_TimberMat_TimberPhys, yw.Ip2_ElementMat_ElementMat_SnowPhys)
+        physics = [functor(dampingRatio=self.damping_ratio) for functor in functors]
         laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=self.increment), yw.Law2_ManifoldGeom_SnowPhys_Linear()]
-        return yw.ContactLoop(loop=yw.InteractionLoop([geometry], pairs, laws))
+        return yw.ContactLoop(loop=yw.InteractionLoop([geometry], physics, laws))
 
     def forces(self):
         """ContactForces with these options."""
@@ -54,9 +56,9 @@ def engines(
     vertex_edge=False,
     flush_supports=True,
     increment=False,
-    damping_ratio=1.0,
-    sweeps=50,
-    tolerance=1e-3,
+    damping_ratio=_RATIO,
+    sweeps=_FORCES.sweeps,
+    tolerance=_FORCES.tolerance,
     track_energy=True,
     health_check=100,
     skip_rest=0,
@@ -75,7 +77,7 @@ def engines(
     tolerance      largest change of an island's contact impulses in the last sweep, relative to their root mean square [-]
     track_energy   whether `energy()` is available
     health_check   steps between checks for finite numbers; 0: no check of scene and engines at all
-    skip_rest      RestSkipper.stride: of so many steps one is computed while scene and ground are at rest; 0: all are computed
+    skip_rest      number of steps of which one is computed while scene and ground are at rest (RestSkipper.stride); 0: all are computed
     """
     contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance, track_energy)
     chain = [yw.HealthCheck(every=health_check)] if arguments.count("engines: health_check", health_check) else []
@@ -120,9 +122,9 @@ def joint_engine(joints):
     return engine
 
 
-def find_engine(kind):
+def find_engine(classes):
     """The first engine of a class, or of one of a tuple of classes, in `O.engines`; None without one."""
-    return next((e for e in O.engines if isinstance(e, kind)), None)
+    return next((e for e in O.engines if isinstance(e, classes)), None)
 
 
 def gravity_now():

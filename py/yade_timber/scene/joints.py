@@ -9,14 +9,14 @@ from yade.minieigenHP import Vector3
 from . import arguments
 from .engines import find_engine
 
-JOINT_READINGS = {"spring": False, "joint": True}
+PER_JOINT = {"spring": False, "joint": True}
 """Owner of stiffness and strength -> TimberJoint.perJoint."""
 
 O = yw.Omega()
 
 
 @dataclass(frozen=True)
-class Springs:
+class JointValues:
     """Springs of a joint: the attributes of `house.model.JointSpec` that `make_joint` needs, meaning as in `connect`."""
 
     points: np.ndarray
@@ -36,7 +36,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     points     (n, 3) world frame [m]: the springs are unstretched in the present placement
     normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
     stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
-    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown reading.
+    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`.
     """
     require_bodies("connect", id1, id2)
     if id1 == id2:
@@ -49,9 +49,9 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
 
 
 def checked_springs(points, normal, stiffness, strength, per, kind, name):
-    """Springs of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
-    if not isinstance(per, str) or per not in JOINT_READINGS:
-        arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(JOINT_READINGS)}")
+    """JointValues of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
+    if not isinstance(per, str) or per not in PER_JOINT:
+        arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
     points = arguments.points("connect: points", points)
     if normal is not None:
         normal = arguments.vector("connect: normal", normal)
@@ -60,7 +60,7 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name):
     kn, ks = arguments.numbers_of_shape("connect: stiffness", stiffness, (2,), "two finite numbers > 0 [N/m]")
     kn, ks = arguments.positive("connect: stiffness[0]", kn, "N/m"), arguments.positive("connect: stiffness[1]", ks, "N/m")
     strength = arguments.positive("connect: strength", strength, "N", infinite=True)
-    return Springs(points, normal, kn, ks, strength, per, arguments.text("connect: kind", kind), arguments.text("connect: name", name))
+    return JointValues(points, normal, kn, ks, strength, per, arguments.text("connect: kind", kind), arguments.text("connect: name", name))
 
 
 def add_joint_engine():
@@ -75,7 +75,7 @@ def add_joint_engine():
 
 
 def make_joint(id1, id2, springs):
-    """TimberJoint between two bodies of the scene in their present placement; springs: Springs or a house's JointSpec."""
+    """TimberJoint between two bodies of the scene in their present placement; springs: JointValues or a house's JointSpec."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
@@ -88,7 +88,7 @@ def make_joint(id1, id2, springs):
         kn=springs.kn,
         ks=springs.ks,
         strength=springs.strength,
-        perJoint=JOINT_READINGS[springs.per],
+        perJoint=PER_JOINT[springs.per],
         broken=[int(springs.broken)] * len(points),
         kind=springs.kind,
         name=springs.name,

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import yade.wrapper as yw
 
 from ..base.colors import KINDS
-from ..base.time_step import DEFAULT_DT, MAX_DT, MIN_DT  # noqa: F401  (benchmarks and tests take the limits from here)
+from ..base.time_step import DEFAULT_DT
 from ..house import build_house, load_house
 from ..house.errors import StepError
 from ..house.friction import own_coefficient
@@ -15,8 +15,6 @@ from .queries import stable_dt
 
 O = yw.Omega()
 
-REST_STRIDE = 200
-"""Steps that are skipped at a time while the house rests, in scenes without recording; 0.05 s at the default step. [-]"""
 JOINT_SAFETY = 0.98
 """Largest time step over the joints' stability limit, which is that of linear springs without dashpots. [-]"""
 
@@ -38,10 +36,10 @@ class Scenario:
     options: dict = field(default_factory=dict)
 
 
-def build(scenario, stride=REST_STRIDE):
+def build(scenario, stride=yw.RestSkipper().stride):
     """Build the scenario's scene in an emptied YADE; returns the HouseModel.
 
-    stride: steps to skip at a time while the house rests (`skip_rest` in the scenario's options has precedence)
+    stride: number of steps of which one is computed while scene and ground are at rest (`skip_rest` in the scenario's options has precedence)
     """
     model = build_house(load_house(scenario.house), snow_depth=scenario.snow_depth)
     O.reset()

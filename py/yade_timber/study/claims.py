@@ -196,7 +196,7 @@ CLAIMS = {  # name -> (claim, check, runs that the check takes)
     "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow, ("modelA_snow",)),
     "S2": ("B, snow: stands still", stands_still, ("modelB_snow",)),
     "S3": ("C, snow: stands still", stands_still, ("modelC_snow",)),
-    "D1": ("B1, earthquake: sways greatly E-W; on the first floor's west side column-beam joints break, brace-beam joints do not; no collapse",
+    "D1": ("B1, earthquake: sways greatly E-W; on the first storey's west side column-beam joints break, brace-beam joints do not; no collapse",
            east_side_broken, ("modelB1_quake",)),
     "D2": ("B2, earthquake: sways N-S; more damage N-S and less E-W than B1", south_side_broken, ("modelB2_quake", "modelB1_quake")),
     "D3": ("C1, earthquake: sways E-W, deforms less than B1", sways_less, ("modelC1_quake", "modelB1_quake")),

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.lock import held
+from ..base.lock import is_locked
 from ..run.identity import made_from
 
 END, LOG, SUMMARY = "run.json", "run.log", "summary.json"
@@ -118,7 +118,7 @@ class _Process:
         self.task, self.child, self.start = task, None, time.monotonic()
         task.folder.mkdir(parents=True, exist_ok=True)
         self.outdated = (task.folder / SUMMARY).exists()
-        if held(task.folder):
+        if is_locked(task.folder):
             return
         for name in (END, SUMMARY):
             (task.folder / name).unlink(missing_ok=True)

@@ -6,7 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from ..base.errors import RunError
+from ..base.errors import InputError, RunError
 from ..base.time_step import DEFAULT_DT
 from ..house import HouseError, load_house
 from ..motion import MotionRequest, RecordError
@@ -29,7 +29,7 @@ def run_script(main):
     """Call main() and exit with what it returns; expected errors become one line and exit status 1."""
     try:
         sys.exit(main())
-    except (RunError, HouseError, RecordError, OSError) as problem:
+    except (InputError, OSError) as problem:
         sys.exit(f"error: {problem}")
     except KeyboardInterrupt:
         sys.exit("stopped; the same command continues")
