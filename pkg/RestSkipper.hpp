@@ -25,7 +25,7 @@ public:
 		"Skips steps while scene and ground are at rest. One step of each stride is computed, so that motion ends the skipping. Must be the last engine. "
 		"The scene is at rest when three conditions hold over the time restTime. No body was faster than speed; none was displaced by more than displacement; "
 		"the largest displacement of the second half is at most growth times that of the first half, so that a house that begins to tilt is not skipped. Displacements are those of the bodies' centres in the computed steps.",
-		((int, stride, 250, Attr::triggerPostLoad, "Number of steps of which one is computed at rest. [-]"))
+		((int, stride, 250, Attr::triggerPostLoad, "Number of steps of which one is computed while scene and ground are at rest. [-]"))
 		((Real, restTime, 1.5, Attr::triggerPostLoad, "Time over which the scene is observed before steps are skipped. [s]"))
 		((Real, speed, 1e-3, Attr::triggerPostLoad, "Largest speed of a body at rest, plus its angular velocity times 1 m. [m/s]"))
 		((Real, displacement, 1e-5, Attr::triggerPostLoad, "Largest displacement of a body's centre at rest. [m]"))

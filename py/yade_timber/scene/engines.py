@@ -75,7 +75,7 @@ def engines(
     tolerance      largest change of an island's contact impulses in the last sweep, relative to their root mean square [-]
     track_energy   whether `energy()` is available
     health_check   steps between checks for finite numbers; 0: no check of scene and engines at all
-    skip_rest      RestSkipper.stride: of so many steps one is computed while scene and ground are at rest; 0: all are computed
+    skip_rest      number of steps of which one is computed while scene and ground are at rest (RestSkipper.stride); 0: all are computed
     """
     contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance, track_energy)
     chain = [yw.HealthCheck(every=health_check)] if arguments.count("engines: health_check", health_check) else []

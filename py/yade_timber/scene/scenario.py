@@ -41,7 +41,7 @@ class Scenario:
 def build(scenario, stride=REST_STRIDE):
     """Build the scenario's scene in an emptied YADE; returns the HouseModel.
 
-    stride: steps to skip at a time while the house rests (`skip_rest` in the scenario's options has precedence)
+    stride: number of steps of which one is computed while scene and ground are at rest (`skip_rest` in the scenario's options has precedence)
     """
     model = build_house(load_house(scenario.house), snow_depth=scenario.snow_depth)
     O.reset()
