@@ -12,19 +12,20 @@ YADE_PLUGIN((ContactForces));
 
 namespace {
 	/// Placement, velocities, mass and inertia of a body; the new velocities are without its forces.
-	void setBody(timber::SolverBody& own, const State& s)
+	void setBody(timber::SolverBody& body, const State& s)
 	{
-		own.position = s.pos;
-		own.velocity = own.newVelocity = s.vel;
-		own.spin = own.newSpin = s.angVel;
-		own.inverseMass = 0;
-		own.inverseInertia.setZero();
+		body.position = s.pos;
+		body.velocity = body.newVelocity = s.vel;
+		body.spin = body.newSpin = s.angVel;
+		body.inverseMass = 0;
+		body.inverseInertia.setZero();
 		if (!isFree(s)) return;
 		const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
-		own.inverseMass = 1 / s.mass;
+		body.inverseMass = 1 / s.mass;
+		// element by element: for the matrix product Eigen would make a function call (slower)
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
-				own.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j)); // as a product of matrices Eigen calls a function for each
+				body.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j));
 	}
 }
 
@@ -45,19 +46,21 @@ void ContactForces::sortPairs()
 /// Pairs with contact points or released energy, in the container's order.
 void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& found)
 {
-	static const int ours = ManifoldGeom::getClassIndexStatic();
+	static const int manifoldIndex = ManifoldGeom::getClassIndexStatic();
 	found.clear();
 	for (const shared_ptr<Interaction>& I : *scene.interactions) {
-		if (!I->isReal() || I->geom->getClassIndex() != ours) continue;
+		if (!I->isReal() || I->geom->getClassIndex() != manifoldIndex) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
-			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.lostEnergy });
+			found.push_back(
+			        { I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy });
 	}
 }
 
 void ContactForces::collectPairs()
 {
 	findPairs(*scene, found);
+	// the order of the last step is reused while the pairs are the same
 	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(found[k]); };
 	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds)) sortPairs();
 	pairs.resize(found.size());
@@ -68,11 +71,11 @@ void ContactForces::collectBody(Body::id_t id)
 {
 	const shared_ptr<Body>& b = (*scene->bodies)[id];
 	if (!b) return;
-	timber::SolverBody& own = bodies[id];
-	setBody(own, *b->state);
-	if (own.inverseMass == 0) return;
-	own.newVelocity += scene->dt * own.inverseMass * scene->forces.getForce(id);
-	own.newSpin += scene->dt * own.inverseInertia * scene->forces.getTorque(id);
+	timber::SolverBody& body = bodies[id];
+	setBody(body, *b->state);
+	if (body.inverseMass == 0) return;
+	body.newVelocity += scene->dt * body.inverseMass * scene->forces.getForce(id);
+	body.newSpin += scene->dt * body.inverseInertia * scene->forces.getTorque(id);
 }
 
 void ContactForces::collectBodies()
@@ -93,15 +96,16 @@ void ContactForces::findIslands()
 	islands.find(bodies.size(), links);
 }
 
-void ContactForces::prepareContacts(timber::ContactSolver& solver, size_t k, const ContactPair& p)
+void ContactForces::preparePair(timber::ContactSolver& solver, size_t k, const ContactPair& p)
 {
-	const Real inverseMass = timber::inverseMass(bodies[p.id1], bodies[p.id2]);
-	if (inverseMass > 0) p.phys->mass = 1 / inverseMass; // bodies may be fixed, freed or get another mass in a session
+	const Real inverseMass = timber::pairInverseMass(bodies[p.id1], bodies[p.id2]);
+	// bodies may be fixed, freed or get another mass in a session; the elastic law of this step had the old mass
+	if (inverseMass > 0) p.phys->mass = 1 / inverseMass;
 	const bool refresh = (scene->iter + p.id1 + p.id2) % timber::responseSteps == 0; // spread over the steps, reproducible after a load
 	timber::prepareContacts({ solver, bodies, scene->dt }, k, p.phys->properties(), refresh, p.geom->contactPoints, p.phys->records);
 }
 
-void ContactForces::storeForces(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)
+void ContactForces::storePair(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)
 {
 	const timber::PairForce f
 	        = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
@@ -110,7 +114,7 @@ void ContactForces::storeForces(timber::ContactSolver& solver, size_t k, const C
 }
 
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
-ContactForces::IslandResult ContactForces::solve(timber::Islands::Island island)
+ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island island)
 {
 	IslandResult result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
@@ -118,10 +122,10 @@ ContactForces::IslandResult ContactForces::solve(timber::Islands::Island island)
 	solver.begin(sweeps);
 	for (const int pair : island)
 		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
-	timber::forAll(count, [&](int k) { prepareContacts(solver, k, pairs[island[k]]); });
+	timber::forAll(count, [&](int k) { preparePair(solver, k, pairs[island[k]]); });
 	result.sweeps = solver.solve(bodies, tolerance);
 	for (int k = 0; k < count; ++k)
-		storeForces(solver, k, pairs[island[k]], result.energies);
+		storePair(solver, k, pairs[island[k]], result.energies);
 	return result;
 }
 
@@ -132,25 +136,25 @@ void ContactForces::solveAll()
 	solvers.resize(timber::threadCount());
 	if (count > 0)
 		timber::forAll(
-		        count, [this](int k) { results[k] = solve(islands[k]); }, int(pairs.size()) / count);
+		        count, [this](int k) { results[k] = solveIsland(islands[k]); }, int(pairs.size()) / count);
 }
 
 void ContactForces::sumResults()
 {
 	elasticNormal = elasticShear = elasticPower = 0;
 	for (const ContactPair& pair : pairs)
-		if (trackEnergy) lost += pair.lost;
-	int most = 0;
-	for (const IslandResult& of : results) {
-		dashpotNormal += of.energies.dashpotNormal;
-		dashpotShear += of.energies.dashpotShear;
-		friction += of.energies.friction;
-		elasticNormal += of.energies.elasticNormal;
-		elasticShear += of.energies.elasticShear;
-		elasticPower += of.energies.elasticPower;
-		most = std::max(most, of.sweeps);
+		if (trackEnergy) released += pair.released;
+	int maxSweeps = 0;
+	for (const IslandResult& result : results) {
+		dashpotNormal += result.energies.dashpotNormal;
+		dashpotShear += result.energies.dashpotShear;
+		friction += result.energies.friction;
+		elasticNormal += result.energies.elasticNormal;
+		elasticShear += result.energies.elasticShear;
+		elasticPower += result.energies.elasticPower;
+		maxSweeps = std::max(maxSweeps, result.sweeps);
 	}
-	sweepsDone += most;
+	sweepsDone += maxSweeps;
 }
 
 void ContactForces::action()

@@ -10,14 +10,15 @@
 namespace yade {
 
 class ContactForces : public GlobalEngine {
-	/// A pair in this step. Pairs are ordered by island and body ids, not by the container's order: the sums then depend neither on threads
-	/// nor on the history of the collider.
+	/// A pair in this step. Pairs are ordered by body ids (an island lists indices of them), not in the container's order: the sums then
+	/// depend neither on threads nor on the history of the collider. Copies of phys's numbers save reading phys for them: it is seldom in
+	/// the processor's cache.
 	struct ContactPair {
 		Body::id_t id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
 		ManifoldPhys* phys;
 		size_t points; ///< copy of the number of phys's records
-		Real lost; ///< copy of phys->lostEnergy [J]
+		Real released; ///< copy of phys->releasedEnergy [J]
 		bool hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
 	struct IslandResult {
@@ -39,9 +40,9 @@ class ContactForces : public GlobalEngine {
 	void collectBody(Body::id_t);
 	void collectBodies();
 	void findIslands();
-	void prepareContacts(timber::ContactSolver&, size_t k, const ContactPair&);
-	void storeForces(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
-	IslandResult solve(timber::Islands::Island);
+	void preparePair(timber::ContactSolver&, size_t k, const ContactPair&);
+	void storePair(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
+	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
 
@@ -63,7 +64,7 @@ public:
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots and by Newmark's term. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
-		((Real, lost, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
+		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))
 		((Real, elasticPower, 0, , "Rate of change of the springs' energy at the velocities after the last step. [W]")),

@@ -24,7 +24,7 @@ namespace {
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
 	}
 
-	/// Contact stiffness of an element of snow; infinite for other elements. [N/m]
+	/// Contact stiffness of an element of snow; infinite for timber (SceneCheck.cpp refuses pairs without snow). [N/m]
 	Real snowStiffness(const Material& material, const Body& body)
 	{
 		const auto snow = dynamic_cast<const SnowMat*>(&material);
@@ -45,12 +45,12 @@ namespace {
 		Phys& phys = *static_cast<Phys*>(p);
 		const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 		if (geom.contactPoints.empty() && phys.records.empty()) {
-			phys.lostEnergy = 0;
+			phys.releasedEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
 		const timber::PairProperties pair = phys.properties();
-		phys.lostEnergy = timber::elasticPair(phys.law(), { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) },
-		        geom.contactPoints, phys.records);
+		phys.releasedEnergy = timber::elasticPair(phys.law(),
+		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) }, geom.contactPoints, phys.records);
 		return true;
 	}
 
@@ -86,7 +86,7 @@ boost::python::list ManifoldPhys::pyPoints() const
 {
 	boost::python::list all;
 	for (const timber::PointRecord& p : records)
-		all.append(boost::python::make_tuple(p.id.bits, Real(p.normal), Vector3r(p.shear), Vector3r(p.dashpot)));
+		all.append(boost::python::make_tuple(p.id.bits, Real(p.normalForce), Vector3r(p.shearForce), Vector3r(p.dashpotForce)));
 	return all;
 }
 

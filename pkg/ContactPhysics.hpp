@@ -11,11 +11,11 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
 		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
-		ar& make_nvp("normal", p.normal) & make_nvp("energy", p.energy) & make_nvp("shear", p.shear) & make_nvp("dashpot", p.dashpot)
+		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce) & make_nvp("dashpot", p.dashpotForce)
 		        & make_nvp("closing", p.closing);
 		ar& make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
 	}
-	/// PointStep is not saved: it ends with its step.
+	/// PointScratch is not saved: it ends with its step.
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
 	{
 		ar& make_nvp("history", static_cast<timber::PointHistory&>(p));
@@ -31,9 +31,9 @@ public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
 	/// No contact points, and no energy released in the last step.
-	bool isIdle() const { return records.empty() && lostEnergy == 0; }
+	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio }; }
-	/// Contact points as dictionaries, see ``yade_timber.contacts``.
+	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
 
 	// clang-format off
@@ -44,7 +44,7 @@ public:
 		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping, C = 2 ratio sqrt(m K). [-] (paper, Eqs. 41-42: 1)"))
 		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: the cores touch. [m]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by feature id. [-]"))
-		((Real, lostEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded points that ceased to exist, minus the energy given to new points. [J]")),
+		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,
 		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
 	);

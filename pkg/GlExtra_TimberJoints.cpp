@@ -62,7 +62,7 @@ void GlExtra_TimberJoints::render()
 			const Body* b = bodyAt(*scenePtr, j->id1);
 			if (!b || j->anchors1.empty()) continue;
 			const Vector3r x = positionOf(*j, *b->state);
-			if (j->isFinished()) drawCross(x, cross);
+			if (j->isBroken()) drawCross(x, cross);
 			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size())) drawDot(x, amber, 1.5 * size);
 			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
 		}

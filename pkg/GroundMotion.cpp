@@ -46,7 +46,7 @@ namespace {
 	}
 }
 
-Real GroundMotionEngine::workUntilNow(const Scene& of) const { return work - of.dt * lastAcceleration.dot(lastMomentum + freeMomentum(of)) / 2; }
+Real GroundMotionEngine::workUntilNow(const Scene& current) const { return work - current.dt * lastAcceleration.dot(lastMomentum + freeMomentum(current)) / 2; }
 
 void GroundMotionEngine::action()
 {

@@ -49,10 +49,10 @@ void HealthCheck::checkState(const Body& b) const
 	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0)) checkBody(b);
 	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) return;
 	checkBodies(); // another cause than the time step
-	std::ostringstream what;
-	what << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
-	     << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s; the time step " << scene->dt << " s is probably too large";
-	throw std::runtime_error(what.str());
+	std::ostringstream message;
+	message << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
+	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s; the time step " << scene->dt << " s is probably too large";
+	throw std::runtime_error(message.str());
 }
 
 void HealthCheck::action()

@@ -19,9 +19,9 @@ namespace {
 	/// Acceleration of gravity, this package's or YADE's. [m/s2]
 	Vector3r gravityOf(const Scene& scene)
 	{
-		if (const auto* ours = findEngine<UniformGravity>(scene)) return ours->gravity;
-		const auto* theirs = findEngine<GravityEngine>(scene);
-		return theirs ? theirs->gravity : Vector3r(Vector3r::Zero());
+		if (const auto* engine = findEngine<UniformGravity>(scene)) return engine->gravity;
+		const auto* other = findEngine<GravityEngine>(scene);
+		return other ? other->gravity : Vector3r(Vector3r::Zero());
 	}
 
 	/// [J]
@@ -53,7 +53,7 @@ namespace {
 	{
 		const JointEngine* engine = findEngine<JointEngine>(scene);
 		if (!engine) return 0;
-		return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isFinished(); }));
+		return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
 	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
@@ -65,7 +65,7 @@ namespace {
 		const Real half = scene.dt / 2;
 		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0,
 			j ? j->elastic + half * j->elasticPower(scene) : 0, g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
-			c ? c->friction : 0, j ? j->released : 0, c ? c->lost : 0 };
+			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0 };
 	}
 }
 

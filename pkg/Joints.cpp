@@ -122,24 +122,24 @@ void JointEngine::collectAxes()
 		if (b) axes[b->getId()] = b->state->ori.toRotationMatrix();
 }
 
-timber::JointPull JointEngine::pull(TimberJoint& joint) const
+timber::JointForce JointEngine::forceOf(TimberJoint& joint) const
 {
 	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
-	if (b1 && b2) return timber::pullSprings(joint.stiffness(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs());
+	if (b1 && b2) return timber::springForces(joint.stiffness(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs());
 	joint.breakAll(); // a body was erased
 	return {};
 }
 
-void JointEngine::pullAll()
+void JointEngine::computeForces()
 {
 	const int count = int(joints.size());
-	pulls.assign(count, timber::JointPull());
+	jointForces.assign(count, timber::JointForce());
 	timber::forAll(count, [this](int k) {
-		if (!joints[k]->isFinished()) pulls[k] = pull(*joints[k]);
+		if (!joints[k]->isBroken()) jointForces[k] = forceOf(*joints[k]);
 	});
 }
 
-/// Breaks the overloaded springs of a joint and logs them; the other springs are pulled again.
+/// Breaks the overloaded springs of a joint and logs them; computes the forces of the others again.
 void JointEngine::breakSprings(size_t index)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
@@ -147,7 +147,7 @@ void JointEngine::breakSprings(size_t index)
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
 	for (const timber::SpringBreak& found :
-	        timber::springBreaks(joint.stiffness(), joint.strengthRule(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
+	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
 		const shared_ptr<JointBreak> entry(new JointBreak);
 		entry->time = scene->time;
 		entry->joint = int(index);
@@ -158,30 +158,30 @@ void JointEngine::breakSprings(size_t index)
 		released += found.energy;
 		joint.breakSpring(found.spring);
 	}
-	pulls[index] = pull(joint);
+	jointForces[index] = forceOf(joint);
 }
 
 /// Breaks and sums in the order of the joints: results do not depend on the number of threads.
-void JointEngine::sumPulls()
+void JointEngine::breakAndSum()
 {
 	elastic = 0;
 	sums.clear(axes.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
-		if (timber::isOverloaded(joint.strengthRule(), pulls[k])) breakSprings(k);
-		const timber::JointPull& pull = pulls[k];
-		if (pull.energy == 0) continue; // all springs broken or unstretched
-		elastic += pull.energy;
-		sums.add(joint.id1, pull.force, pull.torqueA);
-		sums.add(joint.id2, -pull.force, pull.torqueB);
+		if (timber::isOverloaded(joint.jointStrength(), jointForces[k])) breakSprings(k);
+		const timber::JointForce& total = jointForces[k];
+		if (total.energy == 0) continue; // all springs broken or unstretched
+		elastic += total.energy;
+		sums.add(joint.id1, total.force, total.torqueA);
+		sums.add(joint.id2, -total.force, total.torqueB);
 	}
 }
 
-Real JointEngine::elasticPower(const Scene& of) const
+Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
 	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
+		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
 			const State &s1 = *b1->state, &s2 = *b2->state;
@@ -192,10 +192,10 @@ Real JointEngine::elasticPower(const Scene& of) const
 	return power;
 }
 
-void JointEngine::addSprings(const Scene& of, std::vector<timber::PointSpring>& springs) const
+void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& springs) const
 {
 	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(of, j->id1), *b2 = bodyAt(of, j->id2);
+		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
 		const Real stiffness = math::max(j->stiffness().normal, j->stiffness().shear);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
@@ -209,8 +209,8 @@ void JointEngine::addSprings(const Scene& of, std::vector<timber::PointSpring>& 
 void JointEngine::action()
 {
 	collectAxes();
-	pullAll();
-	sumPulls();
+	computeForces();
+	breakAndSum();
 	sums.handOver(*scene);
 }
 

@@ -13,11 +13,11 @@ public:
 	void validate() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const;
-	bool isFinished() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
+	bool isBroken() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
 	boost::python::list pySprings() const;
-	timber::JointStrength strengthRule() const { return { strength, perJoint }; }
+	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
 	timber::JointSprings springs() { return { anchors1, anchors2, broken, stretches, forces }; }
 	void breakSpring(size_t spring);
 	void breakAll();
@@ -40,7 +40,7 @@ public:
 		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
-		.add_property("isFinished", &TimberJoint::isFinished, "Whether all springs are broken. [-]")
+		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
 		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]")
 	);
 	// clang-format on
@@ -62,7 +62,7 @@ REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
 	std::vector<Matrix3r> axes; ///< rotation matrices of the bodies, by id
-	std::vector<timber::JointPull> pulls; ///< of the joints' unbroken springs in this step
+	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
 	BodyForces sums; ///< of the joints
 
 	void collectAxes();
@@ -70,10 +70,10 @@ class JointEngine : public GlobalEngine {
 	{
 		return { axes[joint.id1], axes[joint.id2], s2.pos - s1.pos };
 	}
-	timber::JointPull pull(TimberJoint&) const;
-	void pullAll();
+	timber::JointForce forceOf(TimberJoint&) const;
+	void computeForces();
 	void breakSprings(size_t joint);
-	void sumPulls();
+	void breakAndSum();
 
 public:
 	void action() override;

@@ -66,7 +66,7 @@ boost::python::tuple packedContacts()
 			if (record == phys->records.end()) continue;
 			pairs.insert(pairs.end(), { i->getId1(), i->getId2() });
 			append(positions, point.position);
-			append(forces, record->normal * point.normal + record->shear + record->dashpot);
+			append(forces, record->normalForce * point.normal + record->shearForce + record->dashpotForce);
 		}
 	}
 	return boost::python::make_tuple(bytes(pairs), bytes(positions), bytes(forces));

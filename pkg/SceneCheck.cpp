@@ -97,16 +97,45 @@ namespace {
 		        + " functor for " + classA + " and " + classB);
 	}
 
+	/// Contact law of two materials.
+	struct ContactLaw {
+		const char *material1, *material2; ///< in either order
+		const char* argument; ///< both materials of the Ip2 functor
+		const char* phys; ///< IPhys that it makes
+	};
+	const std::vector<ContactLaw> contactLaws {
+		{ "TimberMat", "TimberMat", "TimberMat", "TimberPhys" },
+		{ "TimberMat", "SnowMat", "ElementMat", "SnowPhys" },
+		{ "SnowMat", "SnowMat", "ElementMat", "SnowPhys" },
+	};
+
+	/// Null if there is no law for the two materials.
+	const ContactLaw* findLaw(const string& a, const string& b)
+	{
+		const auto matches = [&](const ContactLaw& law) {
+			return (isKindOf(a, law.material1) && isKindOf(b, law.material2)) || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
+		};
+		const auto found = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
+		return found == contactLaws.end() ? nullptr : &*found;
+	}
+
+	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite stiffness.
+	bool hasIp2(const InteractionLoop& loop, const ContactLaw& law)
+	{
+		const auto& functors = loop.physDispatcher->functors;
+		return std::any_of(functors.begin(), functors.end(),
+		        [&](const auto& f) { return f->get2DFunctorType1() == law.argument && f->get2DFunctorType2() == law.argument; });
+	}
+
 	void checkPair(const InteractionLoop& loop, const Body& a, const Body& b)
 	{
 		const string shapeA = a.shape->getClassName(), shapeB = b.shape->getClassName();
 		if (!dispatches(loop.geomDispatcher->functors, shapeA, shapeB)) refusePair(a, b, "Ig2", shapeA, shapeB);
 		if (!isRounded(a) || !isRounded(b)) return; // laws of other packages
 		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
-		if (!dispatches(loop.physDispatcher->functors, materialA, materialB)) refusePair(a, b, "Ip2", materialA, materialB);
-		const bool isSnow = materialA == "SnowMat" || materialB == "SnowMat";
-		const string phys = isSnow ? "SnowPhys" : "TimberPhys";
-		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", phys)) refusePair(a, b, "Law2", "ManifoldGeom", phys);
+		const ContactLaw* law = findLaw(materialA, materialB);
+		if (!law || !hasIp2(loop, *law)) refusePair(a, b, "Ip2", materialA, materialB);
+		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", law->phys)) refusePair(a, b, "Law2", "ManifoldGeom", law->phys);
 	}
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Elastic part of the contact laws at one contact point (paper, sections 2.3 and 3.1). Dashpots and friction: contact_solver.hpp.
+/// Contact laws at one contact point (paper, sections 2.3 and 3.1): elastic forces, dashpot constants, sliding of the tangential spring.
+/// contact_solver.hpp applies the dashpots and Coulomb's limit of the total force.
 /// Adapters: Law2_ManifoldGeom_TimberPhys_Hertz, Law2_ManifoldGeom_SnowPhys_Linear (pkg/ContactPhysics.hpp), by elasticPair().
 /// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and pushes the bodies
-/// apart.
+/// apart. Joints have the opposite convention (joint_law.hpp).
 #pragma once
 #include "contact_solver.hpp"
 #include "manifold.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 namespace timber {
 
@@ -25,6 +27,9 @@ inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 /// Radius of the sphere of the same volume (section 3.1). volume [m3]; returns [m].
 inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4 * M_PI)); }
 
+// A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy) [m]. F(0) = 0, F
+// increases, and F is approximately a power of n (impactForce()).
+
 /// Timber on timber: Hertz (Eqs. 37-39). overlap n [m].
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
@@ -35,13 +40,13 @@ struct HertzLaw {
 	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
 };
 
-/// Snow: constant stiffness, proportional to the snow's mass (Table 1).
+/// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].
 struct LinearLaw {
 	double constant; ///< [N/m]
-	template <class Number> Number force(Number n) const { return Number(constant) * n; }
-	template <class Number> Number stiffness(Number) const { return Number(constant); }
-	template <class Number> Number energy(Number n) const { return Number(0.5 * constant) * n * n; }
-	double overlapOf(double energy) const { return std::sqrt(2 * energy / constant); }
+	template <class Number> Number force(Number n) const { return Number(constant) * n; } ///< [N]
+	template <class Number> Number stiffness(Number) const { return Number(constant); } ///< [N/m]
+	template <class Number> Number energy(Number n) const { return Number(0.5 * constant) * n * n; } ///< [J]
+	double overlapOf(double energy) const { return std::sqrt(2 * energy / constant); } ///< inverse of energy() [m]
 };
 
 /// Properties of a pair in contact.
@@ -53,14 +58,24 @@ struct PairProperties {
 	double dampingRatio = 1; ///< share of critical damping, C = 2 ratio sqrt(m K) (Eqs. 41, 42: 1) [-]
 };
 
+/// Dashpot constants of a point, C_n (Eq. 41) and C_s (Eq. 42). stiffness: K_n [N/m]; returns [N s/m].
+template <class Number> [[gnu::always_inline]] inline Number normalDamping(const PairProperties& pair, Number stiffness)
+{
+	return Number(2 * pair.dampingRatio) * sqrt(Number(pair.mass) * stiffness);
+}
+template <class Number> [[gnu::always_inline]] inline Number shearDamping(const PairProperties& pair, Number normalDamping)
+{
+	return normalDamping * Number(std::sqrt(pair.shearRatio));
+}
+
 /// State of a point's springs. Forces act on B.
-template <class Number> struct Springs {
+template <class Number> struct PointSprings {
 	Number excess = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
 	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
 	Number stiffness = 0.; ///< K_n [N/m]
-	Number normal = 0.; ///< elastic normal force e_n [N]
+	Number normalForce = 0.; ///< elastic normal force e_n [N]
 	Number energy = 0.; ///< of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
-	Vec3Of<Number> shear = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
+	Vec3Of<Number> shearForce = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
 };
 
 /// Increment of a point's tangential spring in a step, from which the work of friction follows.
@@ -71,18 +86,18 @@ template <class Number> struct ShearIncrement {
 };
 
 /// History of a contact point: saved with the scene.
-struct PointHistory : Springs<double>, PointResponse {
+struct PointHistory : PointSprings<double>, PointResponse {
 	FeatureId id;
-	Vec3 dashpot = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
+	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
 	double closing = 0; ///< closing displacement in the next step, by the velocities after the last one [m]
 };
 
-/// Scratch of one step, from the elastic law to the store phase: not saved.
-struct PointStep : ShearIncrement<double> {
+/// Values of one step, from the elastic law to the store phase: not saved.
+struct PointScratch : ShearIncrement<double> {
 	double impactOverlap = 0; ///< closing displacement that created a new point, until its energy is reassigned; 0: none [m]
 };
 
-struct PointRecord : PointHistory, PointStep { };
+struct PointRecord : PointHistory, PointScratch { };
 
 /// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic energy can
 /// compress. A stiff contact stops a fast light member within the step.
@@ -109,9 +124,15 @@ template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number s
 	return selectLazily(
 	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
-template <class Number> Number shearEnergy(const Springs<Number>& s, const PairProperties& p)
+template <class Number> Number shearEnergy(const PointSprings<Number>& s, const PairProperties& p)
 {
-	return shearEnergy<Number>(s.shear, Number(p.shearRatio) * s.stiffness);
+	return shearEnergy<Number>(s.shearForce, Number(p.shearRatio) * s.stiffness);
+}
+
+/// e_s after sliding: at most friction times the normal force. [N]
+template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce)
+{
+	return clipped<Number>(elasticShear, friction * normalForce);
 }
 
 /// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the plane normal to n.
@@ -119,13 +140,14 @@ template <class Number> Number shearEnergy(const Springs<Number>& s, const PairP
 template <class Number>
 [[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
 {
-	const Number length = shear.squaredNorm();
+	assert(isFinite(rotation));
+	const Number square = shear.squaredNorm(), none = 0.;
 	Vec3Of<Number> t = shear + broadcast<Number>(rotation).cross(shear);
 	t -= t.dot(normal) * normal;
-	const Number rest = t.squaredNorm(), none = 0.;
+	const Number remaining = t.squaredNorm();
 	return t
 	        * selectLazily(
-	                rest > none, [&] { return sqrt(Number(length / rest)); }, [&] { return none; });
+	                remaining > none, [&] { return sqrt(Number(square / remaining)); }, [&] { return none; });
 }
 
 /// Force of a point that begins or ends within a step: its overlap n [m] is below its displacement d in a step [m]. The trapezoidal sum
@@ -133,20 +155,23 @@ template <class Number>
 /// energy. Exact for a linear law. [N]
 template <class Law, class Number> Number grazingForce(const Law& law, Number n, Number d)
 {
+	if constexpr (std::is_same_v<Number, double>) assert(n >= 0 && d > 0); // unused lanes may have d = 0
 	return max(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
 }
 
 /// Elastic force of a new point in the energy balance, once its next displacement d' is known: the force F' at n whose work over the
 /// steps d and d' is the spring's energy after them, F' (d + d') / 2 + F(n + d') d' / 2 = U(n + d'). The rest of the applied force is
 /// dashpot force: dashpots stop a light fast member, for which grazingForce() assumes free flight. With F ~ n^e, e (e + 1) = K n^2 / U.
-/// A separating point that ends in the step after next has only the grazing force then.
 /// At n: energy U [J], stiffness K [N/m], overlap n [m]; displacement d >= n, next d' [m]; returns [N].
 inline double impactForce(double energy, double stiffness, double overlap, double displacement, double next)
 {
 	assert(energy >= 0 && stiffness >= 0 && overlap >= 0 && displacement >= 0 && std::isfinite(next));
+	assert(energy == 0 || (stiffness > 0 && overlap > 0));
 	const double end = overlap + next;
 	if (end <= 0 || energy == 0) return 0; // separates within the step, or hardly touches
-	const double power = (std::sqrt(1 + 4 * stiffness * overlap * overlap / energy) - 1) / 2, force = stiffness * overlap / power, share = end / overlap;
+	const double power = (std::sqrt(1 + 4 * stiffness * overlap * overlap / energy) - 1) / 2;
+	const double force = stiffness * overlap / power, share = end / overlap;
+	// separates before the end of the next step: grazing force
 	if (end < -next) return 2 * std::max(0., energy + force * next / 2) / (displacement + next);
 	return (2 * energy * std::pow(share, power + 1) - force * std::pow(share, power) * next) / (displacement + next);
 }
@@ -156,35 +181,37 @@ enum class NormalForm { Closed, Increment };
 
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
-/// energy. Sliding is decided where the total normal force is known (contact_solver.hpp).
-/// in: law, pair, point, motion, step [s]; in-out: springs (a new point has only its excess).
+/// energy. It slides in storeForces(), once the total normal force is known: limitedShear().
+/// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
 [[gnu::always_inline]] inline ShearIncrement<Number> elasticStep(const Law& law, const PairProperties& pair, const Point& point,
-        const RelativeMotion<Number>& motion, double step, NormalForm form, Springs<Number>& springs)
+        const RelativeMotion<Number>& motion, double h, NormalForm form, PointSprings<Number>& springs)
 {
+	assert(h > 0 && pair.shearRatio > 0 && pair.overlapLimit >= 0);
 	ShearIncrement<Number> increment;
-	const Number h = step, none = 0., limit = pair.overlapLimit, closing = -motion.velocity.dot(point.normal) * h;
+	const Number none = 0., limit = pair.overlapLimit;
+	const Number closing = -motion.velocity.dot(point.normal) * Number(h);
 	springs.excess = min(springs.excess, point.overlap);
 	const Number before = springs.overlap, stiffnessBefore = springs.stiffness, total = point.overlap - springs.excess;
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) {
-		springs.normal = law.force(springs.overlap);
+		springs.normalForce = law.force(springs.overlap);
 		const Number displacement = max(closing, Number(-closing));
 		const auto grazes = logicalAnd(none < springs.overlap, springs.overlap < min(displacement, limit));
-		springs.normal = selectLazily(
-		        grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normal; });
-	} else springs.normal = max(none, Number(springs.normal + springs.stiffness * (springs.overlap - before)));
-	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normal;
+		springs.normalForce = selectLazily(
+		        grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normalForce; });
+	} else springs.normalForce = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
+	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	const Number shearStiffness = Number(pair.shearRatio) * springs.stiffness;
-	springs.shear = rotatedShear<Number>(springs.shear, motion.spin * step, point.normal);
-	increment.shearBefore = springs.shear;
-	increment.shearEnergyBefore = shearEnergy<Number>(springs.shear, Number(pair.shearRatio) * stiffnessBefore);
-	springs.shear *= selectLazily(
+	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);
+	increment.shearBefore = springs.shearForce;
+	increment.shearEnergyBefore = shearEnergy<Number>(springs.shearForce, Number(pair.shearRatio) * stiffnessBefore);
+	springs.shearForce *= selectLazily(
 	        springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
-	increment.slip = (motion.velocity + Number(closing / h) * point.normal) * h;
-	springs.shear -= shearStiffness * increment.slip;
+	increment.slip = (motion.velocity + Number(closing / Number(h)) * point.normal) * Number(h);
+	springs.shearForce -= shearStiffness * increment.slip;
 	return increment;
 }
 

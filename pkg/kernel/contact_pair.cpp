@@ -11,13 +11,13 @@ namespace {
 	/// Relative motion at a contact point x, from the velocities that led to the present placement. They belong to the middle of the last
 	/// step, and so do the lever arms: with the present arms, a pair that rotates as a whole would seem to slide, by h/2 omega^2 per metre
 	/// between the centres.
-	template <class Number> [[gnu::always_inline]] inline RelativeMotion<Number> relativeMotion(const Vec3Of<Number>& x, const PairStep& step)
+	template <class Number> [[gnu::always_inline]] inline RelativeMotion<Number> relativeMotion(const Vec3Of<Number>& x, const ElasticInput& input)
 	{
 		const auto velocity = [&](const BodyKinematics& body) {
 			const Vec3Of<Number> arm = x - broadcast<Number>(body.position), spin = broadcast<Number>(body.spin);
-			return Vec3Of<Number>(broadcast<Number>(body.velocity) + spin.cross(arm - Number(step.h / 2) * spin.cross(arm)));
+			return Vec3Of<Number>(broadcast<Number>(body.velocity) + spin.cross(arm - Number(input.h / 2) * spin.cross(arm)));
 		};
-		return { velocity(step.b) - velocity(step.a), (step.a.spin + step.b.spin) / 2 };
+		return { velocity(input.b) - velocity(input.a), (input.a.spin + input.b.spin) / 2 };
 	}
 
 	bool haveSameFeatures(const Points& points, const Records& records)
@@ -25,41 +25,68 @@ namespace {
 		return std::equal(points.begin(), points.end(), records.begin(), records.end(), [](const auto& p, const auto& r) { return p.id == r.id; });
 	}
 
-	template <class Law> void elasticPoint(const Law& law, const PairStep& step, const ContactPoint& point, PointRecord& record)
+	template <class Law> void elasticPoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
 	{
 		static_cast<ShearIncrement<double>&>(record) = elasticStep<Law, ContactPoint, double>(
-		        law, step.pair, point, relativeMotion<double>(point.position, step), step.h, step.form, record);
+		        law, input.pair, point, relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
-	/// Energy released with a point that ceases to exist. The part that its normal spring returns within the step is not released: all of
-	/// it when the bodies separate. [J]
+	/// Energy released with a point that ceases to exist. Energy that the normal spring returns in the rest of the step is not counted; if
+	/// the bodies separate, that is all of it. [J]
 	template <class Law> double releasedEnergy(const Law& law, const PairProperties& pair, const PointHistory& p)
 	{
-		const double beyond = p.normal > 0 ? (p.energy - law.energy(p.overlap)) / p.normal : 0; // the limit, from where on the force is constant
-		const double rest = std::max(0., p.overlap + beyond + std::min(0., p.closing)), elastic = std::min(rest, p.overlap);
-		return law.energy(elastic) + (rest - elastic) * p.normal + shearEnergy<double>(p, pair);
+		// overlap beyond the limit, where the force is constant [m]
+		const double beyond = p.normalForce > 0 ? (p.energy - law.energy(p.overlap)) / p.normalForce : 0;
+		const double remaining = std::max(0., p.overlap + beyond + std::min(0., p.closing)), elastic = std::min(remaining, p.overlap);
+		return law.energy(elastic) + (remaining - elastic) * p.normalForce + shearEnergy<double>(p, pair);
 	}
 
 	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of it that the point takes. [J]
-	template <class Law> double initialisePoint(const Law& law, const PairStep& step, const ContactPoint& point, double available, PointRecord& record)
+	template <class Law> double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available, PointRecord& record)
 	{
-		const double speed = std::max(0., -relativeMotion<double>(point.position, step).velocity.dot(point.normal)),
-		             approach = approachOverlap(law, step.pair.mass, speed, step.h);
+		const double speed = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal)),
+		             approach = approachOverlap(law, input.pair.mass, speed, input.h);
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
-		elasticPoint(law, step, point, record);
-		if (initial <= std::min(approach, step.pair.overlapLimit) && step.form == NormalForm::Closed)
-			record.impactOverlap = std::max(speed * step.h, record.overlap);
+		elasticPoint(law, input, point, record);
+		if (initial <= std::min(approach, input.pair.overlapLimit) && input.form == NormalForm::Closed)
+			record.impactOverlap = std::max(speed * input.h, record.overlap);
 		return law.energy(initial) - law.energy(std::min(initial, approach));
 	}
 
-	/// Elastic step of points whose features are those of the last step.
-	template <class Law> void stepSameFeatures(const Law& law, const PairStep& step, const Points& points, Records& records)
+	using SpringsOf = PointSprings<double>;
+	using IncrementOf = ShearIncrement<double>;
+
+	/// Springs before the step; the increment form also needs the normal force.
+	template <class Number> [[gnu::always_inline]] inline PointSprings<Number> loadSprings(const Group<Number, PointRecord>& record, NormalForm form)
 	{
-		using SpringsOf = Springs<double>;
-		using IncrementOf = ShearIncrement<double>;
-		const double h = step.h;
-		const NormalForm form = step.form;
+		PointSprings<Number> s;
+		s.excess = record.get(&SpringsOf::excess);
+		s.overlap = record.get(&SpringsOf::overlap);
+		s.stiffness = record.get(&SpringsOf::stiffness);
+		if (form == NormalForm::Increment) s.normalForce = record.get(&SpringsOf::normalForce);
+		s.shearForce = record.get(&SpringsOf::shearForce);
+		return s;
+	}
+
+	template <class Number>
+	[[gnu::always_inline]] inline void saveSprings(
+	        const PointSprings<Number>& s, const ShearIncrement<Number>& increment, const Group<Number, PointRecord>& record)
+	{
+		record.set(&SpringsOf::excess, s.excess);
+		record.set(&SpringsOf::overlap, s.overlap);
+		record.set(&SpringsOf::stiffness, s.stiffness);
+		record.set(&SpringsOf::normalForce, s.normalForce);
+		record.set(&SpringsOf::energy, s.energy);
+		record.set(&SpringsOf::shearForce, s.shearForce);
+		record.set(&IncrementOf::slip, increment.slip);
+		record.set(&IncrementOf::shearBefore, increment.shearBefore);
+		record.set(&IncrementOf::shearEnergyBefore, increment.shearEnergyBefore);
+	}
+
+	/// Elastic step of points whose features are those of the last step.
+	template <class Law> void stepSameFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
+	{
 		inLanes(points.size(), [&](auto number, size_t k) {
 			using Number = decltype(number);
 			struct Placement {
@@ -68,46 +95,33 @@ namespace {
 			};
 			const Group<Number, const ContactPoint> point(&points[k], points.size() - k);
 			const Group<Number, PointRecord> record(&records[k], points.size() - k);
-			Springs<Number> s;
-			s.excess = record.get(&SpringsOf::excess);
-			s.overlap = record.get(&SpringsOf::overlap);
-			s.stiffness = record.get(&SpringsOf::stiffness);
-			if (form == NormalForm::Increment) s.normal = record.get(&SpringsOf::normal);
-			s.shear = record.get(&SpringsOf::shear);
+			PointSprings<Number> springs = loadSprings<Number>(record, input.form);
 			const Placement placement { point.get(&ContactPoint::normal), point.get(&ContactPoint::overlap) };
 			const ShearIncrement<Number> increment = elasticStep<Law, Placement, Number>(
-			        law, step.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), step), h, form, s);
-			record.set(&SpringsOf::excess, s.excess);
-			record.set(&SpringsOf::overlap, s.overlap);
-			record.set(&SpringsOf::stiffness, s.stiffness);
-			record.set(&SpringsOf::normal, s.normal);
-			record.set(&SpringsOf::energy, s.energy);
-			record.set(&SpringsOf::shear, s.shear);
-			record.set(&IncrementOf::slip, increment.slip);
-			record.set(&IncrementOf::shearBefore, increment.shearBefore);
-			record.set(&IncrementOf::shearEnergyBefore, increment.shearEnergyBefore);
+			        law, input.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), input), input.h, input.form, springs);
+			saveSprings<Number>(springs, increment, record);
 		});
 	}
 
 	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy released with the others;
-	/// 2. step all points. Returns the energy released.
-	template <class Law> double stepChangedFeatures(const Law& law, const PairStep& step, const Points& points, Records& records)
+	/// 2. step all points. Returns the energy released minus that given to new points. [J]
+	template <class Law> double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
 		double released = 0;
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.
 			for (; old != records.end() && old->id < points[k].id; ++old)
-				released += releasedEnergy(law, step.pair, *old);
+				released += releasedEnergy(law, input.pair, *old);
 			if (old != records.end() && old->id == points[k].id) next[k] = *old++;
 		}
 		for (; old != records.end(); ++old)
-			released += releasedEnergy(law, step.pair, *old);
+			released += releasedEnergy(law, input.pair, *old);
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;
-			if (isNew && !step.placedInContact) released -= initialisePoint(law, step, points[k], released, next[k]);
-			else elasticPoint(law, step, points[k], next[k]);
+			if (isNew && !input.placedInContact) released -= initialisePoint(law, input, points[k], released, next[k]);
+			else elasticPoint(law, input, points[k], next[k]);
 		}
 		records.swap(next);
 		return released;
@@ -124,7 +138,7 @@ namespace {
 			if (p.impactOverlap == 0) continue;
 			const ContactSolver::Constraint c = step.solver.constraint(k, i);
 			const double before = -relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin).dot(c.normal) * step.h;
-			const double excessForce = p.normal - impactForce(p.energy, p.stiffness, p.overlap, p.impactOverlap, p.closing);
+			const double excessForce = p.normalForce - impactForce(p.energy, p.stiffness, p.overlap, p.impactOverlap, p.closing);
 			energies.dashpotNormal += excessForce * (before + p.closing) / 2;
 			energies.elasticPower -= excessForce * p.closing / step.h;
 			p.impactOverlap = 0;
@@ -138,11 +152,34 @@ namespace {
 		else return solver.constraintGroup(k, point);
 	}
 
-	[[maybe_unused]] bool isValid(const PairStep& step)
+	/// Solver input of points. record: after the elastic step.
+	template <class Number>
+	[[gnu::always_inline]] inline ContactInput<Number> contactInput(const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h,
+	        const Group<Number, const ContactPoint>& point, const Group<Number, const PointRecord>& record)
+	{
+		const Vec3Of<Number> position = point.get(&ContactPoint::position);
+		ContactInput<Number> p;
+		p.armA = position - broadcast<Number>(a.position);
+		p.armB = position - broadcast<Number>(b.position);
+		p.normal = point.get(&ContactPoint::normal);
+		p.elasticNormal = record.get(&PointRecord::normalForce);
+		p.elasticShear = record.get(&PointRecord::shearForce);
+		p.normalDamping = normalDamping<Number>(pair, record.get(&PointRecord::stiffness));
+		p.shearDamping = shearDamping<Number>(pair, p.normalDamping);
+		p.friction = pair.friction;
+		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
+		p.normalResponse = record.get(&PointRecord::normalResponse);
+		p.shearResponse = record.get(&PointRecord::shearResponse);
+		p.normalStiffness = record.get(&PointRecord::stiffness);
+		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
+		return p;
+	}
+
+	[[maybe_unused]] bool isValid(const ElasticInput& input)
 	{
 		const auto isValidBody = [](const BodyKinematics& body) { return isFinite(body.position) && isFinite(body.velocity) && isFinite(body.spin); };
-		return step.h > 0 && std::isfinite(step.h) && isValidBody(step.a) && isValidBody(step.b) && step.pair.shearRatio > 0
-		        && step.pair.overlapLimit >= 0;
+		return input.h > 0 && std::isfinite(input.h) && input.pair.mass > 0 && isValidBody(input.a) && isValidBody(input.b) && input.pair.shearRatio > 0
+		        && input.pair.overlapLimit >= 0;
 	}
 	[[maybe_unused]] bool isValid(const Points& points)
 	{
@@ -154,57 +191,42 @@ namespace {
 
 } // namespace
 
-template <class Law> double elasticPair(const Law& law, const PairStep& step, const Points& points, Records& records)
+template <class Law> double elasticPair(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 {
-	assert(isValid(step) && isValid(points));
-	if (!haveSameFeatures(points, records)) return stepChangedFeatures(law, step, points, records);
-	stepSameFeatures(law, step, points, records);
+	assert(isValid(input) && isValid(points));
+	if (!haveSameFeatures(points, records)) return stepChangedFeatures(law, input, points, records);
+	stepSameFeatures(law, input, points, records);
 	return 0;
 }
-template double elasticPair(const HertzLaw&, const PairStep&, const Points&, Records&);
-template double elasticPair(const LinearLaw&, const PairStep&, const Points&, Records&);
+template double elasticPair(const HertzLaw&, const ElasticInput&, const Points&, Records&);
+template double elasticPair(const LinearLaw&, const ElasticInput&, const Points&, Records&);
 
 void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const Points& points, Records& records)
 {
 	assert(points.size() == records.size() && points.size() == step.solver.pair(k).count);
-	assert(step.h > 0 && pair.mass > 0 && pair.friction >= 0 && pair.dampingRatio >= 0);
+	assert(step.h > 0 && pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0);
 	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
 	for (size_t i = 0; i < points.size(); ++i)
-		if (refresh || records[i].pairInverseMass != inverseMass(a, b))
+		if (refresh || records[i].pairInverseMass != pairInverseMass(a, b))
 			static_cast<PointResponse&>(records[i])
 			        = responseAt(a, b, points[i].position - a.position, points[i].position - b.position, points[i].normal);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
 		const Group<Number, const PointRecord> record(&records[i], points.size() - i);
-		const Vec3Of<Number> position = point.get(&ContactPoint::position);
-		ContactInput<Number> p;
-		p.armA = position - broadcast<Number>(a.position);
-		p.armB = position - broadcast<Number>(b.position);
-		p.normal = point.get(&ContactPoint::normal);
-		p.elasticNormal = record.get(&PointRecord::normal);
-		p.elasticShear = record.get(&PointRecord::shear);
-		p.normalDamping = Number(2 * pair.dampingRatio) * sqrt(Number(pair.mass) * record.get(&PointRecord::stiffness)); // Eq. 41
-		p.shearDamping = p.normalDamping * Number(std::sqrt(pair.shearRatio)); // Eq. 42
-		p.friction = pair.friction;
-		p.impulse = Number(step.h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpot));
-		p.normalResponse = record.get(&PointRecord::normalResponse);
-		p.shearResponse = record.get(&PointRecord::shearResponse);
-		p.normalStiffness = record.get(&PointRecord::stiffness);
-		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
-		step.solver.prepare<Number>(k, i, step.bodies, p, step.h);
+		step.solver.prepare<Number>(k, i, step.bodies, contactInput<Number>(a, b, pair, step.h, point, record), step.h);
 	});
 }
 
 PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, Records& records, PairEnergies* energies)
 {
-	assert(step.h > 0 && records.size() == step.solver.pair(k).count);
+	assert(step.h > 0 && records.size() == step.solver.pair(k).count && pair.friction >= 0 && pair.shearRatio > 0);
 	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
 	const double h = step.h;
 	Sums<9> forces;
 	PairEnergies unused;
-	PairEnergies& own = energies ? *energies : unused;
-	Sums<6> sums(own.dashpotNormal, own.dashpotShear, own.friction, own.elasticNormal, own.elasticShear, own.elasticPower);
+	PairEnergies& result = energies ? *energies : unused;
+	Sums<6> sums(result.dashpotNormal, result.dashpotShear, result.friction, result.elasticNormal, result.elasticShear, result.elasticPower);
 	inLanes(records.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
@@ -213,28 +235,28 @@ PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pa
 		const Group<Number, PointRecord> record(&records[i], count);
 		const Vec &normal = constraint.normal, &armA = constraint.armA, &armB = constraint.armB;
 		const Vec force = constraint.impulse / Number(h), torqueA = -armA.cross(force), torqueB = armB.cross(force);
-		const Number elasticNormal = record.get(&PointRecord::normal);
-		const Vec shear = limitedShear<Number>(record.get(&PointRecord::shear), Number(pair.friction), force.dot(normal));
-		const Vec dashpot = force - elasticNormal * normal - shear;
-		record.set(&PointRecord::shear, shear);
-		record.set(&PointRecord::dashpot, dashpot);
+		const Number elasticNormal = record.get(&PointRecord::normalForce);
+		const Vec shearForce = limitedShear<Number>(record.get(&PointRecord::shearForce), Number(pair.friction), force.dot(normal));
+		const Vec dashpotForce = force - elasticNormal * normal - shearForce;
+		record.set(&PointRecord::shearForce, shearForce);
+		record.set(&PointRecord::dashpotForce, dashpotForce);
 		forces.add<Number>(count, force, torqueA, torqueB);
 		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 		record.set(&PointRecord::closing, Number(-after.dot(normal) * Number(h)));
 		if (!energies) return;
 		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Vec mean = (before + after) / Number(2.);
-		const Number dashpotForce = dashpot.dot(normal),
-		             stored = shearEnergy<Number>(shear, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
-		const Number normalWork = -(Number(h) * dashpotForce * mean.dot(normal)),
-		             shearWork = -(Number(h) * (dashpot - dashpotForce * normal).dot(mean));
-		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shear) / Number(2.) + stored
+		const Number normalDashpot = dashpotForce.dot(normal),
+		             stored = shearEnergy<Number>(shearForce, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
+		const Number normalWork = -(Number(h) * normalDashpot * mean.dot(normal)),
+		             shearWork = -(Number(h) * (dashpotForce - normalDashpot * normal).dot(mean));
+		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shearForce) / Number(2.) + stored
 		        - record.get(&PointRecord::shearEnergyBefore));
 		sums.add<Number>(count, normalWork, shearWork, friction, Number(record.get(&PointRecord::energy)), stored,
-		        Number(-(elasticNormal * normal + shear).dot(after)));
+		        Number(-(elasticNormal * normal + shearForce).dot(after)));
 	});
-	own = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
-	reassignImpactEnergy(step, k, records, own);
+	result = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
+	reassignImpactEnergy(step, k, records, result);
 	return { forces.vector(0), forces.vector(3), forces.vector(6) };
 }
 

@@ -9,7 +9,7 @@
 namespace timber {
 
 /// Input of the elastic step. Velocities of a and b are those of the last step, which led to the present positions.
-struct PairStep {
+struct ElasticInput {
 	const PairProperties& pair;
 	BodyKinematics a, b;
 	double h; ///< length of the step [s]
@@ -20,9 +20,9 @@ struct PairStep {
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.
 /// points: sorted by id; records: in-out.
 /// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J]
-template <class Law> double elasticPair(const Law& law, const PairStep& step, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+template <class Law> double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
-/// The solver's view of a step.
+/// Arguments that prepareContacts() and storeForces() share.
 struct SolverStep {
 	ContactSolver& solver;
 	const std::vector<SolverBody>& bodies;

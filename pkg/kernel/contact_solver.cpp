@@ -31,7 +31,7 @@ namespace {
 
 	/// Coefficients of (2) in one direction of a point.
 	template <class Number> struct ImplicitDirection {
-		Number E; ///< weight of the velocity before the step [kg]
+		Number G; ///< weight of the velocity before the step [kg]
 		Number mass, factor; ///< M [kg], f [-]
 		Number scale; ///< 1 / (1 + a D) [-]
 
@@ -41,18 +41,18 @@ namespace {
 			const Number x = hC * a, theta = Number(0.5) + x / (Number(12.) + Number(2.) * x);
 			const Number y = hhK * a, newmark = hhK * (y / (Number(4.) * y + Number(2.))); // beta h2 K
 			const Number D = hC * theta + newmark;
-			E = newmark - hC * (Number(1.) - theta);
+			G = newmark - hC * (Number(1.) - theta);
 			scale = Number(1.) / (Number(1.) + D * a);
 			mass = scale * D;
 			factor = mass * a;
 		}
 	};
 
-	template <class Number> ContactConstraint<Number> constraintOf(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double step)
+	template <class Number> ContactConstraint<Number> constraintOf(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double h)
 	{
-		const Number h = step, square = step * step, response = p.normal.dot(p.normalResponse);
-		const ImplicitDirection<Number> normal(h * p.normalDamping, square * p.normalStiffness, response);
-		const ImplicitDirection<Number> shear(h * p.shearDamping, square * p.shearStiffness, p.shearResponse);
+		const Number response = p.normal.dot(p.normalResponse);
+		const ImplicitDirection<Number> normal(Number(h) * p.normalDamping, Number(h * h) * p.normalStiffness, response);
+		const ImplicitDirection<Number> shear(Number(h) * p.shearDamping, Number(h * h) * p.shearStiffness, p.shearResponse);
 		const Vec3Of<Number> v = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
 		const Number vn = v.dot(p.normal);
 		ContactConstraint<Number> c;
@@ -63,10 +63,10 @@ namespace {
 		c.friction = p.friction;
 		c.normalFactor = normal.factor;
 		c.normalMass = normal.mass;
-		c.normalBias = normal.scale * (h * p.elasticNormal + normal.E * vn);
+		c.normalBias = normal.scale * (Number(h) * p.elasticNormal + normal.G * vn);
 		c.shearFactor = shear.factor;
 		c.shearMass = shear.mass;
-		c.shearBias = shear.scale * Vec3Of<Number>(h * p.elasticShear + shear.E * (v - vn * p.normal));
+		c.shearBias = shear.scale * Vec3Of<Number>(Number(h) * p.elasticShear + shear.G * (v - vn * p.normal));
 		c.coupling = shear.mass * Vec3Of<Number>(p.normalResponse - response * p.normal);
 		return c;
 	}
@@ -76,11 +76,13 @@ namespace {
 	template <class Number> Vec3Of<Number> explicitImpulse(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double h)
 	{
 		const Vec3Of<Number> v = relativeVelocity<Number>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Number vn = v.dot(p.normal), normal = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normal;
-		const Vec3Of<Number> dashpot = p.shearDamping * (v - vn * p.normal);
-		const Vec3Of<Number> shear = selectLazily(
-		        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpot); });
-		return Number(h) * (normal * p.normal + clipped<Number>(shear, limit));
+		const Number vn = v.dot(p.normal);
+		const Number normalForce = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normalForce;
+		const Vec3Of<Number> dashpotForce = p.shearDamping * (v - vn * p.normal);
+		const Vec3Of<Number> shearForce = selectLazily(
+		        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; },
+		        [&] { return Vec3Of<Number>(p.elasticShear - dashpotForce); });
+		return Number(h) * (normalForce * p.normal + clipped<Number>(shearForce, limit));
 	}
 
 	/// Velocities of a pair while its points are solved.
@@ -134,7 +136,7 @@ PointResponse responseAt(const SolverBody& a, const SolverBody& b, const Vec3& a
 	assert(isFinite(armA) && isFinite(armB) && isUnit(normal));
 	assert(a.inverseMass >= 0 && b.inverseMass >= 0 && isFinite(a.inverseInertia) && isFinite(b.inverseInertia));
 	const Mat3 response = bodyResponse(a, armA) + bodyResponse(b, armB);
-	return { response * normal, largestShearResponse(response, normal), inverseMass(a, b) };
+	return { response * normal, largestShearResponse(response, normal), pairInverseMass(a, b) };
 }
 
 void ContactSolver::begin(int sweepLimit)
@@ -194,16 +196,16 @@ void ContactSolver::solvePair(std::vector<SolverBody>& bodies, SolverPair& pair,
 		const size_t point = forwards ? k : pair.count - 1 - k;
 		const Constraint c = constraintAt(pair, point);
 		const Vec3 u = velocity.at(c);
-		const double un = u.dot(c.normal), normal0 = c.impulse.dot(c.normal);
-		const double normal = std::max(0., c.normalFactor * normal0 + c.normalBias - c.normalMass * un); // (3)
-		const Vec3 shear = c.shearFactor * (c.impulse - normal0 * c.normal) + c.shearBias - c.shearMass * (u - un * c.normal);
-		const Vec3 impulse = normal * c.normal + clipped<double>(shear - (normal - normal0) * c.coupling, c.friction * normal); // (4)
+		const double un = u.dot(c.normal), pn0 = c.impulse.dot(c.normal);
+		const double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un); // (3)
+		const Vec3 ps = c.shearFactor * (c.impulse - pn0 * c.normal) + c.shearBias - c.shearMass * (u - un * c.normal);
+		const Vec3 impulse = pn * c.normal + clipped<double>(ps - (pn - pn0) * c.coupling, c.friction * pn); // (4)
 		const Vec3 change = impulse - c.impulse;
 		velocity.apply(a, b, c, change);
 		setLane(groups[pair.first + point / laneCount].impulse, point % laneCount, impulse);
 		pair.squaredChange += change.squaredNorm();
 	}
-	pair.squaredChange *= inverseMass(a, b);
+	pair.squaredChange *= pairInverseMass(a, b);
 	velocity.store(a, b);
 }
 
@@ -216,7 +218,7 @@ double ContactSolver::squaredThreshold(const std::vector<SolverBody>& bodies, do
 		Sums<1> squares(0.);
 		for (size_t point = 0; point < pair.count; point += laneCount)
 			squares.add<Lanes>(pair.count - point, groupAt(pair, point).impulse.squaredNorm());
-		size += squares[0] * inverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
+		size += squares[0] * pairInverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
 		count += pair.count;
 	}
 	return tolerance * tolerance * size / std::max(1., double(count));
@@ -232,7 +234,7 @@ bool ContactSolver::activateNeighbours(const std::vector<SolverBody>& bodies, co
 }
 
 /// A sweep over the active pairs. Returns whether another one is needed.
-bool ContactSolver::sweepActive(std::vector<SolverBody>& bodies, double threshold, bool forwards)
+bool ContactSolver::sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards)
 {
 	bool changed = false;
 	++sweepCount;
@@ -245,7 +247,7 @@ bool ContactSolver::sweepActive(std::vector<SolverBody>& bodies, double threshol
 }
 
 /// All sweeps of a step: the first one over all pairs. Returns their number.
-int ContactSolver::sweep(std::vector<SolverBody>& bodies, double tolerance)
+int ContactSolver::sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance)
 {
 	activeUntil.resize(bodies.size(), 0);
 	++sweepCount;
@@ -257,7 +259,7 @@ int ContactSolver::sweep(std::vector<SolverBody>& bodies, double tolerance)
 		changed = activateNeighbours(bodies, pair, firstSweepShare * firstSweepShare * threshold) || changed;
 	int done = 1;
 	for (; changed && done < maxSweeps; ++done)
-		changed = sweepActive(bodies, threshold, done % 2 == 0);
+		changed = sweepOnce(bodies, threshold, done % 2 == 0);
 	return done;
 }
 
@@ -268,7 +270,7 @@ int ContactSolver::solve(std::vector<SolverBody>& bodies, double tolerance)
 		assert(size_t(std::max(pair.bodyA, pair.bodyB)) < bodies.size());
 		warmStart(bodies, pair);
 	}
-	return maxSweeps == 0 ? 0 : sweep(bodies, tolerance);
+	return maxSweeps == 0 ? 0 : sweepToConvergence(bodies, tolerance);
 }
 
 } // namespace timber

@@ -9,11 +9,12 @@
 ///     theta = 1/2 + x / (12 + 2 x),   x = a h C
 ///     beta  = y / (4 y + 2),          y = a h2 K
 /// theta tends to 1/2 (second order) for slow dashpots and to 1 (strong damping) for fast ones; the exact decay exp(-x) has this theta to
-/// 1 %. beta is negligible for springs that the step resolves (leapfrog) and 1/4 for stiff ones: up to eight of them on one member are
-/// stable at any step. Let u be the current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then (1) is
+/// 1 %. beta is negligible for springs that the step resolves (leapfrog) and 1/4 for stiff ones. N springs on one member are stable if
+/// N y (1/4 - beta) = N y / (8 y + 4) < 1: up to eight at any step.
+/// Let u be the current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then (1) is
 ///     p = f p0 + b - M u                                                                        (2)
-///     M = D / (1 + a D),   f = a M,   b = (h e + E v) / (1 + a D)
-///     D = theta h C + beta h2 K,   E = beta h2 K - (1 - theta) h C
+///     M = D / (1 + a D),   f = a M,   b = (h e + G v) / (1 + a D)
+///     D = theta h C + beta h2 K,   G = beta h2 K - (1 - theta) h C
 /// The solver applies (2) to one point after the other, with the limits of the contact:
 ///     normal      p_n = max(0, f_n p_n0 + b_n - M_n u_n)                                        (3)
 ///     tangential  p_s = f_s p_s0 + b_s - M_s u_s - c (p_n - p_n0), shortened to mu p_n           (4)
@@ -24,15 +25,19 @@
 ///     beta       -              Newmark's parameter [-]
 ///     c          coupling       tangential impulse that cancels the slip caused by a unit normal impulse [-]
 ///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]
+///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
 ///     f_n, f_s   impulse factor share of the current impulse that remains [-]
-///     h          step           [s]
+///     G          -              weight of the velocity before the step [kg]
+///     h          step           length of the step [s]
 ///     K_n, K_s   stiffness      of the springs (Eqs. 39, 40) [N/m]
 ///     M_n, M_s   mass           effective mass of bodies, spring and dashpot together [kg]
 ///     mu         friction       Coulomb coefficient [-]
-///     p          impulse        of the contact on B [N s]
+///     p          impulse        of the contact on B; p0: before a visit of the point [N s]
 ///     theta      -              weight of the velocity after the step [-]
 ///     u, v, v'   -              velocity of B relative to A: current, before and after the step [m/s]
+///     x          -              a h C: decay rate of the dashpot times h [-]
+///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
 /// Phases of a step, for each island (islands.hpp):
 ///     1. begin() and addPair() list the pairs;
@@ -41,6 +46,7 @@
 ///     4. constraint() gives the impulses (contact_pair.hpp: storeForces()).
 #pragma once
 #include "kinematics.hpp"
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -54,15 +60,15 @@ struct SolverBody {
 	Vec3 position = Vec3::Zero(); ///< [m]
 };
 
-/// Of the equivalent mass of two bodies (Eq. 43). [1/kg]
-inline double inverseMass(const SolverBody& a, const SolverBody& b) { return a.inverseMass + b.inverseMass; }
+/// Inverse of the equivalent mass of two bodies (Eq. 43). [1/kg]
+inline double pairInverseMass(const SolverBody& a, const SolverBody& b) { return a.inverseMass + b.inverseMass; }
 
 /// Inverse effective mass at a point. It decides theta, beta and the convergence of the sweeps, and varies slowly: it may be reused
 /// for some steps, but not when a body is fixed, freed or gets another mass.
 struct PointResponse {
 	Vec3 normalResponse = Vec3::Zero(); ///< change of the relative velocity per unit normal impulse; a_n is its normal part [1/kg]
 	double shearResponse = 0; ///< a_s: largest change per unit tangential impulse [1/kg]
-	double pairInverseMass = -1; ///< inverseMass() of the bodies for which it was computed; < 0: not computed [1/kg]
+	double pairInverseMass = -1; ///< pairInverseMass() of the bodies for which it was computed; < 0: not computed [1/kg]
 };
 PointResponse responseAt(const SolverBody& a, const SolverBody& b, const Vec3& armA, const Vec3& armB, const Vec3& normal);
 
@@ -75,8 +81,8 @@ template <class Number> struct ContactInput {
 	Number normalDamping, shearDamping; ///< C_n, C_s [N s/m]
 	Number friction; ///< mu [-]
 	Vec3Of<Number> impulse; ///< warm start: estimate of the total contact impulse on B [N s]
-	Vec3Of<Number> normalResponse; ///< PointResponse
-	Number shearResponse;
+	Vec3Of<Number> normalResponse; ///< see PointResponse [1/kg]
+	Number shearResponse; ///< see PointResponse [1/kg]
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 };
 
@@ -115,12 +121,6 @@ template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number l
 	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
 }
 
-/// e_s after sliding: at most friction times the normal force. [N]
-template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce)
-{
-	return clipped<Number>(elasticShear, friction * normalForce);
-}
-
 /// Two bodies in contact and their constraints.
 struct SolverPair {
 	int bodyA, bodyB;
@@ -135,8 +135,8 @@ public:
 	/// Up to laneCount points of a pair. The prepare and store phases use SIMD, the sweeps take points one by one. Unused lanes are undefined.
 	using ConstraintGroup = ContactConstraint<Lanes>;
 
-	/// Phase 1: starts a step. maxSweeps: upper bound of the sweeps over the points; 0: explicit springs and dashpots.
-	void begin(int maxSweeps);
+	/// Phase 1: starts a step. sweepLimit: upper bound of the sweeps over the points; 0: explicit springs and dashpots.
+	void begin(int sweepLimit);
 	/// Phase 1: reserves the constraints of two bodies with that many points. Returns the pair's index.
 	size_t addPair(int bodyA, int bodyB, size_t count);
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
@@ -151,10 +151,14 @@ public:
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
 	int solve(std::vector<SolverBody>& bodies, double tolerance = 0);
 
-	const SolverPair& pair(size_t k) const { return pairs[k]; }
+	const SolverPair& pair(size_t k) const
+	{
+		assert(k < pairs.size());
+		return pairs[k];
+	}
 	/// Phase 4: constraint of a point of the k-th pair, and the group that begins with a point whose index is a multiple of laneCount.
-	Constraint constraint(size_t k, size_t point) const { return constraintAt(pairs[k], point); }
-	const ConstraintGroup& constraintGroup(size_t k, size_t point) const { return groupAt(pairs[k], point); }
+	Constraint constraint(size_t k, size_t point) const { return constraintAt(pair(k), point); }
+	const ConstraintGroup& constraintGroup(size_t k, size_t point) const { return groupAt(pair(k), point); }
 
 private:
 	int maxSweeps = 0;
@@ -163,7 +167,11 @@ private:
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 
-	const ConstraintGroup& groupAt(const SolverPair& pair, size_t point) const { return groups[pair.first + point / laneCount]; }
+	const ConstraintGroup& groupAt(const SolverPair& pair, size_t point) const
+	{
+		assert(point < pair.count);
+		return groups[pair.first + point / laneCount];
+	}
 	[[gnu::always_inline]] Constraint constraintAt(const SolverPair& pair, size_t point) const
 	{
 		Constraint one;
@@ -174,8 +182,8 @@ private:
 	void solvePair(std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards);
 	double squaredThreshold(const std::vector<SolverBody>& bodies, double tolerance) const;
 	bool activateNeighbours(const std::vector<SolverBody>& bodies, const SolverPair& pair, double threshold);
-	bool sweepActive(std::vector<SolverBody>& bodies, double threshold, bool forwards);
-	int sweep(std::vector<SolverBody>& bodies, double tolerance);
+	bool sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards);
+	int sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance);
 };
 
 } // namespace timber

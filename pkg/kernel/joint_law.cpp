@@ -25,10 +25,10 @@ namespace {
 
 } // namespace
 
-JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs)
+JointForce springForces(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs)
 {
 	assert(isValid(k) && isValid(placement) && isValid(springs) && isUnit(normal));
-	JointPull pull;
+	JointForce total;
 	Sums<11> sums;
 	const Vec3 worldNormal = placement.axesA * normal;
 	inLanes(
@@ -36,7 +36,7 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, 
 		        using Number = decltype(number);
 		        using Vec = Vec3Of<Number>;
 		        const size_t count = springs.broken.size() - i;
-		        const auto vectors = [&](const std::vector<Vec3>& of) -> Vec { return Group<Number, const Vec3>(&of[i], count).vectors(); };
+		        const auto vectors = [&](const std::vector<Vec3>& all) -> Vec { return Group<Number, const Vec3>(&all[i], count).vectors(); };
 		        const auto intact = Group<Number, const int>(&springs.broken[i], count).numbers() <= Number(0.);
 		        const Vec armB = broadcast<Number>(placement.axesB) * vectors(springs.anchorsB),
 		                  armA = broadcast<Number>(placement.axesA) * vectors(springs.anchorsA), end = broadcast<Number>(placement.distance) + armB;
@@ -45,25 +45,24 @@ JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, 
 		        Group<Number, Vec3>(&springs.stretches[i], count).set(stretch);
 		        Group<Number, Vec3>(&springs.forces[i], count).set(f.force);
 		        const Number square = f.force.squaredNorm();
-		        const Vec torqueA = end.cross(f.force),
-		                  torqueB = -armB.cross(
-		                          f.force); // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
+		        // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
+		        const Vec torqueA = end.cross(f.force), torqueB = -armB.cross(f.force);
 		        sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, sqrt(square));
 		        for (size_t l = 0; l < laneCount; ++l)
-			        pull.largestSquared = std::max(pull.largestSquared, lane(square, l));
+			        total.largestSquared = std::max(total.largestSquared, lane(square, l));
 	        });
-	pull.force = sums.vector(0);
-	pull.torqueA = sums.vector(3);
-	pull.torqueB = sums.vector(6);
-	pull.energy = sums[9];
-	pull.sum = sums[10];
-	return pull;
+	total.force = sums.vector(0);
+	total.torqueA = sums.vector(3);
+	total.torqueB = sums.vector(6);
+	total.energy = sums[9];
+	total.sum = sums[10];
+	return total;
 }
 
-bool isOverloaded(const JointStrength& strength, const JointPull& pull)
+bool isOverloaded(const JointStrength& limit, const JointForce& force)
 {
-	assert(strength.limit > 0);
-	return strength.perJoint ? pull.sum > strength.limit : pull.largestSquared > strength.limit * strength.limit;
+	assert(limit.strength > 0);
+	return limit.perJoint ? force.sum > limit.strength : force.largestSquared > limit.strength * limit.strength;
 }
 
 BreakCause breakCause(const SpringForce<double>& f)
@@ -72,13 +71,13 @@ BreakCause breakCause(const SpringForce<double>& f)
 	return f.normal > 0 ? BreakCause::Tension : BreakCause::Compression;
 }
 
-std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal,
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit, const JointPlacement& placement, const Vec3& normal,
         const JointSprings& springs, const JointMotion& motion)
 {
-	assert(strength.limit > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
+	assert(limit.strength > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		const bool exceeds = strength.perJoint || springs.forces[i].squaredNorm() > strength.limit * strength.limit;
+		const bool exceeds = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
 		if (springs.broken[i] || !exceeds) continue;
 		SpringForce<double> f = springForce<double>(k, springs.stretches[i], placement.axesA * normal);
 		breaks.push_back({ i, breakCause(f), springs.forces[i].norm(), energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/Joints.hpp).
-/// Signs: the normal points from body A to body B; forces act on A, B gets the opposite.
+/// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite convention (contact_law.hpp).
 /// A step:
-///     1. pullSprings() stretches the springs to the bodies' placement;
+///     1. springForces() computes stretches and forces for the bodies' placement;
 ///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
-///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and pulls again.
+///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes the forces again.
 #pragma once
 #include "kinematics.hpp"
 #include <vector>
@@ -47,7 +47,7 @@ struct JointSprings {
 };
 
 /// Sums over a joint's unbroken springs; forces on A, torques about the bodies' own centres.
-struct JointPull {
+struct JointForce {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
 	double energy = 0; ///< [J]
 	double largestSquared = 0; ///< square of the largest spring force [N2]
@@ -55,14 +55,14 @@ struct JointPull {
 };
 
 /// Stretches and forces of a joint's springs. normal: in the frame of A; out: stretches and forces of the springs.
-JointPull pullSprings(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs);
+JointForce springForces(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs);
 
 /// Strength of a joint (section 3.2).
 struct JointStrength {
-	double limit; ///< P_max [N]
-	bool perJoint; ///< whether the limit is that of the joint: all springs break when the sum of their forces exceeds it. Else each spring has the limit
+	double strength; ///< P_max [N]
+	bool perJoint; ///< whether P_max is that of the joint: all springs break when the sum of their forces exceeds it; else of each spring
 };
-bool isOverloaded(const JointStrength& strength, const JointPull& pull);
+bool isOverloaded(const JointStrength& limit, const JointForce& force);
 
 /// Cause of a break: the larger component of the spring's force, and the sign of the normal one.
 enum class BreakCause { Tension, Compression, Shear };
@@ -81,8 +81,8 @@ struct JointMotion {
 	double h; ///< length of the step [s]
 };
 
-/// Breaks of an overloaded joint, in the order of its springs. springs: as pullSprings() left them.
-std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& strength, const JointPlacement& placement, const Vec3& normal,
+/// Breaks of an overloaded joint, in the order of its springs. springs: as springForces() left them.
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit, const JointPlacement& placement, const Vec3& normal,
         const JointSprings& springs, const JointMotion& motion);
 
 } // namespace timber

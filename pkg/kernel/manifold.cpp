@@ -95,11 +95,11 @@ namespace {
 		const RoundedPolyhedron &body = isFaceOfB ? pair.b : pair.a, &other = isFaceOfB ? pair.a : pair.b;
 		const int face = isFaceOfB ? first->b() : first->a();
 		assert(size_t(face) < body.core.faces.size());
-		const Vec own
+		const Vec vertices
 		        = Group<Number, const Vec3>(count, [&](size_t i) { return &other.core.vertices[isFaceOfB ? first[i].a() : first[i].b()]; }).vectors();
-		const Vec inA = isFaceOfB ? own : pair.toA<Number>(own);
+		const Vec inA = isFaceOfB ? vertices : pair.toA<Number>(vertices);
 		const auto valid = isVertexOnFace<Number>(
-		        pair, body, isFaceOfB ? pair.supportFaceB : pair.supportFaceA, face, isFaceOfB ? pair.toB<Number>(own) : inA, contact.distance);
+		        pair, body, isFaceOfB ? pair.supportFaceB : pair.supportFaceA, face, isFaceOfB ? pair.toB<Number>(vertices) : inA, contact.distance);
 		if (!any(valid)) return valid;
 		const Vec3& outward = body.core.faces[face].plane.normal;
 		contact.normal = broadcast<Number>(isFaceOfB ? Vec3(-(pair.rotation * outward)) : outward);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3).
+/// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3). The manifold of a pair is the set of its contact points.
 ///
 /// Each point connects a feature of core A with a feature of core B. Its overlap is r_A + r_B - distance of the features.
 /// Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they cross inside both.

@@ -83,7 +83,7 @@ TEST(IncrementForm, ConvergesToTheClosedForm)
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4), NormalForm::Increment };
 		for (int k = 1; k <= steps; ++k)
 			spring.step(1e-3 * k / steps, 1e-3 / steps, Vec3::Zero());
-		const double error = std::abs(spring.state.normal / 49497.4747 - 1);
+		const double error = std::abs(spring.state.normalForce / 49497.4747 - 1);
 		EXPECT_NEAR(error, 0.75 / steps, 0.1 / steps); // integral of the rule's first-order error
 		EXPECT_LT(error, 0.6 * before);
 		before = error;
@@ -95,7 +95,7 @@ TEST(IncrementForm, NeverPulls)
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4), NormalForm::Increment };
 	for (const double n : { 1e-3, 5e-4, 1e-6, 1e-7 }) {
 		spring.step(n, 0, Vec3::Zero());
-		EXPECT_GE(spring.state.normal, 0);
+		EXPECT_GE(spring.state.normalForce, 0);
 	}
 }
 
@@ -105,7 +105,7 @@ TEST(NormalSpring, ForceStaysConstantBeyondTheLimit)
 	double energy = 0;
 	for (const double n : { 1e-3, 2e-3, 3e-3, 8e-3 }) {
 		spring.step(n, 0, Vec3::Zero());
-		EXPECT_NEAR(spring.state.normal, timberLaw.force(std::min(n, 2e-3)), 1e-9); // same formula
+		EXPECT_NEAR(spring.state.normalForce, timberLaw.force(std::min(n, 2e-3)), 1e-9); // same formula
 		EXPECT_GT(spring.state.energy, energy); // beyond the limit it grows linearly
 		energy = spring.state.energy;
 	}
@@ -118,11 +118,11 @@ TEST(NormalSpring, GrazingForceDoesTheWorkThatIsStored)
 	for (const double n : { 4e-4, 9e-4 }) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 		spring.step(n, d, Vec3::Zero()); // begins within the step
-		const double work = spring.state.normal * d + timberLaw.force(n + d) * d / 2; // trapezoid: 0, this force, F(n + d)
+		const double work = spring.state.normalForce * d + timberLaw.force(n + d) * d / 2; // trapezoid: 0, this force, F(n + d)
 		EXPECT_NEAR(work, timberLaw.energy(n + d), rounding * work);
 		Spring<HertzLaw> leaving { timberLaw, pairOf(0.4) };
 		leaving.step(n, -d, Vec3::Zero()); // will have ended after the next step
-		EXPECT_EQ(leaving.state.normal, spring.state.normal);
+		EXPECT_EQ(leaving.state.normalForce, spring.state.normalForce);
 	}
 	EXPECT_NEAR(grazingForce(LinearLaw { 1e6 }, d, d), 1e6 * d, rounding * 1e3); // joins the law where it ends
 	EXPECT_EQ(grazingForce(timberLaw, 1e-9, d), 0); // never pulls
@@ -154,10 +154,10 @@ TEST(ShearSpring, OpposesTheSlide)
 {
 	Spring<LinearLaw> spring { { 1e6 }, pairOf(0.4) };
 	spring.step(1e-3, 1e-3, { 1e-5, 0, 0 });
-	EXPECT_LT((spring.state.shear - Vec3(-0.4 * 1e6 * 1e-5, 0, 0)).norm(), 1e-12); // rounding of 4 N
+	EXPECT_LT((spring.state.shearForce - Vec3(-0.4 * 1e6 * 1e-5, 0, 0)).norm(), 1e-12); // rounding of 4 N
 	EXPECT_NEAR(shearEnergy<double>(spring.state, spring.pair), 0.5 * 4e5 * 1e-10, 1e-18);
 	spring.step(1e-3, 0, { 0, 2e-5, 0 });
-	EXPECT_LT((spring.state.shear - Vec3(-4, -8, 0)).norm(), 1e-12);
+	EXPECT_LT((spring.state.shearForce - Vec3(-4, -8, 0)).norm(), 1e-12);
 	EXPECT_LT((spring.state.slip - Vec3(0, 2e-5, 0)).norm(), 1e-18);
 }
 
@@ -168,7 +168,7 @@ TEST(ShearSpring, IgnoresApproach)
 	for (int trial = 0; trial < 100; ++trial) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 		spring.step(1e-3, 1e-3, Vec3::Zero(), Vec3::Zero(), randomDirection(random));
-		EXPECT_LT(spring.state.shear.norm(), 1e-12 * timberLaw.force(1e-3)); // cancellation of the approach speed
+		EXPECT_LT(spring.state.shearForce.norm(), 1e-12 * timberLaw.force(1e-3)); // cancellation of the approach speed
 	}
 }
 
@@ -212,7 +212,7 @@ template <class Law> void expectNoEnergyFromNothing(const Law& law, unsigned see
 		n = std::max(1e-7, n + uniform(random, -1, 1) * (step % 7 ? 1e-4 : 1e-3));
 		const Vec3 slide(uniform(random, -1e-4, 1e-4), uniform(random, -1e-4, 1e-4), 0);
 		spring.step(n, 0, slide, Vec3(0, 0, uniform(random, -1, 1)) / dt);
-		const double work = -(spring.state.shear.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm());
+		const double work = -(spring.state.shearForce.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm());
 		const double now = shearEnergy<double>(spring.state, spring.pair);
 		EXPECT_LE(now, stored + work + 1e-12 * (now + stored + std::abs(work))); // rounding of the terms
 		stored = now;
@@ -245,7 +245,7 @@ TEST(ShearSpring, ClosedCyclesDissipate)
 			const double t = 2 * M_PI * k / steps, last = 2 * M_PI * (k - 1) / steps;
 			const Vec3 slide = place(t) - place(last);
 			spring.step(std::max(1e-7, overlap(t)), 0, slide);
-			work -= spring.state.shear.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm();
+			work -= spring.state.shearForce.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm();
 			largest = std::max(largest, std::abs(work));
 		}
 		EXPECT_GE(work, shearEnergy<double>(spring.state, spring.pair) - 1e-12 * largest) << trial; // rounding of the sum
@@ -257,11 +257,11 @@ TEST(ShearSpring, LosesForceWithItsStiffness)
 {
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 	spring.step(1e-3, 1e-3, { 1e-5, 0, 0 });
-	const Vec3 full = spring.state.shear;
+	const Vec3 full = spring.state.shearForce;
 	spring.step(4e-3, 0, Vec3::Zero());
-	EXPECT_LT((spring.state.shear - full).norm(), 1e-12 * full.norm()); // rounding: the force stays while n grows
+	EXPECT_LT((spring.state.shearForce - full).norm(), 1e-12 * full.norm()); // rounding: the force stays while n grows
 	spring.step(1e-3, 0, Vec3::Zero());
-	EXPECT_LT((spring.state.shear - full / 2).norm(), 1e-12 * full.norm()); // stiffness goes with sqrt(n): half
+	EXPECT_LT((spring.state.shearForce - full / 2).norm(), 1e-12 * full.norm()); // stiffness goes with sqrt(n): half
 	EXPECT_LT((spring.state.shearBefore - full).norm(), 1e-12 * full.norm());
 	EXPECT_NEAR(spring.state.shearEnergyBefore, full.squaredNorm() / (2 * 0.4 * timberLaw.stiffness(4e-3)), 1e-12 * full.squaredNorm());
 }
@@ -296,11 +296,11 @@ TEST(NewPoint, ExcessShrinksWithTheOverlap)
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 	spring.state.excess = 5e-3;
 	spring.step(5e-3, 0, Vec3::Zero());
-	EXPECT_EQ(spring.state.normal, 0);
+	EXPECT_EQ(spring.state.normalForce, 0);
 	spring.step(5.5e-3, 0, Vec3::Zero());
 	EXPECT_NEAR(spring.state.overlap, 5e-4, 1e-17);
 	spring.step(2e-3, 0, Vec3::Zero()); // the excess shrinks with the overlap
-	EXPECT_EQ(spring.state.normal, 0);
+	EXPECT_EQ(spring.state.normalForce, 0);
 	EXPECT_EQ(spring.state.excess, 2e-3);
 	spring.step(3e-3, 0, Vec3::Zero());
 	EXPECT_NEAR(spring.state.overlap, 1e-3, 1e-17);

@@ -25,7 +25,7 @@ PointRecord loaded(FeatureId id, double at)
 	record.id = id;
 	record.overlap = at;
 	record.stiffness = law.stiffness(at);
-	record.normal = law.force(at);
+	record.normalForce = law.force(at);
 	record.energy = law.energy(at);
 	return record;
 }
@@ -54,12 +54,11 @@ double releasedWith(double closing, double beyond = 0)
 	const BodyKinematics still { none, none, none };
 	PointRecord record;
 	record.overlap = overlap;
-	record.normal = law.force(overlap);
-	record.energy = law.energy(overlap) + beyond * record.normal;
+	record.normalForce = law.force(overlap);
+	record.energy = law.energy(overlap) + beyond * record.normalForce;
 	record.closing = closing;
 	std::vector<PointRecord> records { record };
-	const PairProperties properties;
-	const double released = elasticPair(law, { properties, still, still, h }, {}, records);
+	const double released = elasticPair(law, { pair, still, still, h }, {}, records);
 	EXPECT_TRUE(records.empty());
 	return released;
 }
@@ -90,7 +89,7 @@ TEST(ReleasedEnergy, IncludesTheOverlapBeyondTheLimit)
 TEST(ReleasedEnergy, IncludesAllShearEnergy)
 {
 	PointRecord record = loaded(vertex, overlap);
-	record.shear = { 3e3, 4e3, 0 };
+	record.shearForce = { 3e3, 4e3, 0 };
 	const double shear = 25e6 / (2 * 0.4 * law.stiffness(overlap));
 	for (const double closing : { 0., -2 * overlap }) {
 		record.closing = closing;
@@ -103,12 +102,12 @@ TEST(ReleasedEnergy, IncludesAllShearEnergy)
 TEST(ReleasedEnergy, ExcludesPersistentPoints)
 {
 	std::vector<PointRecord> records { loaded(vertex, overlap), loaded(face, 2 * overlap), loaded(edge, 3 * overlap), loaded(otherEdge, 4 * overlap) };
-	records[1].shear = Vec3::UnitX();
+	records[1].shearForce = Vec3::UnitX();
 	const double released = step({ pointOf(face, 2 * overlap), pointOf(otherEdge, 4 * overlap) }, records);
 	EXPECT_NEAR(released, law.energy(overlap) + law.energy(3 * overlap), rounding * released);
 	expectOverlap(records[0], 2 * overlap, 2 * overlap);
 	expectOverlap(records[1], 4 * overlap, 4 * overlap);
-	EXPECT_EQ(records[0].shear, Vec3::UnitX());
+	EXPECT_EQ(records[0].shearForce, Vec3::UnitX());
 	EXPECT_NEAR(step({ pointOf(face, 2 * overlap) }, records), law.energy(4 * overlap), rounding * law.energy(overlap));
 }
 
@@ -120,7 +119,7 @@ TEST(InitialOverlap, UsesTheReleasedEnergy)
 		std::vector<PointRecord> records { loaded(vertex, overlap) };
 		EXPECT_NEAR(step({ pointOf(edge, total) }, records), whole - law.energy(effective), rounding * whole);
 		expectOverlap(records[0], effective, total);
-		EXPECT_NEAR(records[0].normal, law.force(effective), rounding * law.force(overlap));
+		EXPECT_NEAR(records[0].normalForce, law.force(effective), rounding * law.force(overlap));
 	}
 }
 
@@ -191,10 +190,10 @@ TEST(EnergyBalance, ClosesForAnImpactOfOneOrTwoSteps)
 			solver.addPair(0, 1, points.size());
 			prepareContacts({ solver, bodies, dt }, 0, light, true, points, records);
 			solver.solve(bodies, 1e-12);
-			PairEnergies own;
-			storeForces({ solver, bodies, dt }, 0, light, records, &own);
-			dissipated += own.dashpotNormal;
-			elastic = own.elasticNormal + dt / 2 * own.elasticPower;
+			PairEnergies energies;
+			storeForces({ solver, bodies, dt }, 0, light, records, &energies);
+			dissipated += energies.dashpotNormal;
+			elastic = energies.elasticNormal + dt / 2 * energies.elasticPower;
 			bodies[1].velocity = bodies[1].newVelocity;
 			depth -= bodies[1].velocity.z() * dt;
 		}

@@ -89,12 +89,12 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 	Eigen::VectorXd elastic(3 * count);
 	for (int k = 0; k < count; ++k) {
 		const HeapPoint& p = heap.points[k];
-		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along, own = response.block<3, 3>(3 * k, 3 * k);
-		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * own * across).eigenvalues().maxCoeff();
+		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along, diagonalBlock = response.block<3, 3>(3 * k, 3 * k);
+		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * diagonalBlock * across).eigenvalues().maxCoeff();
 		const auto weight = [](double x) { return 0.5 + x / (12 + 2 * x); };
 		damping.block<3, 3>(3 * k, 3 * k) = p.normalDamping * along + p.shearDamping * across;
 		theta.block<3, 3>(3 * k, 3 * k)
-		        = weight(h * p.normalDamping * p.normal.dot(own * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
+		        = weight(h * p.normalDamping * p.normal.dot(diagonalBlock * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
 		elastic.segment<3>(3 * k) = p.elasticNormal * p.normal + p.elasticShear;
 	}
 	const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(3 * count, 3 * count);

@@ -2,6 +2,7 @@
 /// Contact impulses with dashpots: closed forms of single pairs, and the limits of Coulomb and of no tension.
 #include "heap.hpp"
 #include <gtest/gtest.h>
+#include <kernel/contact_law.hpp>
 
 using namespace timber;
 using namespace timber::shapes;

@@ -49,7 +49,7 @@ inline int solveContacts(
 		links.emplace_back(linked(p->bodyA), linked(p->bodyB));
 	}
 	islands.find(bodies.size(), links);
-	int most = 0;
+	int maxSweeps = 0;
 	for (size_t island = 0; island < islands.count(); ++island) {
 		solver.begin(sweeps);
 		for (const int pair : islands[island]) {
@@ -62,14 +62,14 @@ inline int solveContacts(
 				solver.prepare<double>(k, size_t(p - first), bodies, *p, h);
 			}
 		}
-		most = std::max(most, solver.solve(bodies, tolerance));
+		maxSweeps = std::max(maxSweeps, solver.solve(bodies, tolerance));
 		for (size_t k = 0; k < islands[island].size(); ++k) {
 			const auto [first, last] = pairs[size_t(islands[island][k])];
 			for (Place p = first; p != last; ++p)
 				p->impulse = solver.constraint(k, size_t(p - first)).impulse;
 		}
 	}
-	return most;
+	return maxSweeps;
 }
 inline int solveContacts(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {

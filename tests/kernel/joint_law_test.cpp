@@ -102,12 +102,12 @@ struct Joint {
 	{
 	}
 	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
-	JointPull pull() { return pullSprings(stiffness, { axes, axes, Vec3::Zero() }, normal, springs()); }
+	JointForce total() { return springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, springs()); }
 	/// Pulls the springs; returns the breaks, if the joint is overloaded.
 	std::vector<SpringBreak> breaks()
 	{
 		const Vec3 none = Vec3::Zero();
-		if (!isOverloaded(strength, pull())) return {};
+		if (!isOverloaded(strength, total())) return {};
 		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs(), { { none, none, none }, { none, velocity, none }, h });
 	}
 	/// Indices of the springs that break.
@@ -158,7 +158,7 @@ TEST(BreakRule, BrokenSpringsNeitherLoadNorBreakAgain)
 		Joint joint({ perJoint ? 115. : 65., perJoint }, uneven);
 		joint.broken[2] = 1;
 		EXPECT_EQ(joint.breaking(), Indices {}) << perJoint; // the others carry 110 N, one of them 60 N
-		joint.strength.limit = 20;
+		joint.strength.strength = 20;
 		EXPECT_EQ(joint.breaking(), perJoint ? (Indices { 0, 1, 3 }) : (Indices { 0, 1 }));
 		EXPECT_EQ(joint.forces[2], Vec3(Vec3::Zero()));
 		joint.broken.assign(4, 1);

@@ -41,6 +41,18 @@ const Vec3 none = Vec3::Zero();
 
 } // namespace
 
+TEST(Preconditions, OfTheLaws)
+{
+	EXPECT_GT(impactForce(1, 1e6, 1e-3, 1e-3, 0), 0);
+	EXPECT_REFUSED(impactForce(-1, 1e6, 1e-3, 1e-3, 0));
+	EXPECT_REFUSED(impactForce(1, 0, 1e-3, 1e-3, 0));
+	EXPECT_REFUSED(impactForce(1, 1e6, 1e-3, 1e-3, notANumber));
+	EXPECT_REFUSED(grazingForce(law, 1e-3, 0.));
+	EXPECT_REFUSED(approachOverlap(law, 0, 1, 1e-4));
+	EXPECT_REFUSED(initialOverlap(law, 0, 1e-4, 0));
+	EXPECT_REFUSED(rotatedShear<double>(Vec3::UnitX(), Vec3::Constant(notANumber), Vec3::UnitZ()));
+}
+
 TEST(Preconditions, OfTheElasticStep)
 {
 	elastic(1e-4, { pointOf(0), pointOf(1) });
@@ -70,9 +82,9 @@ TEST(Preconditions, OfJointsAndStability)
 	const Mat3 axes = Mat3::Identity();
 	std::vector<Vec3> anchors(2, none), short1(1, none), stretches(2), forces(2);
 	std::vector<int> broken(2, 0);
-	pullSprings({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
-	EXPECT_REFUSED(pullSprings({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
-	EXPECT_REFUSED(pullSprings({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
-	EXPECT_REFUSED(isOverloaded({ notANumber, false }, JointPull()));
+	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
+	EXPECT_REFUSED(springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
+	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
+	EXPECT_REFUSED(isOverloaded({ notANumber, false }, JointForce()));
 	EXPECT_REFUSED(largestEigenvalue({ body(1, none) }, { { 0, 1, none, none, Vec3::UnitX(), 1, 1 } }));
 }

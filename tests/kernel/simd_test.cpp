@@ -39,14 +39,14 @@ struct MovingPair {
 			s.excess = k % 3 == 0 ? uniform(random, 0, 1e-3) : 0;
 			s.overlap = std::pow(10, uniform(random, -9, -2.4));
 			s.stiffness = k % 5 == 4 ? 0 : law.stiffness(s.overlap);
-			s.normal = law.force(s.overlap);
-			s.shear = k % 4 == 3 ? Vec3(Vec3::Zero()) : Vec3(uniform(random, 0, 1) * s.normal * points[k].normal.unitOrthogonal());
-			s.dashpot = randomVector(random, 0.1 * s.normal);
+			s.normalForce = law.force(s.overlap);
+			s.shearForce = k % 4 == 3 ? Vec3(Vec3::Zero()) : Vec3(uniform(random, 0, 1) * s.normalForce * points[k].normal.unitOrthogonal());
+			s.dashpotForce = randomVector(random, 0.1 * s.normalForce);
 			records.push_back(s);
 		}
 	}
 	BodyKinematics kinematics(size_t k) const { return { bodies[k].position, bodies[k].velocity, bodies[k].spin }; }
-	PairStep step(NormalForm form = NormalForm::Closed) const { return { properties, kinematics(0), kinematics(1), h, form }; }
+	ElasticInput step(NormalForm form = NormalForm::Closed) const { return { properties, kinematics(0), kinematics(1), h, form }; }
 
 	static constexpr double h = 2e-4;
 	const HertzLaw law { 5.25e9, 0.05 };
@@ -57,10 +57,10 @@ void expectSame(const PointRecord& a, const PointRecord& b)
 	EXPECT_EQ(a.excess, b.excess);
 	EXPECT_EQ(a.overlap, b.overlap);
 	EXPECT_EQ(a.stiffness, b.stiffness);
-	EXPECT_EQ(a.normal, b.normal);
+	EXPECT_EQ(a.normalForce, b.normalForce);
 	EXPECT_EQ(a.energy, b.energy);
-	EXPECT_EQ(a.shear, b.shear);
-	EXPECT_EQ(a.dashpot, b.dashpot);
+	EXPECT_EQ(a.shearForce, b.shearForce);
+	EXPECT_EQ(a.dashpotForce, b.dashpotForce);
 	EXPECT_EQ(a.closing, b.closing);
 	EXPECT_EQ(a.slip, b.slip);
 	EXPECT_EQ(a.shearBefore, b.shearBefore);
@@ -114,8 +114,9 @@ TEST(LanesOfAPair, ConstraintsAreThoseOfEachPoint)
 				const Vec3 armA = p.points[k].position - p.bodies[0].position, armB = p.points[k].position - p.bodies[1].position,
 				           normal = p.points[k].normal;
 				const PointResponse r = responseAt(p.bodies[0], p.bodies[1], armA, armB, normal);
-				const ContactInput<double> one { armA, armB, normal, s.normal, s.shear, damping, damping * std::sqrt(properties.shearRatio),
-					properties.friction, p.h * (s.normal * normal + s.shear + s.dashpot), r.normalResponse, r.shearResponse, s.stiffness,
+				const ContactInput<double> one { armA, armB, normal, s.normalForce, s.shearForce, damping,
+					damping * std::sqrt(properties.shearRatio), properties.friction,
+					p.h * (s.normalForce * normal + s.shearForce + s.dashpotForce), r.normalResponse, r.shearResponse, s.stiffness,
 					properties.shearRatio * s.stiffness };
 				each.prepare<double>(0, k, p.bodies, one, p.h);
 				const ContactSolver::Constraint x = together.constraint(0, k), y = each.constraint(0, k);
@@ -152,19 +153,19 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			sum += f;
 			torqueA -= c.armA.cross(f);
 			torqueB += c.armB.cross(f);
-			EXPECT_LE(s.shear.norm(), properties.friction * f.dot(c.normal) * (1 + rounding));
-			EXPECT_EQ(s.dashpot, Vec3(f - s.normal * c.normal - s.shear));
+			EXPECT_LE(s.shearForce.norm(), properties.friction * f.dot(c.normal) * (1 + rounding));
+			EXPECT_EQ(s.dashpotForce, Vec3(f - s.normalForce * c.normal - s.shearForce));
 			EXPECT_EQ(s.closing, -after.dot(c.normal) * p.h);
 			const Vec3 before
 			        = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
-			const Vec3 mean = (before + after) / 2, along = s.dashpot.dot(c.normal) * c.normal;
-			const double shearEnergy = s.stiffness > 0 ? s.shear.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;
+			const Vec3 mean = (before + after) / 2, along = s.dashpotForce.dot(c.normal) * c.normal;
+			const double shearEnergy = s.stiffness > 0 ? s.shearForce.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;
 			wanted.dashpotNormal -= p.h * along.dot(mean);
-			wanted.dashpotShear -= p.h * (s.dashpot - along).dot(mean);
-			wanted.friction -= s.slip.dot(s.shearBefore + s.shear) / 2 + shearEnergy - s.shearEnergyBefore;
+			wanted.dashpotShear -= p.h * (s.dashpotForce - along).dot(mean);
+			wanted.friction -= s.slip.dot(s.shearBefore + s.shearForce) / 2 + shearEnergy - s.shearEnergyBefore;
 			wanted.elasticNormal += s.energy;
 			wanted.elasticShear += shearEnergy;
-			wanted.elasticPower -= (s.normal * c.normal + s.shear).dot(after);
+			wanted.elasticPower -= (s.normalForce * c.normal + s.shearForce).dot(after);
 		}
 		EXPECT_EQ(force.onB, sum);
 		EXPECT_EQ(force.torqueA, torqueA);
@@ -213,7 +214,7 @@ TEST(LanesOfAPair, OverflowStaysInItsLane)
 	bad.points[2].position = Vec3::Constant(1e307);
 	for (MovingPair* p : { &good, &bad })
 		elasticPair(p->law, p->step(), p->points, p->records);
-	EXPECT_FALSE(bad.records[2].shear.allFinite());
+	EXPECT_FALSE(bad.records[2].shearForce.allFinite());
 	for (const size_t k : { 0, 1, 3 })
 		expectSame(good.records[k], bad.records[k]);
 }
@@ -232,8 +233,8 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				anchorsB[i] = axesB.transpose() * (axesA * anchorsA[i] - apart + randomVector(random, 0.1));
 				broken[i] = i % 3 == 1;
 			}
-			const JointPull pull = pullSprings(k, { axesA, axesB, apart }, normal, { anchorsA, anchorsB, broken, stretches, forces });
-			JointPull wanted;
+			const JointForce total = springForces(k, { axesA, axesB, apart }, normal, { anchorsA, anchorsB, broken, stretches, forces });
+			JointForce wanted;
 			for (size_t i = 0; i < count; ++i) {
 				const Vec3 armB = axesB * anchorsB[i], stretch = apart + armB - axesA * anchorsA[i];
 				const SpringForce<double> f = springForce<double>(k, stretch, axesA * normal);
@@ -247,12 +248,12 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				wanted.sum += f.force.norm();
 				wanted.largestSquared = std::max(wanted.largestSquared, f.force.squaredNorm());
 			}
-			EXPECT_EQ(pull.force, wanted.force);
-			EXPECT_EQ(pull.torqueA, wanted.torqueA);
-			EXPECT_EQ(pull.torqueB, wanted.torqueB);
-			EXPECT_EQ(pull.energy, wanted.energy);
-			EXPECT_EQ(pull.sum, wanted.sum);
-			EXPECT_EQ(pull.largestSquared, wanted.largestSquared);
+			EXPECT_EQ(total.force, wanted.force);
+			EXPECT_EQ(total.torqueA, wanted.torqueA);
+			EXPECT_EQ(total.torqueB, wanted.torqueB);
+			EXPECT_EQ(total.energy, wanted.energy);
+			EXPECT_EQ(total.sum, wanted.sum);
+			EXPECT_EQ(total.largestSquared, wanted.largestSquared);
 		}
 }
 

@@ -119,7 +119,7 @@ def break_joint(cause, per, dt=1e-4, speed=0.1):
     """
     _, column, joint = joined(dt, per=per, density=HEAVY, fixed=True)
     start, column.state.vel = column.state.pos, speed * Vector3(*PULLS[cause])
-    while not joint.isFinished:
+    while not joint.isBroken:
         stretch = (column.state.pos - start).norm()
         O.step()
     engine = O.engines[1]
@@ -171,7 +171,7 @@ def broken_joints_stay_broken():
     """After the break the column moves back through the joint to the other side: no force, no energy, no second break."""
     _, column, joint = joined(1e-3, density=HEAVY, fixed=True)
     column.state.vel = Vector3(0, 0, 0.1)
-    while not joint.isFinished:
+    while not joint.isBroken:
         O.step()
     column.state.vel = Vector3(0, 0, -0.1)
     engine = O.engines[1]

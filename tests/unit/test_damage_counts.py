@@ -44,7 +44,7 @@ def test_by_place(house):
 
 def test_broken_joints_agree_with_the_engine(house):
     found = house.survey.count_broken(house.state(), springs=0)
-    assert found["total"] == sum(joint.isFinished for joint in engines.find_engine(yw.JointEngine).joints) and found["partly_broken"] == 0
+    assert found["total"] == sum(joint.isBroken for joint in engines.find_engine(yw.JointEngine).joints) and found["partly_broken"] == 0
 
 
 def test_lost_columns_are_an_event(house):

@@ -136,7 +136,7 @@ def test_each_class(name):
 
 
 RESULTS = {
-    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "lost", "elasticNormal", "elasticShear", "elasticPower"},
+    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "released", "elasticNormal", "elasticShear", "elasticPower"},
     "GroundMotionEngine": {"work"},
     "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
@@ -402,6 +402,22 @@ def test_loop_without_functors(dispatcher, words):
     with pytest.raises(RuntimeError) as error:
         O.step()
     is_one_line(error, words)
+
+
+def test_loop_with_the_functors_of_snow_only():
+    """The Ip2 functor of snow takes any two materials of the package, but timber on timber has another law."""
+    O.reset()
+    O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 1)])
+    O.engines = yt.engines()
+    dispatcher = find_engine(yw.ContactLoop).loop.physDispatcher
+    dispatcher.functors = [f for f in dispatcher.functors if isinstance(f, yw.Ip2_ElementMat_ElementMat_SnowPhys)]
+    assert len(dispatcher.functors) == 1
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "Ip2", "TimberMat")
+    for k in (0, 1):
+        O.bodies[k].material = yt.snow()
+    O.step()
 
 
 def test_periodic_cell():

@@ -40,7 +40,7 @@ def test_body_taken_out():
     assert yt.energy()["kinetic"] == 0 and yt.stable_dt() == np.inf
     O.run(100, True)
     joint = find_engine(yt.JointEngine).joints[0]
-    assert joint.isFinished and joint.load == 0 and all(spring["stretch"] == 0 for spring in joint.springs)
+    assert joint.isBroken and joint.load == 0 and all(spring["stretch"] == 0 for spring in joint.springs)
 
 
 def test_plate_taken_out_from_under_a_joint():
@@ -48,7 +48,7 @@ def test_plate_taken_out_from_under_a_joint():
     O.bodies.erase(plate)
     assert yt.stable_dt() == np.inf
     O.run(100, True)
-    assert yt.stable_dt() == np.inf and find_engine(yt.JointEngine).joints[0].isFinished
+    assert yt.stable_dt() == np.inf and find_engine(yt.JointEngine).joints[0].isBroken
 
 
 def test_joint_of_a_body_that_never_was():
@@ -57,7 +57,7 @@ def test_joint_of_a_body_that_never_was():
     find_engine(yt.JointEngine).append(yt.TimberJoint(id1=0, id2=77, anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1))
     assert yt.stable_dt() == pytest.approx(alone, rel=1e-6)
     O.run(2, True)
-    assert find_engine(yt.JointEngine).joints[1].isFinished
+    assert find_engine(yt.JointEngine).joints[1].isBroken
 
 
 def test_snow_put_on_later():
@@ -150,7 +150,7 @@ def test_a_joint_that_was_changed_by_hand():
         joint.anchors1 = joint.anchors1[:1]
     assert len(joint.anchors1) == len(joint.anchors2) == 4
     O.run(10, True)
-    assert joint.isFinished
+    assert joint.isBroken
     with pytest.raises(ValueError):
         find_engine(yt.JointEngine).append(yw.TimberJoint(id1=0, id2=1, anchors1=[(0, 0, 0)]))
 

@@ -53,7 +53,7 @@ def test_joint_built_attribute_by_attribute():
     joint = yw.TimberJoint()
     for name in ("kn", "ks", "strength", "anchors1", "anchors2"):
         setattr(joint, name, JOINT[name])
-    assert joint.broken == [0] and not joint.isFinished
+    assert joint.broken == [0] and not joint.isBroken
     with pytest.raises(ValueError, match="JointEngine.append"):
         yw.JointEngine().append(None)
 

@@ -38,7 +38,7 @@ class Progress:
             self.bar.write(f"{event.time_s:7.2f} s  {event.what}", file=sys.stderr)
         self.shown = len(self.log.events)
         joints = find_engine(yw.JointEngine).joints
-        broken = sum(joint.isFinished for joint in joints) - int(self.log.survey.joints.damaged.sum())
+        broken = sum(joint.isBroken for joint in joints) - int(self.log.survey.joints.damaged.sum())
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
         self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken}/{len(joints)} joints broken", refresh=False)
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)
