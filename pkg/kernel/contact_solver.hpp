@@ -23,7 +23,7 @@
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse [1/kg]
 ///     b_n, b_s   bias           impulse of the elastic force and of the velocity before the step [N s]
 ///     beta       -              Newmark's parameter [-]
-///     c          coupling       tangential impulse that cancels the slip caused by a unit normal impulse [-]
+///     c          coupling       tangential impulse that opposes the slip caused by a unit normal impulse [-]
 ///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]
 ///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
