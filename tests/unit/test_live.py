@@ -5,7 +5,7 @@ from contextlib import ExitStack
 
 import numpy as np
 import pytest
-from yade import O
+from yade import O, PyRunner
 from yade_timber.recording import frames
 from yade_timber.base import lock
 from yade_timber.run import live
@@ -42,6 +42,34 @@ def test_another_scene(tmp_path, capfd):
     O.reset()
     wait_for(lambda: not lock.is_locked(tmp_path))
     assert "another scene was loaded" in capfd.readouterr().err and not (tmp_path / "summary.json").exists()
+
+
+@pytest.mark.parametrize("replace", [O.reset, O.resetThisScene, O.switchScene])
+def test_scene_replaced_within_a_step(replace):
+    """A step that runs Python code ends before its scene is replaced: YADE by itself would wait for ever, with the interpreter locked."""
+    O.reset()
+    O.engines = [PyRunner(command="import time; time.sleep(0.05)", iterPeriod=1)]
+    O.dt = 1e-3
+    O.run()
+    wait_for(lambda: O.iter > 2)
+    replace()
+    assert not O.running
+    O.reset()
+
+
+def test_pause_and_wait():
+    """After O.wait() no step is computed any more, although O.pause() returns within one."""
+    O.reset()
+    O.engines = [PyRunner(command="import time; time.sleep(0.05); O.tags['id'] = str(O.iter)", iterPeriod=1)]
+    O.dt = 1e-3
+    O.run()
+    wait_for(lambda: O.iter > 2)
+    O.pause()
+    O.wait()
+    iteration, tag = O.iter, O.tags["id"]
+    time.sleep(0.2)
+    assert (O.iter, O.tags["id"]) == (iteration, tag)
+    O.reset()
 
 
 def test_an_earlier_state(tmp_path):

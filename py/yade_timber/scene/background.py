@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Changes to a scene while YADE computes it in the background.
 
-YADE's containers are not locked: a body that is erased within a step ends the process. `guard` lets such changes wait for
+YADE's containers are not locked: a body that is erased within a step ends the process. A scene that is replaced within a step
+blocks it for ever if the step runs Python code. `O.pause()` returns before the step ends. `guard` lets such changes wait for
 the end of the step. It also refuses a body's shape, material or state that the package's engines cannot deal with.
 """
 import threading
@@ -13,6 +14,7 @@ BODY_METHODS = (
     "append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember",
 )
 INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
+SCENE_METHODS = ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp", "switchScene", "switchToScene")
 BODY_PARTS = ("shape", "material", "state")
 
 O = yw.Omega()
@@ -21,12 +23,12 @@ O = yw.Omega()
 @contextmanager
 def between_steps():
     """Context in which no step is computed; a run in the background goes on afterwards."""
-    if not O.running or _computes_steps():
+    if _computes_steps():
         yield
         return
-    limits = O.stopAtIter, O.stopAtTime
+    limits, ended = (O.stopAtIter, O.stopAtTime), not O.running
     _plugin.finish_step()
-    ended = limits != (O.stopAtIter, O.stopAtTime)  # the run had reached its last step
+    ended = ended or limits != (O.stopAtIter, O.stopAtTime)  # the run had reached its last step
     try:
         yield
     finally:
@@ -47,6 +49,10 @@ def guard(plugin):
         for name in methods:
             if hasattr(container, name):  # it depends on YADE's version
                 setattr(container, name, _deferred(getattr(container, name)))
+    for name in SCENE_METHODS:
+        if hasattr(yw.Omega, name):
+            setattr(yw.Omega, name, _after_step(getattr(yw.Omega, name)))
+    yw.Omega.wait = _until_step(yw.Omega.wait)
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
 
@@ -59,6 +65,30 @@ def _deferred(method):
             return method(self, *args, **options)
 
     call.__name__, call.__doc__ = method.__name__, method.__doc__
+    return call
+
+
+def _after_step(method):
+    """A method of Omega that replaces the scene, called when the step is done; a run in the background ends."""
+
+    def call(self, *args, **options):
+        if not _computes_steps():
+            _plugin.finish_step()
+        return method(self, *args, **options)
+
+    call.__name__, call.__doc__ = method.__name__, method.__doc__
+    return call
+
+
+def _until_step(wait):
+    """`O.wait` that also waits for the last step after `O.pause()`."""
+
+    def call(self):
+        wait(self)
+        if not _computes_steps():
+            _plugin.finish_step()
+
+    call.__name__, call.__doc__ = wait.__name__, wait.__doc__
     return call
 
 
