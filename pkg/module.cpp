@@ -30,14 +30,22 @@ boost::python::list registerClasses()
 	return registered;
 }
 
-/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps.
+/// Returns when a run in the background has made a step since `before`, or has ended: its thread has started then.
+void awaitStep(long before)
+{
+	yade::Omega& omega = yade::Omega::instance();
+	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
+	while (omega.isRunning() && omega.getScene()->iter == before)
+		std::this_thread::sleep_for(std::chrono::microseconds(20));
+	PyEval_RestoreThread(released);
+}
+
+/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps, nor
+/// before the run's thread has started (awaitStep): YADE would free what the thread is about to use.
 void finishStep()
 {
 	yade::Omega& omega = yade::Omega::instance();
 	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
-	const long before = omega.getScene()->iter;
-	while (omega.isRunning() && omega.getScene()->iter == before) // stop() must not come before the run's thread has started
-		std::this_thread::sleep_for(std::chrono::microseconds(20));
 	omega.stop();
 	omega.createSimulationLoop();
 	PyEval_RestoreThread(released);
@@ -59,6 +67,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	defineLayoutGuard();
 	boost::python::def("build_record", &buildRecord);
 	boost::python::def("register_classes", &registerClasses);
+	boost::python::def("await_step", &awaitStep, (boost::python::arg("before")));
 	boost::python::def("finish_step", &finishStep);
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
 	boost::python::def("packed_placements", &yade::packedPlacements);

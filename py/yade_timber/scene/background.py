@@ -53,6 +53,7 @@ def guard(plugin):
         if hasattr(yw.Omega, name):
             setattr(yw.Omega, name, _after_step(getattr(yw.Omega, name)))
     yw.Omega.wait = _until_step(yw.Omega.wait)
+    yw.Omega.run = _until_started(yw.Omega.run)
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
 
@@ -89,6 +90,19 @@ def _until_step(wait):
             _plugin.finish_step()
 
     call.__name__, call.__doc__ = wait.__name__, wait.__doc__
+    return call
+
+
+def _until_started(run):
+    """`O.run` that returns when the first step is done: YADE must not end a run whose thread has not started."""
+
+    def call(self, *args, **options):
+        before = self.iter
+        run(self, *args, **options)
+        if not _computes_steps():
+            _plugin.await_step(before)
+
+    call.__name__, call.__doc__ = run.__name__, run.__doc__
     return call
 
 
