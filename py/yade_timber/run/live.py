@@ -52,7 +52,8 @@ class LiveRun(Run):
     def _watch(self):
         while self.is_loaded() and O.iter < self.steps:
             time.sleep(0.5)
-        O.wait()
+        if self.is_loaded():  # a run of another scene is the user's
+            O.wait()
         self.wall_s += time.perf_counter() - self._since
         self._end()
 
