@@ -142,8 +142,9 @@ void ContactForces::solveAll()
 void ContactForces::sumResults()
 {
 	elasticNormal = elasticShear = elasticPower = 0;
-	for (const ContactPair& pair : pairs)
-		if (trackEnergy) released += pair.released;
+	if (trackEnergy)
+		for (const ContactPair& pair : pairs)
+			released += pair.released;
 	int maxSweeps = 0;
 	for (const IslandResult& result : results) {
 		dashpotNormal += result.energies.dashpotNormal;
