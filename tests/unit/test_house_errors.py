@@ -44,9 +44,9 @@ structures:
 joint_types:
   peg: {kn: 1e5, ks: 1e5, strength: 2000}
 joints:
-  - {between: [column, [sill, beam]], type: peg, kind: column_beam}
-  - {between: [brace, [sill, beam]], type: peg, kind: brace_beam}
-  - {between: [beam, beam], type: peg, kind: beam_beam}
+  column_ends: {between: [column, [sill, beam]], type: peg, kind: column_beam}
+  brace_ends: {between: [brace, [sill, beam]], type: peg, kind: brace_beam}
+  beams: {between: [beam, beam], type: peg, kind: beam_beam}
 snow: {depth: 0.5}
 """
 
@@ -75,7 +75,7 @@ def test_structures_are_not_jointed_to_each_other(tmp_path):
     """Two stores in contact: no joints between them, though the side faces of their roofs are flush."""
     start, end = STOREHOUSE.index("  store:"), STOREHOUSE.index("joint_types:")
     second = STOREHOUSE[start:end].replace("store:", "annex:").replace("origin: [0, 0]", "beside: store, gap: 0")
-    ties = "  - {between: [roof, roof], type: peg, kind: roof_roof}\nsnow:"
+    ties = "  ties: {between: [roof, roof], type: peg, kind: roof_roof}\nsnow:"
     model = build(tmp_path, (STOREHOUSE[:end] + second + STOREHOUSE[end:]).replace("snow:", ties, 2).replace(ties, "snow:", 1))
     assert model.counts()["joints_by_kind"] == {"column_beam": 24, "brace_beam": 4, "beam_beam": 8}
 
@@ -98,7 +98,7 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "unknown layer": ("layer: columns", "layer: column", 18, ["stack[2].layer", "'column'", "'columns'"]),
     "unknown roof": ("type: flat", "type: onion", 20, ["stack[4].type", "'onion'", "hip, gable, flat"]),
     "unknown direction": ("along: x, at: 0", "along: z, at: 0", 25, ["braces.lines[1].along", "'z'", "x, y"]),
-    "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29, ["joints[1].type", "'pegg'", "'peg'"]),
+    "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29, ["joints.column_ends.type", "'pegg'", "'peg'"]),
     "unknown material": ("{layer: columns, height: 2}", "{layer: columns, height: 2, material: steel}", 18, ["stack[2].material", "'steel'", "timber, snow"]),
     "unknown friction pair": ("between: [timber, timber]", "between: [timber, ice]", 6, ["friction[1]", "'ice'"]),
     "two column forms": ("section: 0.1, grid", "section: 0.1, at: [[0, 0]], grid", 22, ["columns[1]", "at, grid, lines", "at and grid"]),
@@ -134,8 +134,18 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "snow on no roof": ("type: flat, thickness: 0.1", "type: flat, thickness: 0.1, snow: false", 32, ["snow", "0.5 m"]),
     "two roofs in one place": ("{layer: roof, type: flat, thickness: 0.1}", "{layer: roof, type: flat, thickness: 0.1}\n      - {layer: roof, type: flat, thickness: 0.2, snow: false}", 21, ["store.roof2", "store.roof1"]),
     "empty area": ("type: flat, thickness: 0.1", "type: flat, thickness: 0.1, area: {x: [1, 1], y: [0, 1]}", 20, ["store", "x node 1"]),
-    "beam in the air": ("  - {between: [beam, beam], type: peg, kind: beam_beam}\n", "", 15, ["beam store.beam1.NS.x0.1", "x 0.000, y 0.750, z 2.100", "1 more"]),
-    "joints forgotten": ("  - {between: [brace, [sill, beam]], type: peg, kind: brace_beam}\n", "", 25, ["brace store.brace1.EW.y0.0-1", "bottom", "22.2 cm2", "sill store.sill.EW.y0", "joint_search.min_area"]),
+    "beam in the air": ("  beams: {between: [beam, beam], type: peg, kind: beam_beam}\n", "", 15, ["beam store.beam1.NS.x0.1", "x 0.000, y 0.750, z 2.100", "1 more"]),
+    "list of rules": ("  column_ends: {between", "  - {between", 30, ["not valid YAML"]),
+    "two rules for a pair": ("snow: {depth: 0.5}", "  posts: {between: [sill, column], type: peg, kind: column_beam}", 32,
+                             ["joints.posts", "joins column and sill as joints.column_ends", "null"]),
+    "slip key without slip": ("strength: 2000", "strength: 2000, friction_share: 0.2", 27, ["joint_types.peg", "'friction_share'", "law: slip"]),
+    "slip without stretches": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0.2", 27, ["joint_types.peg", "'softening_stretch'"]),
+    "slip with two stiffnesses": ("ks: 1e5, strength: 2000", "ks: 2e5, strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.1, ultimate_stretch: 0.2", 27,
+                                  ["joint_types.peg.ks", "100000"]),
+    "slip stretches descend": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.01, ultimate_stretch: 0.2", 27,
+                               ["joint_types.peg", "0.02 m", "must ascend"]),
+    "share above one": ("type: peg, kind: brace_beam", "type: peg, kind: brace_beam, share: 1.5", 30, ["joints.brace_ends.share", "[0.01, 1]", "1.5"]),
+    "joints forgotten": ("  brace_ends: {between: [brace, [sill, beam]], type: peg, kind: brace_beam}\n", "", 25, ["brace store.brace1.EW.y0.0-1", "bottom", "22.2 cm2", "sill store.sill.EW.y0", "joint_search.min_area"]),
     "brace without a sill": ("along: x, at: 0, runs", "along: y, at: 1, runs", 25, ["brace store.brace1.NS.x1.0-1", "z 0.100"]),
     "column without a beam": ("height: 0.1, width: 0.1}\n      - {layer: roof", "height: 0.1, width: 0.1, lines: [{along: x, at: 0, from: 0, to: 2}]}\n      - {layer: roof", 22, ["column store.column1.x0y1", "z 2.100"]),
     "impossible friction": ("between: [timber, timber], coefficient: 0.5", "between: [timber, snow], coefficient: 0.7", 6, ["friction of timber and snow", "0.7", "0.5"]),
@@ -279,9 +289,9 @@ def test_a_chain_of_3000_files(tmp_path):
 
 
 def test_an_error_in_an_extended_file_names_that_file(tmp_path):
-    (tmp_path / "base.yaml").write_text((SHIPPED / "base.yaml").read_text().replace("margin: 0.075 ", "margin: -1 ", 1))
-    text = message(tmp_path, "extends: base.yaml\nname: mine\n")
-    assert text.startswith("base.yaml:") and "structures.main.margin" in text
+    (tmp_path / "paper.yaml").write_text((SHIPPED / "paper.yaml").read_text().replace("margin: 0.075 ", "margin: -1 ", 1))
+    text = message(tmp_path, "extends: paper.yaml\nname: mine\n")
+    assert text.startswith("paper.yaml:") and "structures.main.margin" in text
 
 
 def test_snow_depth_argument_is_checked(tmp_path):

@@ -108,9 +108,9 @@ def test_each_storey_has_its_height(tmp_path):
 
 def test_a_roof_right_on_the_columns_marks_the_upper_level(tmp_path):
     """No beams under the roof of a house that has a floor: the roof itself marks the level of the upper storey."""
-    base = yaml.safe_load((SHIPPED / "base.yaml").read_text())
+    base = yaml.safe_load((SHIPPED / "paper.yaml").read_text())
     stack = [*base["structures"]["main"]["stack"][:6], {"layer": "roof", "type": "flat", "thickness": 0.12}]  # without the upper beams
-    rules = [*base["joints"], {"between": ["column", "roof"], "type": "corner_fitting", "kind": "column_roof"}]
+    rules = {"column_roofs": {"between": ["column", "roof"], "type": "corner_fitting", "kind": "column_roof"}}
     path = tmp_path / "bare.yaml"
     path.write_text(yaml.safe_dump({"extends": "A", "structures": {"main": {"stack": stack}, "entrance": None}, "joints": rules}))
     model = scenario.build(scenario.Scenario("bare", str(path)))

@@ -5,7 +5,8 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import contact_polygon, separation
-from .joints import END_JOINED, near_pairs
+from .joint_values import END_JOINED
+from .joints import near_pairs
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
 LYING = 0.1  # vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees

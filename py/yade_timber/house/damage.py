@@ -19,6 +19,8 @@ def apply_damage(joints, structures, damage):
         for kind in KINDS:
             if region[kind] is not None:
                 _break(joints, structure, region, kind, damage["end"], f"damage.regions[{i + 1}].{kind}")
+    if damage["plate"] == "whole":
+        _break_plates(joints)
 
 
 def _break(joints, structure, region, kind, default_end, path):
@@ -30,6 +32,13 @@ def _break(joints, structure, region, kind, default_end, path):
                          f"has {len(found)} at the {end} of storey {storey}; lower the count")
     for joint in nearest_to_middle(found, structure, side)[:wanted["count"]]:
         joint.broken = True
+
+
+def _break_plates(joints):
+    """Break the joints with columns of the braces' ends whose joints with beams are broken: one plate makes both."""
+    torn = {(joint.a, joint.end) for joint in joints if joint.kind == "brace_beam" and joint.broken}
+    for joint in joints:
+        joint.broken |= joint.kind == "brace_column" and (joint.a, joint.end) in torn
 
 
 def nearest_to_middle(joints, structure, side):

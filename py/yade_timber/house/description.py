@@ -7,6 +7,7 @@ from pathlib import Path
 from ..base.input_file import is_file, is_folder, shown
 from .errors import HouseError
 from .friction import check_friction
+from .joint_values import check_joint_rules, check_joint_types
 from .layout import HOUSE, MAX_SNOW, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
@@ -34,6 +35,8 @@ def checked(table, path):
     data = HOUSE.check(table, f"{path.name}:1", "")
     _check_references(data)
     check_friction(data)
+    check_joint_types(data["joint_types"])
+    check_joint_rules(data["joints"])
     require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data
 
@@ -61,8 +64,8 @@ def _check_references(data):
         fail(data.at("structures"), "structures", "a house needs at least one structure")
     for table, name in _material_users(data):
         _require_known(table, "material", data["materials"], name, "material")
-    for i, rule in enumerate(data["joints"]):
-        _require_known(rule, "type", data["joint_types"], f"joints[{i + 1}]", "joint type")
+    for name, rule in data["joints"].items():
+        _require_known(rule, "type", data["joint_types"], f"joints.{name}", "joint type")
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
             _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")

@@ -7,10 +7,9 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import contact_polygon, plane_axes, polygon_area
+from .joint_values import END_JOINED, joint_values, rules_by_kinds
 from .limits import MAX_PAIRS
 from .model import JointSpec
-
-END_JOINED = ("column", "brace")  # kinds of members with a joint at each end
 
 
 def find_joints(elements, description):
@@ -19,7 +18,8 @@ def find_joints(elements, description):
     A rule joins elements of one structure, or with `across` those of two structures. Contacts below `joint_search.min_area`
     get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam with that strip only.
     """
-    data, rules = description.data, _rules(description.data["joints"])
+    data = description.data
+    rules = {kinds: rule for kinds, [(_, rule)] in rules_by_kinds(data["joints"]).items()}
     tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
     joints = []
     for a, b in near_pairs(elements, tolerance):
@@ -49,21 +49,13 @@ def near_pairs(elements, margin):
     return pairs
 
 
-def _rules(rules):
-    """{(kind a, kind b, across): rule}; a is the column or brace of the two, or else the first kind of the rule."""
-    pairs = ((a, b, rule) for rule in rules for a in rule["between"][0] for b in rule["between"][1])
-    return {(*sorted((a, b), key=lambda kind: kind not in END_JOINED), rule["across"]): rule for a, b, rule in pairs}
-
-
 def _joint(a, b, rule, contact, data):
     polygon, normal, area = contact
-    values = data["joint_types"][rule["type"]]
-    per = values["per"] or data["law"]["joint_reading"]
     points = spring_points(polygon, normal)
     end_joined = a.kind in END_JOINED
     end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if end_joined else ""
-    return JointSpec(a.name, b.name, rule["type"], rule["kind"], points, normal, area, values["kn"], values["ks"], values["strength"], per,
-                     storey=a.storey, side=a.side if end_joined else a.side or b.side, end=end, group=a.group)
+    return JointSpec(a.name, b.name, points, normal, area, storey=a.storey, side=a.side if end_joined else a.side or b.side, end=end,
+                     group=a.group, **joint_values(data, rule))
 
 
 def spring_points(polygon, normal):

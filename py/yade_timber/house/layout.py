@@ -105,12 +105,22 @@ material = Variants("law", {
                     "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
 })
 
+_stretch = Number("m", 1e-5, 10.0, default=None)
 joint_type = Record({
+    "law": Choice(("brittle", "slip"), "brittle"),
     "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
     "strength": Number("N", 10.0, infinite=True), "per": Choice(("spring", "joint"), None),
+    "damping_ratio": Number("", 0.0, 1.0, default=None),
+    "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch, "ultimate_stretch": _stretch,
 })
+SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
+"""Keys of a joint type that its law `slip` needs and `brittle` refuses."""
 
-joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(), "across": Flag(False)})
+joint_rule = Record({
+    "between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(), "across": Flag(False),
+    "number": Number("fittings", 1, 100, whole=True, default=1), "share": Number("", 0.01, 1.0, default=1.0),
+    "strength": Number("N", 10.0, infinite=True, default=None),
+})
 
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey,
@@ -122,7 +132,8 @@ HOUSE = Record({
     "materials": MapOf(material),
     "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
     "law": Record({
-        "joint_reading": Choice(("spring", "joint"), "spring"),
+        "joint_reading": Choice(("spring", "joint"), "joint"),
+        "joint_damping": Number("", 0.0, 1.0, default=0.0),
         "vertex_edge_contacts": Flag(False),
         "flush_supports": Flag(True),
         "hertz": Choice(("closed", "increment"), "closed"),
@@ -130,10 +141,10 @@ HOUSE = Record({
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
     "structures": MapOf(structure),
     "joint_types": MapOf(joint_type),
-    "joints": ListOf(joint_rule),
+    "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),
-    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
+    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "plate": Choice(("whole", "beam"), "whole"), "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
     "snow": Record({"material": word("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),
     "plumb": Record({"drift": Number("", 0.0, 0.05, default=0.0), "towards": Choice(SIDES, "north")}, default={}),
 })

@@ -9,6 +9,8 @@ from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
 from .parser import Table, parse_table
 
+COMMON = ("base", "paper")
+"""Shipped files that houses extend: materials and joints; frame of the paper's houses."""
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
@@ -57,13 +59,13 @@ def _extended(path, table):
     found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
     if found is None:
         raise HouseError(f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that name "
-                         f"(base, {', '.join(shipped_houses())})")
+                         f"({', '.join([*COMMON, *shipped_houses()])})")
     return found
 
 
 def shipped_houses():
     """Names of the shipped houses that `load_house` takes, e.g. ['A', 'B', 'B1', ..., 'storehouse']."""
-    return sorted(path.stem.removeprefix("model") for path in SHIPPED.glob("*.yaml") if path.stem != "base")
+    return sorted(path.stem.removeprefix("model") for path in SHIPPED.glob("*.yaml") if path.stem not in COMMON)
 
 
 def shipped_paths(name):
@@ -72,13 +74,13 @@ def shipped_paths(name):
 
 
 def merge(base, change):
-    """`change` laid over `base`: tables entry by entry, null removes an entry, everything else is replaced as a whole."""
+    """`change` laid over `base`: tables entry by entry, null removes an entry if there is one, everything else is replaced as a whole."""
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
-        if value is None and key in base:
-            del result[key]
+        if value is None:
+            result.pop(key, None)
             continue
-        both = isinstance(value, Table) and isinstance(base.get(key), Table)
-        result[key] = merge(base[key], value) if both else value
+        below = base[key] if isinstance(base.get(key), Table) else Table()
+        result[key] = merge(below, value) if isinstance(value, Table) else value
         result.entries[key] = change.at(key)
     return result

@@ -53,17 +53,22 @@ class JointSpec:
 
     a: str
     b: str
-    type: str            # key of joint_types
-    kind: str            # 'column_beam', 'brace_beam', 'floor_beam', 'roof_beam', 'roof_roof', ...
     points: np.ndarray   # (4, 3) spring points [m], world frame
     normal: np.ndarray   # (3,) unit, from a to b
     area: float          # contact area [m2]
+    type: str            # key of joint_types
+    kind: str            # 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...
     kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
     ks: float            # [N/m] tangential stiffness, likewise
-    strength: float      # [N] P_max, likewise; inf: unbreakable
+    strength: float      # [N] P_max, with law 'slip' the yield force, likewise; inf: unbreakable
     per: str             # 'spring': values of each spring; 'joint': of the joint as a whole
     storey: int
     side: frozenset
+    law: str = "brittle"  # or 'slip'
+    damping_ratio: float = 0.0  # of the critical damping of the joined masses
+    friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
+    softening_stretch: object = None  # [m] law 'slip': stretch from which the strength falls
+    ultimate_stretch: object = None   # [m] law 'slip': stretch at which no strength is left
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts

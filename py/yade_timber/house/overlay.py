@@ -126,5 +126,6 @@ def _add_brace(data, name, where):
 def _strengthen(data, factor, where):
     if not MIN_FACTOR <= factor <= MAX_FACTOR:
         raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g}, {MAX_FACTOR:g}]")
-    for kind in data["joint_types"].values():
-        kind["strength"] = kind["strength"] * factor
+    for table in (*data["joint_types"].values(), *data["joints"].values()):
+        if table.get("strength") is not None:
+            table["strength"] *= factor

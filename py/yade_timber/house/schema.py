@@ -148,7 +148,7 @@ class MapOf:
 
     def check(self, value, where, name):
         if not isinstance(value, Table):
-            fail(where, name, f"expected a table of names, got {shown(value)}")
+            fail(where, name, f"expected a table of names (name: ...), got {shown(value)}")
         if len(value) > MAX_NAMES:
             fail(where, name, f"{len(value)} entries; at most {MAX_NAMES}")
         for key in value:

@@ -20,7 +20,10 @@ LEAD = 1.0
 LABEL_GAP = 10
 """Between the baselines of two labels of drifts. [pt]"""
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
-JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
+JOINT_KINDS = {
+    "column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE, "floor_beam": colors.AMBER,
+    "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN,
+}
 DISSIPATED = {
     "dashpot_normal": ("contact dashpots,\nnormal", colors.SKY_BLUE),
     "dashpot_shear": ("contact dashpots,\ntangential", colors.BLUE),
