@@ -120,10 +120,9 @@ def runs_text(*runs):
 def tilts_and_collapses_when_shaken(a):
     if not a["collapsed"] or a["leans_from_s"] is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
-    onset = a["record"]["onset_s"]
+    onset = a["record"]["onset_s"]  # the direction depends on the record, which differs from the paper's: it is reported, not judged
     tilt, fall = a["leans_from_s"] - onset, a["collapse_time_s"] - onset
-    holds = a["tilt_direction"] == "ns" and within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET)
-    return holds, (
+    return within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET), (
         f"strong shaking from {onset:.1f} s; leans {direction_name(a['tilt_direction'])} from {a['leans_from_s']:.1f} s ({tilt:+.1f} s), exceeds 1/10 at "
         f"{a['tilt_time_s']:.1f} s, collapsed {a['collapse_time_s']:.1f} s ({fall:+.1f} s)"
     )
@@ -190,7 +189,7 @@ def within(seconds, limits):
 
 
 CLAIMS = {  # name -> (claim, check, runs that the check takes)
-    "E1": ("A, earthquake: tilts N-S when strong shaking sets in, has collapsed about 6 s later", tilts_and_collapses_when_shaken, ("modelA_quake",)),
+    "E1": ("A, earthquake: tilts when strong shaking sets in (N-S in the paper), has collapsed about 6 s later", tilts_and_collapses_when_shaken, ("modelA_quake",)),
     "E2": ("B, earthquake: does not collapse", does_not_collapse, ("modelB_quake",)),
     "E3": ("C, earthquake: does not collapse", does_not_collapse, ("modelC_quake",)),
     "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow, ("modelA_snow",)),
