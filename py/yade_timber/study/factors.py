@@ -46,7 +46,7 @@ def house_entries(house, factors, signs):
         entries = merged(merged(entries, level.entries), level.houses.get(house[0], {}))
     if "friction" in entries:
         entries["friction"] = [{"between": [name, name], "coefficient": entries["friction"][name]} for name in MATERIALS]
-    return {"extends": house, **_without_idle_nulls(entries, shipped(f"model{house}"))}
+    return {"extends": house, **entries}
 
 
 def merged(base, change):
@@ -58,19 +58,7 @@ def merged(base, change):
     return result
 
 
-def _without_idle_nulls(entries, base):
-    """Entries without the nulls that would remove what `base` has not."""
-    found = {}
-    for key, value in entries.items():
-        known = base.get(key) if isinstance(base, dict) else None
-        if isinstance(value, dict):
-            found[key] = _without_idle_nulls(value, known)
-        elif value is not None or known is not None:
-            found[key] = value
-    return found
-
-
-def shipped(name="base"):
+def shipped(name):
     """A shipped house file and the files it extends, as plain tables."""
     return json.loads(json.dumps(load_table(SHIPPED / f"{name}.yaml")))
 
@@ -85,7 +73,7 @@ def rules(**named):
 
 def supports(support):
     """Frame and joints with columns and braces that stand on sills or on the foundation itself. support: 'sill' or 'foundation'."""
-    stacks = {name: _stack(structure["stack"], support == "sill") for name, structure in shipped()["structures"].items()}
+    stacks = {name: _stack(structure["stack"], support == "sill") for name, structure in shipped("paper")["structures"].items()}
     ends = [support, "beam", "floor"]
     joined = rules(column_ends={"between": ["column", ends]}, brace_ends={"between": ["brace", ends]})
     return {"structures": {name: {"stack": stack} for name, stack in stacks.items()}, **joined}
@@ -96,14 +84,14 @@ def _stack(layers, sill):
     return [foundation, *([{"layer": "sill", "height": 0.12, "width": 0.105}] if sill else []), *rest]
 
 
-def fastened(kn, strength):
-    """Stiffness kn = ks [N/m] and strength [N] of the joints of floors and roof with the beams below."""
-    return {"joint_types": {name: {"kn": kn, "ks": kn, "strength": strength} for name in ("floor_bolt", "roof_plate")}}
+def fastened(**values):
+    """Values of the joints of floors and roof with the beams below."""
+    return {"joint_types": {name: dict(values) for name in ("floor_bolt", "roof_plate")}}
 
 
 def inner_columns(*nodes):
     """The seven inner columns of a storey at these nodes (x, y)."""
-    groups = [{**group, "at": [list(node) for node in nodes]} if "at" in group else group for group in shipped()["structures"]["main"]["columns"]]
+    groups = [{**group, "at": [list(node) for node in nodes]} if "at" in group else group for group in shipped("paper")["structures"]["main"]["columns"]]
     return {"structures": {"main": {"columns": groups}}}
 
 
@@ -134,8 +122,8 @@ FACTORS = (
         Level("butting beams not joined", rules(beams=None)),
         Level("butting beams joined by corner fittings", rules(beams=BEAMS)))),
     Factor("floors", "floors and roof with fittings", (
-        Level("floors and roof nailed, unbreakable", fastened(1e7, float("inf"))),
-        Level("floors and roof with the corner fitting's values", fastened(58800, 5880)))),
+        Level("floors and roof nailed, unbreakable", fastened(kn=4e7, ks=4e7, strength=float("inf"), per="joint")),
+        Level("floors and roof with the corner fitting's values", fastened(kn=58800, ks=58800, strength=5880, per=None)))),
     Factor("supports", "columns on the foundation", (
         Level("columns on sills", supports("sill")),
         Level("columns on the foundation itself", supports("foundation")))),
