@@ -32,7 +32,7 @@ def arguments():
     parser.add_argument("--start", type=non_negative, default=15.0, metavar="S", help="start of the part of synthetic motions [s] (default %(default)g)")
     parser.add_argument("--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)")
     parser.add_argument("--dt", type=positive, default=4e-4, metavar="S", help="time step [s] (default %(default)g)")
-    parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9", help=f"cells (default 0-{design.RUNS - 1})")
+    parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9", help=f"cells to run (default 0-{design.RUNS - 1}); all that are done are analysed")
     parser.add_argument("--collect", action="store_true", help="run nothing; analyse the results there are")
     return parser.parse_args()
 
@@ -52,18 +52,19 @@ def numbers(text):
 def main():
     options = arguments()
     motions = [cells.synthetic(n, options.start, options.end) for n in options.seeds] + [cells.recorded(one) for one in options.record]
-    planned = cells.plan(options.cells, motions, options.dt)
+    planned = cells.plan(motions, options.dt)
     rows = read_table(cells.write_inputs(planned, options.out))
+    chosen = [entry.cell in options.cells for entry in planned]
     try:
         if not options.collect:
-            run_rows(rows, options.out, SCRIPTS, options.jobs)
+            run_rows([row for row, is_chosen in zip(rows, chosen) if is_chosen], options.out, SCRIPTS, options.jobs)
     finally:
         write_runs(rows, options.out)
         summaries = [task_of(row, options.out).summary for row in rows]
         results = collect(planned, summaries)
         for path in [*report.write(results, options.out), picture.draw(results, options.out / "screening.png")]:
             print(f"written: {path}")
-    return int(None in summaries)
+    return int(any(is_chosen and summary is None for is_chosen, summary in zip(chosen, summaries)))
 
 
 if __name__ == "__main__":

@@ -56,9 +56,9 @@ class Planned:
     row: dict
 
 
-def plan(cells, motions, dt):
-    """Runs of these cells, cell by cell. dt [s]: time step."""
-    return [planned for cell in cells for planned in _runs_of(cell, motions, dt)]
+def plan(motions, dt):
+    """Runs of the screening, cell by cell. dt [s]: time step."""
+    return [planned for cell in range(design.RUNS) for planned in _runs_of(cell, motions, dt)]
 
 
 def _runs_of(cell, motions, dt):
