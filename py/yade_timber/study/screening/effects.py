@@ -3,6 +3,9 @@
 
 An effect is the mean of the cells at the factor's second level minus that at the first. The complete design is orthogonal; for a part of
 its cells, effects are those of a least-squares fit, as far as the cells determine it: main effects first, then interactions.
+
+Two estimates of chance are made: the scatter of the motions, and the effects of the columns without a factor, which also contain
+interactions of three factors. An effect stands out when it exceeds both.
 """
 from dataclasses import dataclass
 
@@ -15,22 +18,33 @@ MAIN, INTERACTION, EMPTY = "main", "interaction", "empty"
 RESAMPLES, RESAMPLING_SEED = 2000, 0
 """Bootstrap over the motions."""
 SIGNIFICANT = 2.0
-"""Effects beyond this many standard errors are pointed out. [-]"""
+"""An effect stands out beyond this many standard errors, of either estimate. [-]"""
+TINY = 1e-9
+"""Effects of this size are rounding errors. [of the response]"""
 
 
 @dataclass(frozen=True)
 class Effect:
-    """kind: MAIN, INTERACTION or EMPTY; word: of its column; factors: numbers of the factors, or pairs of them; value and standard error [of the response]."""
+    """kind: MAIN, INTERACTION or EMPTY; word: of its column; factors: numbers of the factors, or pairs of them.
+
+    value, error: effect and its standard error by the motions, in the response's unit; chance: root mean square of the EMPTY effects, or 0.
+    """
 
     kind: str
     word: str
     factors: tuple
     value: float
     error: float
+    chance: float
+
+    @property
+    def significance(self):
+        """Effect over the larger one of its standard errors; 0 for no effect, NaN for a single motion."""
+        return self.value / max(self.error, self.chance, TINY)
 
     @property
     def stands_out(self):
-        return abs(self.value) > SIGNIFICANT * self.error
+        return self.kind != EMPTY and abs(self.significance) > SIGNIFICANT
 
 
 def columns(count):
@@ -53,9 +67,11 @@ def effects(values, cells, count, typical):
     fitted, inverse = _fit(cells[known], columns(count))
     if not fitted:
         return []
-    found = 2 * inverse @ typical(values[:, known], 0)
-    errors = _errors(values[:, known], inverse, typical)
-    return [Effect(*column, value, error) for column, value, error in zip(fitted, found[1:].tolist(), errors[1:].tolist())]
+    found = (2 * inverse @ typical(values[:, known], 0))[1:]
+    errors = _errors(values[:, known], inverse, typical)[1:]
+    empty = found[[kind == EMPTY for kind, _, _ in fitted]]
+    chance = float(np.sqrt((empty**2).mean())) if len(empty) else 0.0
+    return [Effect(*column, float(value), float(error), chance) for column, value, error in zip(fitted, found, errors)]
 
 
 def _fit(cells, wanted):

@@ -5,15 +5,18 @@ import math
 from ...base.atomic_write import write_text
 from ...base.table import csv_text
 from .. import design
+from ..claims import CLAIMS
 from ..factors import FACTORS
 from ..report import markdown_table
 from .cells import cell_name
-from .effects import EMPTY, INTERACTION, MAIN
+from .effects import INTERACTION, MAIN
 from .responses import COUNT, LOG, RESPONSES, SHARE
 
 CELL_COLUMNS = ("falls_A", "falls_B", "falls_C", "falls_B1", "falls_B2", "falls_C1", "falls_C2", "drift_A", "drift_B", "drift_C", "across_B1", "across_B2",
                 "C_over_B", "C1_over_B1", "C2_over_B2", "column_beam_west_B1", "brace_beam_west_B1", "claims")  # fmt: skip
 """Responses in the table of cells."""
+MOST_INTERACTIONS = 3
+"""Interactions of a response in its table."""
 
 
 def write(results, folder):
@@ -40,8 +43,9 @@ def cells_csv(results):
 
 
 def effects_csv(found):
-    rows = [(name, RESPONSES[name].kind, e.kind, label(e), e.value, blank(e.error), int(e.stands_out)) for name, effects in found.items() for e in effects]
-    return csv_text(("response", "unit", "kind", "effect_of", "effect", "standard_error", "beyond_two_errors"), rows)
+    rows = [(name, RESPONSES[name].kind, e.kind, label(e), e.value, blank(e.error), e.chance, int(e.stands_out))
+            for name, effects in found.items() for e in effects]  # fmt: skip
+    return csv_text(("response", "unit", "kind", "effect_of", "effect", "error_by_motions", "error_by_empty_columns", "stands_out"), rows)
 
 
 def blank(value):
@@ -59,16 +63,20 @@ def label(effect, name=lambda k: FACTORS[k].name):
 
 
 def markdown(results, found):
-    parts = [head(results), factor_table(), cell_table(results), main_table(found), interaction_list(found)]
+    claims = {name: effects for name, effects in found.items() if name in CLAIMS}
+    others = {name: effects for name, effects in found.items() if name not in CLAIMS}
+    parts = [head(results), factor_table(), cell_table(results), main_table("Main effects", others),
+             main_table("Main effects on the shares of motions in which the claims hold", claims), interaction_table(others)]  # fmt: skip
     return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
 
 
 def head(results):
-    lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.",
+    lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.", "",
              "Shares are means, other responses medians over the motions. An effect is the mean of the cells with the second level of a factor minus that with the",
-             "first; x 2 means twice as large. Its standard error comes from the scatter of the motions (bootstrap). **Bold**: beyond two standard errors."]  # fmt: skip
+             "first; x 2: twice as large. In brackets its standard error from the scatter of the motions (bootstrap). 'No factor': root mean square of the effects",
+             "of columns without a factor, that is of chance and of interactions of three factors. **Bold**: beyond two standard errors of both kinds."]  # fmt: skip
     if len(results.cells) < design.RUNS:
-        lines.append("The design is not complete: main effects are confounded with two-factor interactions.")
+        lines += ["", "The design is not complete: main effects are confounded with two-factor interactions."]
     return lines
 
 
@@ -91,27 +99,27 @@ def sign_text(signs):
     return "`" + " ".join(text[k:k + 3] for k in range(0, len(text), 3)) + "`"
 
 
-def main_table(found):
+def main_table(title, found):
     rows = []
     for name, effects in found.items():
-        mains = [effect for effect in effects if effect.kind == MAIN]
-        rows += [(RESPONSES[name].title, *(effect_text(RESPONSES[name].kind, e) for e in mains), chance_text(RESPONSES[name].kind, effects))] if mains else []
+        mains, kind = [effect for effect in effects if effect.kind == MAIN], RESPONSES[name].kind
+        rows += [(RESPONSES[name].title, *(effect_text(kind, e) for e in mains), size_text(kind, mains[0].chance))] if mains else []
     if not rows:
-        return ["## Main effects", "", "The cells do not determine them yet."]
-    return ["## Main effects", "", "Last column: root mean square of the effects of columns without a factor, that is of chance and of interactions of three factors.", "",
-            *markdown_table(("response", *(f"{k} {factor.title}" for k, factor in enumerate(FACTORS, 1)), "no factor"), rows)]  # fmt: skip
+        return [f"## {title}", "", "The cells do not determine them yet."]
+    return [f"## {title}", "", *markdown_table(("response", *(f"{k} {factor.title}" for k, factor in enumerate(FACTORS, 1)), "no factor"), rows)]
 
 
-def interaction_list(found):
-    """Interactions beyond two standard errors, the most significant first, with their aliases."""
-    lines = []
+def interaction_table(found):
+    """The most significant interactions of each response, with their aliases."""
+    rows = []
     for name, effects in found.items():
-        strong = sorted((e for e in effects if e.kind == INTERACTION and e.stands_out), key=lambda e: -abs(e.value) / max(e.error, 1e-12))
-        lines += [(RESPONSES[name].title, effect_text(RESPONSES[name].kind, e).replace("*", ""), label(e)) for e in strong]
-    if not lines:
+        strong = sorted((e for e in effects if e.kind == INTERACTION and e.stands_out), key=lambda e: -abs(e.significance))
+        rows += [(RESPONSES[name].title, effect_text(RESPONSES[name].kind, e).replace("*", ""), label(e)) for e in strong[:MOST_INTERACTIONS]]
+    if not rows:
         return []
-    return ["## Interactions beyond two standard errors", "", "Interactions in a row are confounded with one another: the sum of their effects is seen.", "",
-            *markdown_table(("response", "effect", "interactions"), lines)]  # fmt: skip
+    return ["## Interactions beyond two standard errors", "", f"The {MOST_INTERACTIONS} most significant ones of each response. "
+            "Interactions in a row are confounded with one another: the sum of their effects is seen.", "",
+            *markdown_table(("response", "effect", "interactions"), rows)]  # fmt: skip
 
 
 # --- numbers as text ----------------------------------------------------------------------------------------------------
@@ -129,16 +137,11 @@ def value_text(name, value):
 
 def effect_text(kind, effect):
     """'x 1.5 (1.2)' for a factor and that of its standard error, '+0.40 (0.10)' for shares and counts; bold when it stands out."""
-    if kind == LOG:
-        text = f"x {10 ** effect.value:.2f} ({10 ** effect.error:.2f})"
-    else:
-        text = f"{effect.value:+.2f} ({effect.error:.2f})"
+    sign = "" if kind == LOG or effect.value < 0 else "+"
+    text = f"{sign}{size_text(kind, effect.value)}" + ("" if math.isnan(effect.error) else f" ({size_text(kind, effect.error).removeprefix('x ')})")
     return f"**{text}**" if effect.stands_out else text
 
 
-def chance_text(kind, effects):
-    empty = [effect.value for effect in effects if effect.kind == EMPTY]
-    if not empty:
-        return ""
-    size = math.sqrt(sum(value**2 for value in empty) / len(empty))
-    return f"x {10 ** size:.2f}" if kind == LOG else f"{size:.2f}"
+def size_text(kind, value):
+    """'x 1.50' for a logarithm, '0.40' for shares and counts."""
+    return f"x {10 ** value:.2f}" if kind == LOG else f"{value:.2f}"
