@@ -150,7 +150,7 @@ def test_energy_is_accounted_for(straight):
     assert energy["residual_fraction"] == pytest.approx(abs(energy["residual"]) / energy["input"])
 
 
-@pytest.mark.parametrize("study", ["paper_table", "robustness_study", "sensitivity_study"])
+@pytest.mark.parametrize("study", ["paper_table", "robustness_study"])
 def test_studies_take_the_runs_that_they_make(straight, study):
     """A study, which needs no YADE, imports the same state of the package as its runs."""
     options = summary(straight)["made_from"]["options"]

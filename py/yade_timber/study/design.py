@@ -23,7 +23,7 @@ FOLD = ODD_WORDS[-1]
 def runs():
     """(32, 5) levels -1 and +1 of the basic factors. The first 16 runs are of resolution III for up to 15 factors; run 0 has all levels -1."""
     full = np.array([levels[::-1] for levels in product((-1, 1), repeat=len(BASIC))])
-    return full[np.argsort(full.prod(1), kind="stable")]
+    return full[np.argsort(column(FOLD, full), kind="stable")]
 
 
 def column(word, basic):

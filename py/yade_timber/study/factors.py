@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Choices that the paper leaves open, as factors of two levels. Each level is a set of house-file entries. Needs no YADE.
 
-The first level of a factor is the house as shipped with release 0, the second the alternative. Both levels state their entries, so that
-neither depends on the present values of the shipped houses.
+The first level is the plainer reading of the paper's text, the second the alternative. Both state their entries, so that neither depends
+on the values of the shipped houses.
 """
 import copy
 import json
@@ -35,7 +35,7 @@ class Factor:
 
     def level(self, sign):
         """Level of sign -1 (first) or +1 (second)."""
-        return self.levels[sign > 0]
+        return self.levels[int(sign > 0)]
 
 
 def house_entries(house, factors, signs):
