@@ -38,7 +38,7 @@ def tasks_of(case, options, folder):
 def main():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/robustness")
-    parser.add_argument("--seeds", type=list_of(seed), default=[0, 1, 2, 4, 5], metavar="N,N", help="synthetic motions besides the shipped one (default 0,1,2,4,5)")
+    parser.add_argument("--seeds", type=list_of(seed), default=[0, 1, 2, 4, 5], metavar="N,N", help="other synthetic motions (default 0,1,2,4,5)")
     parser.add_argument("--record", type=record, action="append", default=[], metavar="FILE_OR_PREFIX", help="a recorded motion besides; may be repeated")
     options = parser.parse_args()
     cases = all_cases(options.seeds, options.record)

@@ -32,7 +32,8 @@ def arguments():
     parser.add_argument("--start", type=non_negative, default=15.0, metavar="S", help="start of the part of synthetic motions [s] (default %(default)g)")
     parser.add_argument("--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)")
     parser.add_argument("--dt", type=positive, default=4e-4, metavar="S", help="time step [s] (default %(default)g)")
-    parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9", help=f"cells to run (default 0-{design.RUNS - 1}); all that are done are analysed")
+    parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9",
+                        help=f"cells to run (default 0-{design.RUNS - 1}); all that are done are analysed")
     parser.add_argument("--collect", action="store_true", help="run nothing; analyse the results there are")
     return parser.parse_args()
 

@@ -70,11 +70,15 @@ def markdown(results, found):
     return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
 
 
+EXPLANATION = """\
+Shares are means, other responses medians over the motions. An effect is the mean of the cells with the second level of a factor minus that
+with the first; x 2: twice as large. In brackets its standard error from the scatter of the motions (bootstrap). 'No factor': root mean
+square of the effects of columns without a factor, that is of chance and of interactions of three factors. **Bold**: beyond two standard
+errors of both kinds."""
+
+
 def head(results):
-    lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.", "",
-             "Shares are means, other responses medians over the motions. An effect is the mean of the cells with the second level of a factor minus that with the",
-             "first; x 2: twice as large. In brackets its standard error from the scatter of the motions (bootstrap). 'No factor': root mean square of the effects",
-             "of columns without a factor, that is of chance and of interactions of three factors. **Bold**: beyond two standard errors of both kinds."]  # fmt: skip
+    lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.", "", EXPLANATION]
     if len(results.cells) < design.RUNS:
         lines += ["", "The design is not complete: main effects are confounded with two-factor interactions."]
     return lines

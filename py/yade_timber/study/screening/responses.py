@@ -69,6 +69,10 @@ def _across(across, along):
     return lambda run: math.log10(_limited(sway(run, across)) / _limited(sway(run, along)))
 
 
+def _more_lost(run, other):
+    return lost_columns(run) - lost_columns(other)
+
+
 def _broken(kind, side):
     return lambda run: run["broken"]["by_place"]["1"][side][kind]
 
@@ -103,7 +107,7 @@ def _all():
         pair = (_snow(house), _quake(house))
         yield Response(f"snow_damage_{house}", f"{house}: broken springs with / without snow", LOG, pair, _log_ratio(springs))
         yield Response(f"snow_lean_{house}", f"{house}: leaning with / without snow", LOG, pair, _log_ratio(lean))
-        yield Response(f"snow_columns_{house}", f"{house}: more lost columns with snow", COUNT, pair, lambda snow, bare: lost_columns(snow) - lost_columns(bare))
+        yield Response(f"snow_columns_{house}", f"{house}: more lost columns with snow", COUNT, pair, _more_lost)
     yield Response("snow_lean2_C2", "C2, storey 2: leaning with / without snow", LOG, (_snow("C2"), _quake("C2")), _log_ratio(lean, "storey2"))
     for one, other in (("C1", "B1"), ("C2", "B2")):
         pair = (_snow(one), _snow(other))
