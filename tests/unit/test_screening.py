@@ -170,10 +170,11 @@ def test_number_of_claims():
 
 
 def test_collect():
-    """Missing runs become NaN; cells without results are left out; runs without an earthquake count under every motion."""
-    planned = [entry for entry in cells.plan(MOTIONS, 4e-4) if entry.cell in (2, 3, 4)]
+    """Missing runs become NaN; cells and motions without results are left out; runs without an earthquake count under every motion."""
+    planned = [entry for entry in cells.plan([*MOTIONS, cells.synthetic(9, 15.0, 29.0)], 4e-4) if entry.cell in (2, 3, 4)]
     missing = {(3, "modelB_quake", "seed0")}
-    results = collect(planned, [summary() if entry.cell < 4 and (entry.cell, entry.run, entry.motion) not in missing else None for entry in planned])
+    known = [entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing for entry in planned]
+    results = collect(planned, [summary() if is_known else None for is_known in known])
     assert results.cells == [2, 3] and results.motions == ["seed3", "seed0"]
     assert np.isnan(results.values["falls_B"]).tolist() == [[False, False], [False, True]]
     assert np.isnan(results.typical("falls_B")).tolist() == [False, True]

@@ -33,13 +33,19 @@ class Results:
 
 
 def collect(planned, summaries):
-    """Results of the planned runs. summaries: of each of them, None for a run that is not done. Cells without any result are left out."""
-    found, motions = {}, list(dict.fromkeys(entry.motion for entry in planned if entry.motion))
-    for entry, summary in zip(planned, summaries, strict=True):
-        if summary is not None:
-            for motion in [entry.motion] if entry.motion else motions:
-                found.setdefault(entry.cell, {}).setdefault(motion, {})[entry.run] = summary
+    """Results of the planned runs. summaries: of each of them, None for a run that is not done. Cells and motions without any result are left out."""
+    done = [(entry, summary) for entry, summary in zip(planned, summaries, strict=True) if summary is not None]
+    motions = list(dict.fromkeys(entry.motion for entry, _ in done if entry.motion))
+    found = {}
+    for entry, summary in done:
+        for motion in [entry.motion] if entry.motion else motions:
+            found.setdefault(entry.cell, {}).setdefault(motion, {})[entry.run] = summary
     cells = sorted(found)
-    values = {name: np.array([[response.of(found[cell].get(motion, {})) for cell in cells] for motion in motions]).reshape(len(motions), len(cells))
-              for name, response in RESPONSES.items()}
+    values = {name: _values(response, found, motions) for name, response in RESPONSES.items()}
     return Results(cells, motions, values)
+
+
+def _values(response, found, motions):
+    """(motions, cells) values of a response, NaN where a run is missing."""
+    values = [[response.of(found[cell].get(motion, {})) for cell in sorted(found)] for motion in motions]
+    return np.array(values).reshape(len(motions), len(found))
