@@ -38,7 +38,8 @@ def arguments():
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
     return [
-        {"house": house_name(house), "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed}
+        {"house": house_name(house), "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed,
+         "until_collapse": "yes"}  # fmt: skip
         for house in options.houses.split(",")
         for snow in options.snow
         for scale in options.scales or SCALES.get(house, SCALES["B"])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Driver and variants."""
+"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Driver and robustness."""
 import argparse
 import json
 import runpy
@@ -8,13 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.house import build_house, load_house
 from yade_timber.run import identity
 from yade_timber.run.identity import made_from
 from yade_timber.study import claims, comparison, driver, report
 from yade_timber.study.driver import Task, run_missing
 from yade_timber.study.options import run_options
-from yade_timber.study.variants import VARIANTS, Variant, merged, write_house
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
@@ -175,24 +173,6 @@ def test_tables(tmp_path):
     text = (tmp_path / "claims.md").read_text()
     assert "14 of 14 claims hold" in text and all(f"| {name} |" in text for name in [*claims.CLAIMS, *claims.RUNS])
     assert len(json.loads((tmp_path / "claims.json").read_text())) == 14
-    lines = comparison.comparison({"shipped": "as shipped", "again": "once more"}, {"shipped": results, "again": results}).splitlines()
-    assert any(line.startswith("| shipped |") for line in lines)
-    counts = dict(zip([r.name for r in results], [cell.strip() for cell in lines[-1].split("|")][4:-1]))
-    assert counts == {r.name: "0/0" if r.holds is None else f"{2 * r.holds}/2" for r in results}
-
-
-@pytest.mark.parametrize("name", VARIANTS)
-def test_variants_are_valid_house_files(name, tmp_path):
-    """The schema of house files accepts each variant; each except 'shipped' changes one of the shipped houses."""
-    assert load_house(write_house(VARIANTS[name], "modelB1_quake", tmp_path)).name == "B1"
-    assert any(map(VARIANTS[name].changes, "ABC")) is (name != "shipped")
-
-
-def test_a_variant_is_built(tmp_path):
-    """Other friction and reversed braces: the same members and damaged joints as the shipped house."""
-    variant = Variant("", merged(VARIANTS["timber-0.3"].change, VARIANTS["braces-turned"].houses["B"]))
-    counts = build_house(load_house(write_house(variant, "modelB1_quake", tmp_path))).counts()
-    assert counts["braces"] == 16 and counts["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
 
 
 def fake_script(folder, body):
@@ -256,16 +236,29 @@ def test_only_runs_with_an_earthquake_get_motion_options():
     assert run_options(given, earthquake=False) == ("--dt", 1e-4)
 
 
-def test_median_of_summaries():
-    runs = [summary("A", sway_ns=sway, collapse=fall, leans=fall and fall - 4, direction=direction) for sway, fall, direction in ((0.1, 24.0, "ns"), (0.3, None, None), (0.2, 26.0, "ns"))]
-    found = comparison.median_runs([{"modelA_quake": run} for run in runs])["modelA_quake"]
-    assert found["collapsed"] is True and found["collapse_time_s"] == 25.0 and found["tilt_direction"] == "ns"
-    assert found["peak_drift"]["storey1"]["ns"] == 0.2 and found["model"] == "A"
-    assert comparison.median_runs([{"modelA_quake": runs[0]}, {}]) == {}, "a run that one case lacks has no median"
+def test_number_of_motions_in_which_a_claim_holds():
+    paper, fewer = paper_results(), {name: run for name, run in paper_results().items() if name != "modelB_quake"}
+    wrong = paper | {"modelA_quake": summary("A", sway_ns=0.05)}
+    lines = comparison.claims_table({"one": claims.judge(paper), "two": claims.judge(wrong), "three": claims.judge(fewer)})
+    counts = {line.split(":")[0].strip("| "): line.split("|")[2:-1] for line in lines[4:]}
+    assert [cell.strip() for cell in counts["E1"]] == ["2 of 3", "x", "-", "x"]
+    assert [cell.strip() for cell in counts["E2"]] == ["2 of 2", "x", "x", ""]
+    assert all(counts[name][0].strip() == "3 of 3" for name in claims.CLAIMS if name not in ("E1", "E2"))
 
 
-def test_unchanged_houses_share_the_runs_of_the_shipped_case(tmp_path):
-    task_of = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "sensitivity_study.py"))["task_of"]
-    tasks = {run: task_of("braces-inwards", run, argparse.Namespace(out=tmp_path)) for run in claims.RUNS}
-    assert {name for name, task in tasks.items() if task.folder.parent.name == "braces-inwards"} == {name for name in tasks if name.startswith("modelB")}
-    assert tasks["modelA_quake"].folder == tmp_path / "shipped" / "modelA_quake"
+def test_outcome_of_a_house():
+    assert comparison.outcome(paper_results()["modelA_quake"]) == "falls N-S, 5.5 s"
+    assert comparison.outcome(paper_results()["modelB2_quake"]) == "1/14, 1/20" and comparison.outcome(None) == ""
+
+
+def test_robustness_study(tmp_path):
+    """Runs without an earthquake are done once; each motion has tables of its own."""
+    study = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "robustness_study.py"))
+    cases = study["all_cases"]([0], ["records/KOBE"])
+    tasks = {case: study["tasks_of"](case, options, tmp_path) for case, (_, options) in cases.items()}
+    assert {case: len(some) for case, some in tasks.items()} == {"shipped": 14, "seed-0": 11, "KOBE": 11}
+    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow", ("--record", "records/KOBE"))
+    assert "modelA_snow" in tasks["shipped"] and "modelA_snow" not in tasks["KOBE"]
+    text = comparison.write({case: about for case, (about, _) in cases.items()}, dict.fromkeys(cases, paper_results()), tmp_path)
+    assert text == (tmp_path / "robustness.md").read_text() and "| E1" in text and "| KOBE | recorded motion | falls N-S" in text
+    assert (tmp_path / "seed-0" / "claims.md").is_file()

@@ -1,21 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Changes to the scene of a live run: another scene or an earlier state loaded, members removed. At a terminal: test_run."""
+import json
 import time
 from contextlib import ExitStack
 
 import numpy as np
 import pytest
+import yade.wrapper as yw
 from yade import O, PyRunner
 from yade_timber.recording import frames
 from yade_timber.base import lock
 from yade_timber.run import live
 from yade_timber.run.cli import Output
 from yade_timber.scene import scenario
+from yade_timber.scene.engines import find_engine
 
 
-def begin(folder, steps=4000):
-    """A live run of house A under snow, going on in the background."""
-    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}), Output(folder, views=False, quiet=True))
+def begin(folder, steps=4000, **more):
+    """A live run of house A under snow, going on in the background. more: of the Scenario."""
+    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), Output(folder, views=False, quiet=True))
     folder_lock = ExitStack()
     assert folder_lock.enter_context(lock.locked(folder))
     run.start(folder_lock)
@@ -42,6 +45,17 @@ def test_another_scene(tmp_path, capfd):
     O.reset()
     wait_for(lambda: not lock.is_locked(tmp_path))
     assert "another scene was loaded" in capfd.readouterr().err and not (tmp_path / "summary.json").exists()
+
+
+def test_a_collapse_ends_the_run_on_request(tmp_path):
+    """At the next frame (every 250 steps), with results."""
+    begin(tmp_path, until_collapse=True)
+    step_to(100)
+    find_engine(yw.HouseMonitor).collapseTime = 0.0
+    O.run()
+    wait_for(lambda: not lock.is_locked(tmp_path))
+    found = json.loads((tmp_path / "summary.json").read_text())
+    assert found["collapsed"] and found["steps"] == O.iter < 4000 and O.iter % 250 == 0
 
 
 @pytest.mark.parametrize("replace", [O.reset, O.resetThisScene, O.switchScene])

@@ -19,9 +19,17 @@ def load_table(path):
     return reduce(merge, reversed([table for _, table in _chain(Path(path))]))
 
 
+_known_chains = {}
+"""{house file: [(file, text)] of its chain}: studies ask for the same chains thousands of times."""
+
+
 def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
-    return [file for file, _ in _chain(Path(path))]
+    path = Path(path)
+    known = _known_chains.get(path)
+    if known is None or any(not is_file(file) or _text(file) != text for file, text in known):
+        known = _known_chains[path] = [(file, _text(file)) for file, _ in _chain(path)]
+    return [file for file, _ in known]
 
 
 def _chain(path):

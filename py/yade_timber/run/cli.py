@@ -47,6 +47,7 @@ def parser(script):
     made = _Parser(prog=f"yade [-n] [-x] {script}.py", allow_abbrev=False, description=about)
     made.add_argument("--duration", type=float, metavar="S",
                       help=f"simulated time [s] (default: duration of the motion; without an earthquake {QUIET_DURATION:g})")
+    made.add_argument("--until-collapse", action="store_true", help="end the run when the house has collapsed (default: at the end of its duration)")
     made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], {MIN_DT:g} to {MAX_DT:g} (default {DEFAULT_DT:g})")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true", help="continue from the last checkpoint in the folder of the results, if there is one")
@@ -126,7 +127,8 @@ def _run(given, arguments, request):
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
     scale = 1.0 if shaking.scale is None else shaking.scale
     options = {"skip_rest": 0} if given.every_step else {}
-    scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, dt=given.dt, duration=duration, options=options)
+    times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse}
+    scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, **times, options=options)
     return scenario, Output(
         folder=_path("--out", given.out) or Path("results") / request.name,
         resume=given.resume,

@@ -34,6 +34,7 @@ def identity(scenario, model):
         "snow_depth": scenario.snow_depth,
         "scale": scenario.scale,
         "dt": scenario.dt,
+        "until collapse": scenario.until_collapse,
         "options": {key: str(value) for key, value in scenario.options.items()},
         "elements": of_arrays(e.vertices for e in model.elements),
         "element values": of_values(elements),

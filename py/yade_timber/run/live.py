@@ -83,3 +83,5 @@ def record_frame():
     """Record the state that the present step of the live run leads to; its bodies have moved already."""
     if live and live.is_tagged() and O.iter + 1 < live.steps:
         live.take(O.time + O.dt)
+        if live.collapse_ends_it():
+            live.steps = O.stopAtIter = O.iter + 1

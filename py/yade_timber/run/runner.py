@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run: scene -> steps -> results. Command line: cli.py, launch.py; run in a live session: live.py."""
+import math
 import signal
 import time
 from contextlib import contextmanager
@@ -35,7 +36,7 @@ class Interrupted(Exception):
 
 
 class Run:
-    """A scenario in YADE, its outputs (cli.Output), and its progress. The number of steps is fixed from the start: duration / dt."""
+    """A scenario in YADE, its outputs (cli.Output), and its progress. The number of steps is duration / dt; a collapse may end the run earlier."""
 
     def __init__(self, scenario, output):
         self.scenario, self.output = scenario, output
@@ -154,6 +155,8 @@ class Run:
         """
         left = self.steps - O.iter
         self._advance(O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk))
+        if self.collapse_ends_it():
+            self.steps = O.iter
         if O.iter == self.steps:
             return
         if O.iter % self.chunk == 0:
@@ -162,6 +165,10 @@ class Run:
             self.save()
         if self.signal:
             raise Interrupted(self.signal, O.time)
+
+    def collapse_ends_it(self):
+        """Whether the run ends now because its house has collapsed."""
+        return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
 
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""

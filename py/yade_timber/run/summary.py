@@ -44,6 +44,7 @@ def summary(scenario, observed, wall_s):
         "record": record(scenario),
         "dt": scenario.dt,
         "duration_s": simulated,
+        "until_collapse": scenario.until_collapse,
         "steps": O.iter,
         "wall_s": round(wall_s, 3),
         "skipped_s": round(skipper.skipped if skipper else 0.0, 3),

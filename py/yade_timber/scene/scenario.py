@@ -23,7 +23,7 @@ JOINT_SAFETY = 0.98
 class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
-    scale: factor on the motion [-]; dt, duration [s]; options: of `engines.engines`.
+    scale: factor on the motion [-]; dt, duration [s]; until_collapse: whether a collapse ends the run; options: of `engines.engines`.
     """
 
     name: str
@@ -33,6 +33,7 @@ class Scenario:
     scale: float = 1.0
     dt: float = DEFAULT_DT
     duration: float = 30.0
+    until_collapse: bool = False
     options: dict = field(default_factory=dict)
 
 

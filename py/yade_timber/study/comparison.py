@@ -1,61 +1,48 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The claims in several cases (variants, ground motions, time steps): which hold in each, and by the medians of cases. Needs no YADE."""
-import statistics
-
+"""The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no YADE."""
 from ..base.atomic_write import write_text
 from . import report
-from .claims import RUNS, judge
-from .driver import run_missing
+from .claims import RUNS, drift_text, judge, parse_run, sway, time_text
+from .report import markdown_table
 
-MEDIAN = "median"
-"""Name of the case that consists of the medians of other cases."""
+SIGNS = {True: "x", False: "-", None: ""}
+HOUSES = tuple(parse_run(run)[0] for run in RUNS if run.endswith("_quake"))
 
 
-def run_cases(cases, scripts, options, name, median_of=()):
-    """Do the runs of all cases, print and write their comparison and the tables of each case; returns the exit status: 1 if runs failed.
+def write(cases, summaries, folder):
+    """Write robustness.md, and the tables of each case to a folder of its own; returns the text of robustness.md. Raises OSError.
 
-    cases      {name: (description, list of Task)}
-    scripts    folder of the run scripts
-    options    parsed options: out [Path], jobs
-    name       file of the comparison, in the folder options.out
-    median_of  names of cases whose median is judged as one more case
+    cases: {name: description}; summaries: {case: {run name: summary}}; runs may be missing
     """
-    done = run_missing([task for _, tasks in cases.values() for task in tasks], scripts, options.jobs)
-    summaries = {case: {task.folder.name: done[task] for task in tasks if done[task] is not None} for case, (_, tasks) in cases.items()}
-    descriptions = {case: description for case, (description, _) in cases.items()}
-    if median_of:
-        summaries[MEDIAN] = median_runs([summaries[case] for case in median_of])
-        descriptions[MEDIAN] = f"medians of {', '.join(median_of)}; majority of their outcomes"
-    results = {case: judge(found) for case, found in summaries.items()}
-    text = comparison(descriptions, results)
-    print(text)
-    write_text(options.out / name, text)
-    for case, found in summaries.items():
-        report.write(options.out / case, results[case], found)
-    return int(None in done.values())
+    results = {case: judge(summaries[case]) for case in cases}
+    text = "\n".join([*claims_table(results), "", *houses_table(cases, summaries)]) + "\n"
+    write_text(folder / "robustness.md", text)
+    for case in cases:
+        report.write(folder / case, results[case], summaries[case])
+    return text
 
 
-def comparison(descriptions, results):
-    """Markdown table of cases against claims, and the number of cases in which each claim holds. results: {case: list of Result}."""
-    signs = {True: "x", False: "-", None: ""}
-    names = [r.name for r in next(iter(results.values()))]
-    rows = [(case, descriptions[case], sum(r.holds is True for r in found), *(signs[r.holds] for r in found)) for case, found in results.items()]
-    known = [[r.holds for r in same if r.holds is not None] for same in zip(*(found for case, found in results.items() if case != MEDIAN))]
-    rows.append(("all", "cases in which the claim holds, of those run", "", *(f"{sum(holds)}/{len(holds)}" for holds in known)))
-    table = report.markdown_table(("case", "description", "claims that hold", *names), rows)
-    return "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *table]) + "\n"
+def claims_table(results):
+    """Lines of a table: each claim, the number of motions in which it holds of those known, and a sign for each motion. results: {case: list of Result}."""
+    rows = []
+    for same in zip(*results.values()):
+        known = [result.holds for result in same if result.holds is not None]
+        rows.append((f"{same[0].name}: {same[0].claim}", f"{sum(known)} of {len(known)}", *(SIGNS[result.holds] for result in same)))
+    return ["x: the claim holds; -: it does not; empty: not run.", "", *markdown_table(("claim", "motions", *results), rows)]
 
 
-def median_runs(cases):
-    """{run: median of its summaries}, for the runs that all cases contain. cases: list of {run: summary}."""
-    return {run: median([case[run] for case in cases]) for run in RUNS if all(run in case for case in cases)}
+def houses_table(cases, summaries):
+    """Lines of a table: outcome of each house in the earthquake without snow."""
+    rows = [(case, about, *(outcome(summaries[case].get(f"model{house}_quake")) for house in HOUSES)) for case, about in cases.items()]
+    return ["Largest sway N-S, E-W of a house that stands; direction and time after the onset of strong shaking of a collapse.", "",
+            *markdown_table(("motion", "", *HOUSES), rows)]  # fmt: skip
 
 
-def median(values):
-    """Median of the same value in several summaries: of tables entry by entry, of counts the lower median, of other values the most frequent one."""
-    if all(isinstance(value, dict) for value in values):
-        return {key: median([value[key] for value in values]) for key in values[0] if all(key in value for value in values)}
-    numbers = [value for value in values if isinstance(value, (int, float)) and not isinstance(value, bool)]
-    if 2 * len(numbers) <= len(values):
-        return max(values, key=values.count)
-    return statistics.median_low(numbers) if all(isinstance(number, int) for number in numbers) else statistics.median(numbers)
+def outcome(run):
+    """'1/12, 1/10', or 'falls N-S, 6.2 s', of a summary; empty for a missing one."""
+    if run is None:
+        return ""
+    if run["collapsed"]:
+        direction = {"ns": " N-S", "ew": " E-W"}.get(run["tilt_direction"], "")
+        return f"falls{direction}, {time_text(run['collapse_time_s'] - run['record']['onset_s'])}"
+    return f"{drift_text(sway(run, 'ns'))}, {drift_text(sway(run, 'ew'))}"

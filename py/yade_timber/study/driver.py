@@ -40,8 +40,8 @@ class Task:
     @property
     def summary(self):
         """Content of summary.json, or None if the run is not done or was made from other options, files or another package."""
-        found = _read(self.folder / SUMMARY) or {}
-        return found if found.get("made_from") == made_from(self.options) else None
+        found = _read(self.folder / SUMMARY)
+        return found if found and found.get("made_from") == made_from(self.options) else None
 
     @property
     def error(self):

@@ -39,12 +39,13 @@ def write_runs(rows, folder):
 
 def _result(row, task, columns):
     summary = task.summary
+    error = None if summary else task.error
     return {
         "run": row.name,
         "line": row.line,
         "description": row.description or None,
-        "status": task.status,
-        "error": task.error and f"{row.table.name}:{row.line}: {task.error}",
+        "status": "failed" if error else "done" if summary else "unfinished",
+        "error": error and f"{row.table.name}:{row.line}: {error}",
         **{column: row.cells.get(column) for column in columns},
         "peak_drift": _largest(_at(summary, "peak_drift")),
         **{column: _at(summary, path) for column, path in RESULTS.items()},

@@ -31,6 +31,7 @@ OWN = {
     "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
     "dt": (float, "time step [s]"),
     "duration": (float, "simulated time [s] (default: the motion's; without an earthquake 30)"),
+    "until_collapse": (bool, "whether the run ends when the house has collapsed, yes or no (default no)"),
 }
 MOTION = {f.name: (f.metadata["kind"], f.metadata["help"]) for f in fields(MotionRequest)}
 COLUMNS = {**OWN, **MOTION}

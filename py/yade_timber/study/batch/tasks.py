@@ -43,12 +43,12 @@ def options(row, folder):
     words = [str(folder / HOUSE) if any(changes(row)) else row.house]
     if row.cells.get("record") != NO_EARTHQUAKE:
         words.append("--quake")
-    for column in ("snow", "dt", "duration", *MOTION):
-        value = row.record if column == "record" else row.value(column)
+    for column in ("snow", "dt", "duration", "until_collapse", *MOTION):
+        value, option = row.record if column == "record" else row.value(column), f"--{column.replace('_', '-')}"
         if value is True:
-            words.append(f"--{column}")
+            words.append(option)
         elif value is not None and value is not False:
-            words += [f"--{column}", str(value)]
+            words += [option, str(value)]
     return tuple(words)
 
 
