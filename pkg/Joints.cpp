@@ -47,7 +47,8 @@ void TimberJoint::validateLaw() const
 	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
 	if (!yields() || std::isnan(kn)) return;
 	require(kn == ks, "TimberJoint.ks", ks, "equal to kn with the law slip");
-	require(softeningStretch > strength / kn, "TimberJoint.softeningStretch", softeningStretch, "> strength / kn with the law slip");
+	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch", softeningStretch,
+	        "finite and > strength / kn with the law slip");
 	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch", ultimateStretch,
 	        "finite and > softeningStretch with the law slip");
 }
