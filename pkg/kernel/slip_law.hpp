@@ -34,7 +34,7 @@
 /// force is not parallel to the stretch. With the bodies swapped, p would turn with the other body. The results differ by the rotation
 /// of the bodies relative to each other since p arose.
 ///
-/// Sources: bilinear and slip elements of joints in timber-frame analysis: Nakagawa, Ohta, Kawai et al., J. Wood Sci. 56 (2010) 101-108;
+/// Sources: joints of timber-frame houses as elements with slip: Nakagawa, Ohta, Tsuchimoto and Kawai, J. Wood Sci. 56 (2010) 284-292;
 /// radial return: Simo and Hughes, Computational Inelasticity (1998), section 3.3.
 #pragma once
 #include "joint_law.hpp"
