@@ -33,9 +33,24 @@ void TimberJoint::validate() const
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);
+	validateLaw();
 	if (!hasSprings && broken.empty()) return; // not complete yet
 	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(), "that of anchors1");
 	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(), "that of anchors1");
+}
+
+void TimberJoint::validateLaw() const
+{
+	require(law == "brittle" || yields(), "TimberJoint.law", law, "brittle or slip");
+	require(frictionShare >= 0 && frictionShare <= 1, "TimberJoint.frictionShare", frictionShare, "in [0, 1]");
+	require(softeningStretch > 0, "TimberJoint.softeningStretch", softeningStretch, "> 0");
+	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
+	if (!yields() || std::isnan(kn)) return;
+	require(kn == ks, "TimberJoint.ks", ks, "equal to kn with the law slip");
+	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch", softeningStretch,
+	        "finite and > strength / kn with the law slip");
+	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch", ultimateStretch,
+	        "finite and > softeningStretch with the law slip");
 }
 
 void TimberJoint::postLoad(TimberJoint&)
@@ -45,6 +60,10 @@ void TimberJoint::postLoad(TimberJoint&)
 	broken.resize(anchors1.size(), 0);
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
+	if (yields()) {
+		plasticStretches.resize(anchors1.size(), Vector3r::Zero());
+		largestStretches.resize(anchors1.size(), 0);
+	}
 	for (size_t k = 0; k < broken.size(); ++k)
 		if (broken[k]) breakSpring(k);
 }
@@ -65,6 +84,12 @@ timber::JointStiffness TimberJoint::stiffness() const
 {
 	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
 	return { share * kn, share * ks };
+}
+
+timber::SlipLaw TimberJoint::slipLaw() const
+{
+	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
+	return { share * kn, share * strength, frictionShare, softeningStretch, ultimateStretch };
 }
 
 Real TimberJoint::load() const
@@ -125,9 +150,13 @@ void JointEngine::collectAxes()
 timber::JointForce JointEngine::forceOf(TimberJoint& joint) const
 {
 	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
-	if (b1 && b2) return timber::springForces(joint.stiffness(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs());
-	joint.breakAll(); // a body was erased
-	return {};
+	if (!b1 || !b2) {
+		joint.breakAll(); // a body was erased
+		return {};
+	}
+	const timber::JointPlacement placed = placement(joint, *b1->state, *b2->state);
+	if (joint.yields()) return timber::slipForces(joint.slipLaw(), placed, joint.springs(), joint.slipHistories());
+	return timber::springForces(joint.stiffness(), placed, joint.normal, joint.springs());
 }
 
 void JointEngine::computeForces()
@@ -139,26 +168,42 @@ void JointEngine::computeForces()
 	});
 }
 
-/// Breaks the overloaded springs of a joint and logs them; computes the forces of the others again.
-void JointEngine::breakSprings(size_t index)
+/// Breaks a spring and logs it.
+void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& found)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
+	const shared_ptr<JointBreak> entry(new JointBreak);
+	entry->time = scene->time;
+	entry->joint = int(joint);
+	entry->spring = int(found.spring);
+	entry->cause = names[int(found.cause)];
+	entry->force = found.force;
+	breaks.push_back(entry);
+	released += found.energy;
+	joints[joint]->breakSpring(found.spring);
+}
+
+/// Breaks the overloaded springs of a joint and computes the forces of the others again.
+void JointEngine::breakSprings(size_t index)
+{
 	TimberJoint& joint = *joints[index];
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
 	for (const timber::SpringBreak& found :
-	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(joint, s1, s2), joint.normal, joint.springs(), motion)) {
-		const shared_ptr<JointBreak> entry(new JointBreak);
-		entry->time = scene->time;
-		entry->joint = int(index);
-		entry->spring = int(found.spring);
-		entry->cause = names[int(found.cause)];
-		entry->force = found.force;
-		breaks.push_back(entry);
-		released += found.energy;
-		joint.breakSpring(found.spring);
-	}
+	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(joint, s1, s2), joint.normal, joint.springs(), motion))
+		breakSpring(index, found);
 	jointForces[index] = forceOf(joint);
+}
+
+/// Breaks the springs of a joint that have reached their ultimate stretch; they have no force any more.
+void JointEngine::breakYielded(size_t index)
+{
+	TimberJoint& joint = *joints[index];
+	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
+	if (!b1 || !b2) return;
+	for (const timber::SpringBreak& found :
+	        timber::slipBreaks(joint.slipLaw(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs(), joint.slipHistories()))
+		breakSpring(index, found);
 }
 
 /// Breaks and sums in the order of the joints: results do not depend on the number of threads.
@@ -168,8 +213,10 @@ void JointEngine::breakAndSum()
 	sums.clear(axes.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
-		if (timber::isOverloaded(joint.jointStrength(), jointForces[k])) breakSprings(k);
+		if (joint.yields()) breakYielded(k);
+		else if (timber::isOverloaded(joint.jointStrength(), jointForces[k])) breakSprings(k);
 		const timber::JointForce& total = jointForces[k];
+		yielded += total.dissipated;
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
 		sums.add(joint.id1, total.force, total.torqueA);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Breakable joints between two bodies (paper, sections 2.4 and 3.2). The law and the rule of breaking: kernel/joint_law.hpp.
+/// Breakable joints between two bodies (paper, sections 2.4 and 3.2). Brittle springs and the rule of breaking: kernel/joint_law.hpp.
+/// Yielding springs: kernel/slip_law.hpp.
 #pragma once
 #include <bodies.hpp>
-#include <kernel/joint_law.hpp>
+#include <kernel/slip_law.hpp>
 #include <kernel/stability.hpp>
 
 namespace yade {
@@ -11,6 +12,7 @@ class TimberJoint : public Serializable {
 public:
 	void postLoad(TimberJoint&);
 	void validate() const;
+	void validateLaw() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const;
 	bool isBroken() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
@@ -19,6 +21,10 @@ public:
 	boost::python::list pySprings() const;
 	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
 	timber::JointSprings springs() { return { anchors1, anchors2, broken, stretches, forces }; }
+	bool yields() const { return law == "slip"; }
+	/// Law of a spring that yields; perJoint: with its share of the joint's stiffness and strength.
+	timber::SlipLaw slipLaw() const;
+	timber::SlipHistories slipHistories() { return { plasticStretches, largestStretches }; }
 	void breakSpring(size_t spring);
 	void breakAll();
 
@@ -31,17 +37,23 @@ public:
 		((Vector3r, normal, Vector3r(0, 0, 1), Attr::triggerPostLoad, "Unit normal of the contact area in the frame of body 1, towards body 2. [-]"))
 		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see perJoint. [N/m] (paper, Table 1)"))
 		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint. [N/m] (paper, Table 1)"))
-		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint. [N] (paper, section 3.2)"))
-		((bool, perJoint, false, , "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. [-]"))
+		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: the yield force. [N] (paper, section 3.2)"))
+		((bool, perJoint, false, , "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
+		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch. [-]"))
+		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is elastic and perfectly plastic; the rest slips. [-]"))
+		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring beyond which its strength falls. [m]"))
+		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring at which its strength is zero and it breaks. [m]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
-		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")),
+		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
+		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
+		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
-		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]")
+		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of the spring forces over the strength. A spring of the law slip that has yielded carries less than its strength once it softens. [-]")
 	);
 	// clang-format on
 };
@@ -55,7 +67,7 @@ public:
 		((int, joint, -1, , "Index of the joint in the engine. [-]"))
 		((int, spring, -1, , "Index of the spring in the joint. [-]"))
 		((string, cause, , , "tension, compression or shear. [-]"))
-		((Real, force, NaN, , "Force of the spring when it broke. [N]")));
+		((Real, force, NaN, , "Force of the spring when it broke; 0 with the law slip. [N]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(JointBreak);
@@ -73,6 +85,8 @@ class JointEngine : public GlobalEngine {
 	timber::JointForce forceOf(TimberJoint&) const;
 	void computeForces();
 	void breakSprings(size_t joint);
+	void breakYielded(size_t joint);
+	void breakSpring(size_t joint, const timber::SpringBreak&);
 	void breakAndSum();
 
 public:
@@ -80,17 +94,19 @@ public:
 	int append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
-	/// Rate of change of the springs' elastic energy at the present velocities of a scene's bodies. [W]
+	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the rate of change of the elastic
+	/// energy. What yielding springs dissipate of it is known after the next step. [W]
 	Real elasticPower(const Scene&) const;
 	/// Adds the linearised unbroken springs, with the larger one of their two stiffnesses in all directions.
 	void addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a spring whose force exceeds the strength breaks and never acts again.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a brittle spring whose force exceeds the strength breaks and never acts again, a yielding one breaks at its ultimate stretch.",
 		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
 		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
 		((Real, released, 0, , "Energy stored in springs when they broke. [J]"))
-		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]")),
+		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
+		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]")),
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its index. [-]")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")

@@ -57,7 +57,7 @@ def frames(ended=True, shaken=True):
 
 def history(time, slide):
     """History with every column of the page of curves."""
-    energies = ("kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
+    energies = ("kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_yield")
     columns = ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]", "broken_joints [-]", "broken_springs [-]", *(f"{name} [J]" for name in energies)]
     rows = np.zeros((len(time), len(columns)))
     rows[:, 0], rows[:, 2] = time, slide / 2

@@ -50,6 +50,7 @@ struct JointSprings {
 struct JointForce {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
 	double energy = 0; ///< [J]
+	double dissipated = 0; ///< in this step, by yielding (slip_law.hpp) [J]
 	double largestSquared = 0; ///< square of the largest spring force [N2]
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
 };

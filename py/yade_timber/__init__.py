@@ -21,5 +21,5 @@ if _host.running():
     from .scene.bodies import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401
     from .scene.engines import engines  # noqa: E402,F401
     from .scene.export import export_scene  # noqa: E402,F401
-    from .scene.joints import connect  # noqa: E402,F401
+    from .scene.joints import SlipLaw, connect  # noqa: E402,F401
     from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401

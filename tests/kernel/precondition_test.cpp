@@ -3,7 +3,7 @@
 #include "heap.hpp"
 #include <gtest/gtest.h>
 #include <kernel/contact_pair.hpp>
-#include <kernel/joint_law.hpp>
+#include <kernel/slip_law.hpp>
 #include <kernel/stability.hpp>
 
 using namespace timber;
@@ -85,6 +85,10 @@ TEST(Preconditions, OfJointsAndStability)
 	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
 	EXPECT_REFUSED(springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
 	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
+	EXPECT_GT(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::UnitX()).force.norm(), 0);
+	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 1, 3 }, {}, Vec3::UnitX())); // softens before it yields
+	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, { none, -1 }, Vec3::UnitX()));
+	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::Constant(notANumber)));
 	EXPECT_REFUSED(isOverloaded({ notANumber, false }, JointForce()));
 	EXPECT_REFUSED(largestEigenvalue({ body(1, none) }, { { 0, 1, none, none, Vec3::UnitX(), 1, 1 } }));
 }

@@ -83,13 +83,13 @@ def far_apart_pairs():
     return [Row("8", "second scene at 100 m: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt, note="of 52, all bits")]
 
 
-def in_other_process(threads, duration=DURATION):
+def in_other_process(threads, duration=DURATION, *words):
     """Final state of the small scene in another YADE process: (its number of threads, list of hexadecimal numbers)."""
     script = os.path.abspath(small_scene.__file__)
     path = os.pathsep.join([os.path.dirname(os.path.dirname(yt.__file__)), os.environ.get("PYTHONPATH", "")])
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run(
-            [shutil.which("yade"), f"-j{threads}", "-n", "-x", script, str(duration)], cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=120
+            [shutil.which("yade"), f"-j{threads}", "-n", "-x", script, str(duration), *words], cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=120
         )
     lines = {line.split()[0]: line.split()[1:] for line in run.stdout.splitlines() if line.startswith(("threads ", "state "))}
     if run.returncode or len(lines) != 2:
@@ -104,4 +104,16 @@ def one_thread_or_two(duration=DURATION):
     return [
         Row("8", "threads of the second run [-]", 2 * few, many, bound=0),
         Row("8", "1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4, note="of 52, all bits"),
+    ]
+
+
+@case
+def yielding_joints():
+    """Their histories turn with the bodies and do not depend on threads. Rotation: rounding amplified by an impact, as in pose_of_the_scene."""
+    rotation = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
+    off = abs(final_positions(rotation=rotation, **small_scene.YIELDING) - final_positions(**small_scene.YIELDING)).max()
+    (_, one), (_, two) = in_other_process(1, DURATION, "yielding"), in_other_process(2, DURATION, "yielding")
+    return [
+        Row("8", "yielding joints, rotated scene: distance [m]", 0, off, bound=1e-8, dt=1e-4),
+        Row("8", "yielding joints, 1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4, note="of 52, all bits"),
     ]

@@ -25,14 +25,14 @@ STIFFNESS_SHARE = {"spring": 1.0, "joint": 1 / len(CORNERS)}
 """Share of the stiffness in each spring, for values per spring and per joint. [-]"""
 
 
-def joined(dt, stiffness=(STIFFNESS, STIFFNESS), strength=STRENGTH, per="spring", points=CORNERS, density=DENSITY, fixed=False):
+def joined(dt, stiffness=(STIFFNESS, STIFFNESS), strength=STRENGTH, per="spring", points=CORNERS, density=DENSITY, fixed=False, slip=None):
     """A column above a beam, and the joint between them."""
     beam = yt.box(BEAM, (0, 0, -(BEAM[2] + SPACE) / 2), fixed=fixed)
     column = yt.box(COLUMN, (0, 0, (COLUMN[2] + SPACE) / 2), None, yt.timber(density=density))
     O.reset()
     O.bodies.append([beam, column])
     O.dt, O.engines = dt, [yw.ForceResetter(), yw.JointEngine(), yw.SymplecticIntegrator()]
-    return beam, column, yt.connect(0, 1, points, (0, 0, 1), stiffness, strength, per)
+    return beam, column, yt.connect(0, 1, points, (0, 0, 1), stiffness, strength, per, slip=slip)
 
 
 def cross_matrix(p):

@@ -19,15 +19,17 @@ END = 0.4
 """[s]"""
 
 
-def load():
-    """The small scene under ground motion, with joints that break when the block hits the column."""
+def load(strength=60.0, slip=None):
+    """The small scene under ground motion, with joints that break when the block hits the column, or yield with a SlipLaw."""
     shake = yw.GroundMotionEngine(step=0.01, acceleration=[Vector3(0.8 * (k % 7 - 3), 0.3 * (k % 5 - 2), 0) for k in range(30)], start=0.02)
-    small_scene.load(strength=60.0, ground_motion=shake)
+    small_scene.load(strength=strength, slip=slip, ground_motion=shake)
 
 
 def outcome():
-    """Positions, orientations and velocities to the last bit, energies and breaks."""
-    breaks = [(b.time, b.joint, b.spring, b.cause, b.force) for b in find_engine(yw.JointEngine).breaks]
+    """Positions, orientations and velocities to the last bit, energies, breaks and yielded stretches."""
+    engine = find_engine(yw.JointEngine)
+    breaks = [(b.time, b.joint, b.spring, b.cause, b.force) for b in engine.breaks]
+    breaks += [x.hex() for joint in engine.joints for x in joint.largestStretches]
     return small_scene.as_hex(), {name: value.hex() for name, value in yt.energy().items()}, breaks
 
 
@@ -36,10 +38,27 @@ def save_load_continue():
     """The run is saved and loaded at one of three times and continued to its end."""
     load()
     advance(END)
-    uninterrupted = outcome()
-    rows = [Row("8", "save and load: springs broken in the run (> 0) [-]", 1, float(len(uninterrupted[2]) > 0), bound=0)]
+    rows = [Row("8", "save and load: springs broken in the run (> 0) [-]", 1, float(len(find_engine(yw.JointEngine).breaks) > 0), bound=0)]
+    return rows + continued("")
+
+
+@case
+def save_load_continue_yielding():
+    """The same with yielding joints: in the first loading, while they unload and in later cycles."""
+    load(**small_scene.YIELDING)
+    advance(END)
+    dissipated, broken = yt.energy()["joint_yield"], len(find_engine(yw.JointEngine).breaks)
+    rows = [Row("8", "save and load: yielding joints dissipate (> 0.1 J) and do not break [-]", 1, float(dissipated > 0.1 and not broken), bound=0)]
+    return rows + continued("yielding joints, ", **small_scene.YIELDING)
+
+
+def continued(name, **joints):
+    """Rows of the numbers that differ from the uninterrupted run."""
+    load(**joints)
+    advance(END)
+    uninterrupted, rows = outcome(), []
     for cut in CUTS:
-        load()
+        load(**joints)
         advance(cut)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.bin.gz")
@@ -49,6 +68,6 @@ def save_load_continue():
         O.run(round(END / O.dt) - O.iter, True)
         state, energies, breaks = outcome()
         different = sum(a != b for a, b in zip(state, uninterrupted[0]))
-        different += sum(energies[name] != uninterrupted[1][name] for name in energies) + (breaks != uninterrupted[2])
-        rows.append(Row("8", f"saved and loaded at {cut:g} s: numbers that differ [-]", 0, different, bound=0, dt=1e-4, note="all bits of positions, velocities, energies, breaks"))
+        different += sum(energies[term] != uninterrupted[1][term] for term in energies) + (breaks != uninterrupted[2])
+        rows.append(Row("8", f"{name}saved and loaded at {cut:g} s: numbers that differ [-]", 0, different, bound=0, dt=1e-4, note="all bits of positions, velocities, energies, breaks"))
     return rows

@@ -2,7 +2,7 @@
 """A small scene with all mechanisms: a joined column and beam, a block that slides into the column, friction, gravity.
 
 No faces are parallel, flush or symmetric, so that no comparison depends on ties. As a script it runs the scene and prints
-the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS`.
+the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS [yielding]`.
 """
 import numpy as np
 import yade.wrapper as yw
@@ -18,6 +18,8 @@ ANGLES = {"plate": 0.02, "column": 0.3, "beam": 0.1, "block": -0.4}
 NAMES = tuple(SIZES)
 JOINTS = (("plate", "column", 0.0), ("column", "beam", 1.2))
 """Two bodies and the height of the springs [m]."""
+YIELDING = {"strength": 60.0, "slip": yt.SlipLaw(0.002, 0.02, 0.3)}
+"""Options of joints that yield at 1 mm, when the block hits the column, and soften from 2 mm on."""
 
 
 def vertical(angle):
@@ -45,19 +47,19 @@ def append(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0)):
     return ids
 
 
-def join(ids, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12):
-    """Add the joints, rotated and shifted likewise; strength [N]."""
+def join(ids, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, slip=None):
+    """Add the joints, rotated and shifted likewise; strength [N]; slip: SlipLaw."""
     for first, second, height in JOINTS:
-        yt.connect(ids[first], ids[second], joint_points(height) @ rotation.T + np.asarray(shift, float), strength=strength)
+        yt.connect(ids[first], ids[second], joint_points(height) @ rotation.T + np.asarray(shift, float), strength=strength, slip=slip)
 
 
-def load(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, dt=1e-4, **options):
+def load(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, slip=None, dt=1e-4, **options):
     """Empty YADE and load the scene. Returns {name: body id}."""
     O.reset()
     ids = append(order, rotation, shift)
     O.engines = yt.engines(gravity=tuple(rotation @ (0, 0, -9.81)), **options)
     O.dt = dt
-    join(ids, rotation, shift, strength)
+    join(ids, rotation, shift, strength, slip)
     return ids
 
 
@@ -76,7 +78,7 @@ def as_hex(ids=range(4)):
 if __name__ == "__main__":
     import sys
 
-    load()
+    load(**(YIELDING if "yielding" in sys.argv else {}))
     O.run(round(float(sys.argv[1]) / O.dt), True)
     print("threads", O.numThreads)
     print("state", *as_hex())

@@ -116,9 +116,9 @@ def test_faces_are_closed_and_outward(scene):
 
 def test_joints(scene):
     whole, torn = scene["joints"]
-    described = {"elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "broken": [False] * 3, "kind": "foot", "name": "foot 1"}
+    described = {"elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None}
     assert {key: whole[key] for key in described} == described
-    described = {"elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "broken": [False, True], "kind": "", "name": ""}
+    described = {"elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "broken": [False, True], "kind": "", "name": "", "slip": None}
     assert {key: torn[key] for key in described} == described and torn["broken"][1] is True  # no 1
     assert set(whole) == set(torn) == {*described, "points", "normal"}
 
@@ -129,6 +129,21 @@ def test_springs_stand_where_their_first_element_is(scene):
     assert_close(whole["normal"], matrix(LEAN) @ NORMAL, atol=1e-12)
     assert_close(torn["points"], POINTS[:2], atol=1e-12)
     assert_close(torn["normal"], NORMAL, atol=1e-12)
+
+
+def test_yielding_joint(tmp_path):
+    """Parameters, and the history of each spring; plastic stretches are in the frame of the first element."""
+    O.reset()
+    post = body("post", timber(CEDAR, "cedar"))
+    plate = body("plate", timber(OAK, "oak"), fixed=True)
+    O.dt, O.engines = 1e-4, yt.engines()
+    joint = yt.connect(post, plate, POINTS[:2], stiffness=(1e5, 1e5), strength=600.0, slip=yt.SlipLaw(0.01, 0.03, 0.25))
+    joint.updateAttrs({"plasticStretches": [(0.001, 0, 0.002), (0, 0, 0)], "largestStretches": [0.008, 0.001]})
+    O.bodies[post].state.ori = quaternion(LEAN)
+    slip = written(tmp_path)["joints"][0]["slip"]
+    assert (slip["friction_share"], slip["softening_stretch"], slip["ultimate_stretch"]) == (0.25, 0.01, 0.03)
+    assert slip["largest"] == [0.008, 0.001]
+    assert_close(slip["plastic"], [matrix(LEAN) @ (0.001, 0, 0.002), (0, 0, 0)], atol=1e-12)
 
 
 def test_names_of_materials(tmp_path):

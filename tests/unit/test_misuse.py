@@ -140,7 +140,7 @@ RESULTS = {
     "GroundMotionEngine": {"work"},
     "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
-    "JointEngine": {"released", "elastic"},
+    "JointEngine": {"released", "elastic", "yielded"},
 }
 """Attributes that the engines compute."""
 PAIRS = {"ManifoldPhys", "TimberPhys", "SnowPhys"}

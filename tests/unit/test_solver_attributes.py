@@ -11,6 +11,7 @@ from yade_timber.scene.engines import find_engine
 NAN, INF = math.nan, math.inf
 PAIR = {"mass": 1, "friction": 0.5, "shearRatio": 0.4, "dampingRatio": 1, "overlapLimit": 0.01}
 JOINT = {"anchors1": [(0, 0, 0)], "anchors2": [(0, 0, 0)], "kn": 1, "ks": 1, "strength": 1}
+SLIP = JOINT | {"law": "slip", "frictionShare": 0.5, "softeningStretch": 2, "ultimateStretch": 3}
 POSITIVE, POSITIVE_OR_INFINITE, NOT_NEGATIVE = (0, -1, NAN, INF), (0, -1, NAN), (-1, NAN, INF)
 
 RANGES = [  # class, attributes that make it complete, owner of the attribute in the message, attribute, refused values
@@ -24,6 +25,11 @@ RANGES = [  # class, attributes that make it complete, owner of the attribute in
     (yw.TimberPhys, PAIR | {"radius": 1}, "TimberPhys", "modulus", POSITIVE),
     (yw.TimberPhys, PAIR | {"modulus": 1}, "TimberPhys", "radius", POSITIVE),
     *[(yw.TimberJoint, JOINT, "TimberJoint", *one) for one in (("kn", POSITIVE), ("ks", POSITIVE), ("strength", POSITIVE_OR_INFINITE))],
+    *[(yw.TimberJoint, JOINT, "TimberJoint", name, refused) for name, refused in (("frictionShare", (-0.1, 1.1, NAN)), ("softeningStretch", POSITIVE_OR_INFINITE))],
+    *[
+        (yw.TimberJoint, SLIP, "TimberJoint", *one)
+        for one in (("ks", (2, NAN)), ("softeningStretch", (0.5, NAN, INF)), ("ultimateStretch", (1.5, NAN, INF)), ("law", ("ductile",)))
+    ],
     (yw.TimberJoint, JOINT, "TimberJoint", "normal", ((0, 0, 0), (0, 0, 2), (NAN, 0, 1))),
     *[(yw.TimberJoint, JOINT, "TimberJoint", name, ([(0, 0, NAN)], [(0, 0, 0)] * 2)) for name in ("anchors1", "anchors2")],
     (yw.TimberJoint, JOINT, "TimberJoint", "broken", ([0, 0],)),
@@ -56,6 +62,11 @@ def test_joint_built_attribute_by_attribute():
     assert joint.broken == [0] and not joint.isBroken
     with pytest.raises(ValueError, match="JointEngine.append"):
         yw.JointEngine().append(None)
+
+
+def test_history_of_yielding_springs():
+    assert list(yw.TimberJoint(**SLIP).largestStretches) == [0] and len(yw.TimberJoint(**SLIP).plasticStretches) == 1
+    assert len(yw.TimberJoint(**JOINT).largestStretches) == 0
 
 
 def test_refused_length_leaves_the_springs():

@@ -148,7 +148,8 @@ class Observer:
         monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
         if first:
             _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
-            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause} {force / 1000:.1f} kN")
+            load = f" {force / 1000:.1f} kN" if force else ""  # none after yielding
+            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause}{load}")
         if math.isfinite(monitor.tiltTime):
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):

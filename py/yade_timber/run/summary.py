@@ -16,7 +16,7 @@ from ..scene.engines import find_engine
 from . import observer
 from .versions import versions
 
-DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts")
+DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_yield")
 """Terms of the energy balance that are dissipated."""
 SUMMARY, BREAKS = "summary.json", "breaks.csv"
 

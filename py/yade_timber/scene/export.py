@@ -18,7 +18,8 @@ def export_scene(path):
     elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
     materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
     joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
-               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name; none of a removed body
+               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name, slip (null: brittle; else the
+               parameters and the history of each spring); none of a removed body
     Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
     """
     for body in O.bodies:
@@ -93,4 +94,16 @@ def describe_joint(joint):
         "broken": [bool(b) for b in joint.broken],
         "kind": joint.kind,
         "name": joint.name,
+        "slip": describe_slip(joint, state) if joint.law == "slip" else None,
+    }
+
+
+def describe_slip(joint, state):
+    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], plastic (n, 3) in the world and largest (n,) [m]."""
+    return {
+        "friction_share": joint.frictionShare,
+        "softening_stretch": joint.softeningStretch,
+        "ultimate_stretch": joint.ultimateStretch,
+        "plastic": [list(state.ori * p) for p in joint.plasticStretches],
+        "largest": list(joint.largestStretches),
     }

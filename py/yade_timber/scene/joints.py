@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints between bodies of the scene that is loaded in YADE."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import yade.wrapper as yw
@@ -28,20 +28,41 @@ class JointValues:
     kind: str = ""
     name: str = ""
     broken: bool = False
+    law: str = "brittle"
+    friction_share: float = None
+    softening_stretch: float = None
+    ultimate_stretch: float = None
 
 
-def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name=""):
+@dataclass(frozen=True)
+class SlipLaw:
+    """Yielding springs for `connect`: elastic to the strength, then plastic, with slip in cycles (docs/theory.md, section 4).
+
+    softening_stretch  stretch beyond which the strength falls [m], > strength / stiffness
+    ultimate_stretch   stretch at which the strength is zero and the spring breaks [m]
+    friction_share     share of stiffness and strength that dissipates energy in every cycle [-], 0 to 1; the rest slips
+    """
+
+    softening_stretch: float
+    ultimate_stretch: float
+    friction_share: float = 0.3
+
+
+def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name="", slip=None):
     """Join two bodies with springs at `points`; returns the TimberJoint, whose `.springs` give force, stretch and break.
 
     points     (n, 3) world frame [m]: the springs are unstretched in the present placement
     normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
     stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
-    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`.
+    slip       a SlipLaw: springs yield at the strength; needs kn = ks. None: they break at the strength
+    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`, a SlipLaw out of range.
     """
     require_bodies("connect", id1, id2)
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name)
+    if slip is not None:
+        springs = yielding(springs, slip)
     engine = find_engine(yw.JointEngine) or add_joint_engine()
     joint = make_joint(id1, id2, springs)
     engine.append(joint)
@@ -63,6 +84,24 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name):
     return JointValues(points, normal, kn, ks, strength, per, arguments.text("connect: kind", kind), arguments.text("connect: name", name))
 
 
+def yielding(springs, slip):
+    """The JointValues with a SlipLaw. Raises ValueError or TypeError for a wrong value."""
+    arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
+    share = arguments.number("connect: slip.friction_share", slip.friction_share)
+    softening = arguments.positive("connect: slip.softening_stretch", slip.softening_stretch, "m")
+    ultimate = arguments.positive("connect: slip.ultimate_stretch", slip.ultimate_stretch, "m")
+    if springs.kn != springs.ks:
+        arguments.refuse(ValueError, "connect: stiffness", (springs.kn, springs.ks), "two equal numbers with a SlipLaw [N/m]")
+    if not 0 <= share <= 1:
+        arguments.refuse(ValueError, "connect: slip.friction_share", share, "a number from 0 to 1 [-]")
+    if not softening > springs.strength / springs.kn:
+        form = f"a number > strength / stiffness = {springs.strength / springs.kn:g} [m]"
+        arguments.refuse(ValueError, "connect: slip.softening_stretch", softening, form)
+    if not ultimate > softening:
+        arguments.refuse(ValueError, "connect: slip.ultimate_stretch", ultimate, f"a number > softening_stretch = {softening:g} [m]")
+    return replace(springs, law="slip", friction_share=share, softening_stretch=softening, ultimate_stretch=ultimate)
+
+
 def add_joint_engine():
     """A new JointEngine, put behind the contact loop of `O.engines`."""
     chain = list(O.engines)
@@ -79,6 +118,11 @@ def make_joint(id1, id2, springs):
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    slip = {
+        "frictionShare": springs.friction_share,
+        "softeningStretch": springs.softening_stretch,
+        "ultimateStretch": springs.ultimate_stretch,
+    }
     return yw.TimberJoint(
         id1=id1,
         id2=id2,
@@ -92,6 +136,8 @@ def make_joint(id1, id2, springs):
         broken=[int(springs.broken)] * len(points),
         kind=springs.kind,
         name=springs.name,
+        law=springs.law,
+        **(slip if springs.law == "slip" else {}),
     )
 
 

@@ -44,7 +44,7 @@ def energy():
 
     kinetic; gravity (potential, from the reference placement); elastic_contacts, elastic_joints; ground_motion
     (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
-    vanished under load). kinetic + gravity + elastic + dissipated - ground_motion is constant.
+    vanished under load), joint_yield. kinetic + gravity + elastic + dissipated - ground_motion is constant.
     """
     return dict(yw.HouseMonitor().energy())
 
