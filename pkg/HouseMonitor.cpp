@@ -10,9 +10,9 @@ namespace yade {
 YADE_PLUGIN((HouseMonitor));
 
 namespace {
-	/// Names of energies(), in the same order.
+	/// Names of energies(), in the same order. The last one has no column in the rows of a scene without damped joints.
 	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear",
-		"friction", "broken_springs", "lost_contacts" };
+		"friction", "broken_springs", "lost_contacts", "joint_dashpot" };
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
@@ -65,7 +65,13 @@ namespace {
 		const Real half = scene.dt / 2;
 		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0,
 			j ? j->elastic + half * j->elasticPower(scene) : 0, g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
-			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0 };
+			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0 };
+	}
+
+	bool hasDampedJoints(const Scene& scene)
+	{
+		const JointEngine* engine = findEngine<JointEngine>(scene);
+		return engine && std::any_of(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->dampingRatio > 0; });
 	}
 }
 
@@ -115,13 +121,15 @@ boost::python::list HouseMonitor::pyColumns() const
 			names.append(name + std::to_string(level) + unit);
 	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
 		names.append(name);
-	for (const char* name : energyTerms)
-		names.append(string(name) + " [J]");
+	const bool dashpots = rows.empty() ? hasDampedJoints(*Omega::instance().getScene()) : jointDashpots;
+	for (size_t k = 0; k + !dashpots < std::size(energyTerms); ++k)
+		names.append(string(energyTerms[k]) + " [J]");
 	return names;
 }
 
 void HouseMonitor::record()
 {
+	if (rows.empty()) jointDashpots = hasDampedJoints(*scene);
 	rows.push_back(scene->time);
 	Vector3r below = Vector3r::Zero();
 	peak.resize(2 * heights.size(), 0);
@@ -143,7 +151,7 @@ void HouseMonitor::record()
 	rows.push_back(brokenJoints(*scene));
 	rows.push_back(joints ? joints->breaks.size() : 0);
 	const std::vector<Real> terms = energies(*scene);
-	rows.insert(rows.end(), terms.begin(), terms.end());
+	rows.insert(rows.end(), terms.begin(), terms.end() - !jointDashpots);
 }
 
 void HouseMonitor::action()

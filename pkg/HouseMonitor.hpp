@@ -31,6 +31,7 @@ public:
 		((string, tiltDirection, , , "Direction of the drift that exceeded tiltDrift first: ns or ew. [-]"))
 		((Real, collapseTime, NaN, , "Time at which a level had dropped by half a storey. [s]"))
 		((vector<Real>, peak, , , "Largest drift so far: north-south and east-west of storey 1, of storey 2, ... [-]"))
+		((bool, jointDashpots, false, Attr::readonly, "Whether rows have a column of the energy dissipated by joint dashpots: there were damped joints at the first sample. [-]"))
 		((Real, nextSample, 0, Attr::readonly, "Simulated time of the next sample. [s]"))
 		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
 		,

@@ -2,8 +2,20 @@
 /// Breakable joints between two bodies (paper, sections 2.4 and 3.2). The law and the rule of breaking: kernel/joint_law.hpp.
 #pragma once
 #include <bodies.hpp>
-#include <kernel/joint_law.hpp>
+#include <kernel/joint_dashpot.hpp>
 #include <kernel/stability.hpp>
+
+namespace boost {
+namespace serialization {
+	template <class Archive> void serialize(Archive& ar, timber::DashpotHistory& d, const unsigned int)
+	{
+		timber::JointModes& m = d.modes;
+		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies) & make_nvp("springs", m.springs);
+		ar& make_nvp("normal", m.stiffness.normal) & make_nvp("shear", m.stiffness.shear) & make_nvp("pairInverseMass", m.pairInverseMass);
+		ar& make_nvp("force", d.force);
+	}
+}
+}
 
 namespace yade {
 
@@ -33,11 +45,13 @@ public:
 		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint. [N/m] (paper, Table 1)"))
 		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint. [N] (paper, section 3.2)"))
 		((bool, perJoint, false, , "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. [-]"))
+		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
-		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")),
+		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
+		((timber::DashpotHistory, dashpot, , Attr::hidden, "Vibration modes and modal forces of a damped joint. [-]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")

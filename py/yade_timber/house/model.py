@@ -67,6 +67,7 @@ class JointSpec:
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
+    damping_ratio: float = 0.0  # [-] of the vibration modes of a and b against each other, see TimberJoint.dampingRatio
 
     @property
     def name(self):
