@@ -90,9 +90,10 @@ void ContactForces::collectBodies()
 void ContactForces::findIslands()
 {
 	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
-	links.resize(pairs.size());
+	links.resize(pairs.size() + joints.size());
 	std::transform(pairs.begin(), pairs.end(), links.begin(),
 	        [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
+	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
 	islands.find(bodies.size(), links);
 }
 
@@ -109,8 +110,13 @@ void ContactForces::storePair(timber::ContactSolver& solver, size_t k, const Con
 {
 	const timber::PairForce f
 	        = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
-	if (bodies[p.id1].inverseMass > 0) sums.add(p.id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
-	if (bodies[p.id2].inverseMass > 0) sums.add(p.id2, f.onB, f.torqueB);
+	addForce(f, p.id1, p.id2);
+}
+
+void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
+{
+	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
+	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
 }
 
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
@@ -118,14 +124,23 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 {
 	IslandResult result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
-	const int count = int(island.size());
+	const timber::SolverStep step { solver, bodies, scene->dt };
+	const int count = int(island.size()), pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
+	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
 	solver.begin(sweeps);
-	for (const int pair : island)
-		solver.addPair(pairs[pair].id1, pairs[pair].id2, pairs[pair].points);
-	timber::forAll(count, [&](int k) { preparePair(solver, k, pairs[island[k]]); });
+	for (int k = 0; k < pairCount; ++k)
+		solver.addPair(pairs[island[k]].id1, pairs[island[k]].id2, pairs[island[k]].points);
+	for (int k = pairCount; k < count; ++k)
+		solver.addDashpot(joint(k).id1, joint(k).id2);
+	timber::forAll(count, [&](int k) {
+		if (k < pairCount) preparePair(solver, k, pairs[island[k]]);
+		else prepareJoint(step, k - pairCount, joint(k), *scene);
+	});
 	result.sweeps = solver.solve(bodies, tolerance);
-	for (int k = 0; k < count; ++k)
+	for (int k = 0; k < pairCount; ++k)
 		storePair(solver, k, pairs[island[k]], result.energies);
+	for (int k = pairCount; k < count; ++k)
+		addForce(storeJoint(step, k - pairCount, joint(k), result.jointDashpot), joint(k).id1, joint(k).id2);
 	return result;
 }
 
@@ -136,7 +151,7 @@ void ContactForces::solveAll()
 	solvers.resize(timber::threadCount());
 	if (count > 0)
 		timber::forAll(
-		        count, [this](int k) { results[k] = solveIsland(islands[k]); }, int(pairs.size()) / count);
+		        count, [this](int k) { results[k] = solveIsland(islands[k]); }, int(links.size()) / count);
 }
 
 void ContactForces::sumResults()
@@ -153,6 +168,7 @@ void ContactForces::sumResults()
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
 		elasticPower += result.energies.elasticPower;
+		if (trackEnergy) jointDashpot += result.jointDashpot;
 		maxSweeps = std::max(maxSweeps, result.sweeps);
 	}
 	sweepsDone += maxSweeps;
@@ -162,6 +178,7 @@ void ContactForces::action()
 {
 	collectPairs();
 	collectBodies();
+	findDampedJoints(*scene, bodies, joints);
 	findIslands();
 	solveAll();
 	sumResults();

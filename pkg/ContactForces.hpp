@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Engine of the contact solver: collects pairs and bodies, solves island by island, sums forces and energies.
+/// Engine of the contact solver: collects pairs, damped joints and bodies, solves island by island, sums forces and energies.
 #pragma once
 #include <ContactPhysics.hpp>
-#include <bodies.hpp>
+#include <JointDashpots.hpp>
 #include <kernel/contact_solver.hpp>
 #include <kernel/islands.hpp>
 #include <kernel/stability.hpp>
@@ -23,16 +23,18 @@ class ContactForces : public GlobalEngine {
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
+		Real jointDashpot = 0; ///< [J]
 		int sweeps = 0;
 	};
 	std::vector<ContactPair> pairs, found; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `found`
-	timber::Islands islands;
-	std::vector<timber::Link> links; ///< of each pair
+	std::vector<TimberJoint*> joints; ///< damped
+	timber::Islands islands; ///< of the pairs, and of the joints after them
+	std::vector<timber::Link> links; ///< of each pair and joint
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
 	std::vector<timber::SolverBody> bodies; ///< indexed by body id
 	std::vector<IslandResult> results; ///< of each island
-	BodyForces sums; ///< of the contacts, on free bodies
+	BodyForces sums; ///< of contacts and joint dashpots, on free bodies
 
 	static void findPairs(const Scene&, std::vector<ContactPair>&);
 	void sortPairs();
@@ -42,6 +44,7 @@ class ContactForces : public GlobalEngine {
 	void findIslands();
 	void preparePair(timber::ContactSolver&, size_t k, const ContactPair&);
 	void storePair(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
+	void addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
@@ -55,7 +58,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
-		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. "
+		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots (TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 50, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
 		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass. [-]"))
@@ -64,6 +67,7 @@ public:
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots and by Newmark's term. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
+		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))

@@ -12,7 +12,7 @@ YADE_PLUGIN((HouseMonitor));
 namespace {
 	/// Names of energies(), in the same order.
 	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear",
-		"friction", "broken_springs", "lost_contacts", "joint_yield" };
+		"friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield" };
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
@@ -65,7 +65,7 @@ namespace {
 		const Real half = scene.dt / 2;
 		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear + half * c->elasticPower : 0,
 			j ? j->elastic + half * j->elasticPower(scene) : 0, g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
-			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, j ? j->yielded : 0 };
+			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0, j ? j->yielded : 0 };
 	}
 }
 

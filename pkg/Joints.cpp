@@ -30,6 +30,7 @@ void TimberJoint::validate() const
 	requireGiven(hasSprings, "TimberJoint.kn", kn, false);
 	requireGiven(hasSprings, "TimberJoint.ks", ks, false);
 	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
+	require(dampingRatio >= 0 && dampingRatio <= 1, "TimberJoint.dampingRatio", dampingRatio, "between 0 and 1");
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);

@@ -3,8 +3,21 @@
 /// Yielding springs: kernel/slip_law.hpp.
 #pragma once
 #include <bodies.hpp>
+#include <kernel/joint_dashpot.hpp>
 #include <kernel/slip_law.hpp>
 #include <kernel/stability.hpp>
+
+namespace boost {
+namespace serialization {
+	template <class Archive> void serialize(Archive& ar, timber::DashpotHistory& d, const unsigned int)
+	{
+		timber::JointModes& m = d.modes;
+		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies) & make_nvp("springs", m.springs);
+		ar& make_nvp("normal", m.stiffness.normal) & make_nvp("shear", m.stiffness.shear) & make_nvp("pairInverseMass", m.pairInverseMass);
+		ar& make_nvp("force", d.force);
+	}
+}
+}
 
 namespace yade {
 
@@ -43,13 +56,15 @@ public:
 		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is elastic and perfectly plastic; the rest slips. [-]"))
 		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring beyond which its strength falls. [m]"))
 		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring at which its strength is zero and it breaks. [m]"))
+		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
 		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
 		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
-		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]")),
+		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]"))
+		((timber::DashpotHistory, dashpot, , Attr::hidden, "Vibration modes and modal forces of a damped joint. [-]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")

@@ -10,16 +10,6 @@
 namespace timber {
 namespace {
 
-	/// Inverse effective mass of a body at a point: change of the point's velocity per unit impulse, 1/m - [r] I^-1 [r]. [1/kg]
-	Mat3 bodyResponse(const SolverBody& body, const Vec3& arm)
-	{
-		Mat3 s;
-		s << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-		Mat3 response = -(s * body.inverseInertia * s);
-		response.diagonal().array() += body.inverseMass;
-		return response;
-	}
-
 	/// Largest eigenvalue of the response in the plane normal to n. [1/kg]
 	double largestShearResponse(const Mat3& response, const Vec3& n)
 	{
@@ -144,6 +134,7 @@ void ContactSolver::begin(int sweepLimit)
 	assert(sweepLimit >= 0);
 	maxSweeps = sweepLimit;
 	pairs.clear();
+	dashpots.clear();
 }
 
 size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
@@ -153,6 +144,21 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 	pairs.push_back({ bodyA, bodyB, first, count, 0 });
 	if (groups.size() < end) groups.resize(end); // prepare() overwrites those of the last step, except unused lanes
 	return pairs.size() - 1;
+}
+
+size_t ContactSolver::addDashpot(int bodyA, int bodyB)
+{
+	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
+	dashpots.emplace_back();
+	dashpots.back().bodyA = bodyA;
+	dashpots.back().bodyB = bodyB;
+	return dashpots.size() - 1;
+}
+
+void ContactSolver::prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const DashpotInput& input, double h)
+{
+	assert(k < dashpots.size() && size_t(std::max(dashpots[k].bodyA, dashpots[k].bodyB)) < bodies.size());
+	timber::prepareDashpot(dashpots[k], bodies[dashpots[k].bodyA], bodies[dashpots[k].bodyB], input, h, maxSweeps == 0);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h)
@@ -221,14 +227,18 @@ double ContactSolver::squaredThreshold(const std::vector<SolverBody>& bodies, do
 		size += squares[0] * pairInverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
 		count += pair.count;
 	}
+	for (const DashpotConstraint& joint : dashpots) {
+		size += joint.impulse.squaredNorm();
+		count += joint.count;
+	}
 	return tolerance * tolerance * size / std::max(1., double(count));
 }
 
 /// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep and in the next one.
-bool ContactSolver::activateNeighbours(const std::vector<SolverBody>& bodies, const SolverPair& pair, double threshold)
+template <class Connection> bool ContactSolver::activateNeighbours(const std::vector<SolverBody>& bodies, const Connection& c, double threshold)
 {
-	if (pair.squaredChange <= threshold * double(pair.count)) return false;
-	for (const int body : { pair.bodyA, pair.bodyB })
+	if (c.squaredChange <= threshold * double(c.count)) return false;
+	for (const int body : { c.bodyA, c.bodyB })
 		if (bodies[body].inverseMass > 0) activeUntil[body] = sweepCount + 1;
 	return true;
 }
@@ -239,9 +249,14 @@ bool ContactSolver::sweepOnce(std::vector<SolverBody>& bodies, double threshold,
 	bool changed = false;
 	++sweepCount;
 	for (SolverPair& pair : pairs) {
-		if (activeUntil[pair.bodyA] < sweepCount && activeUntil[pair.bodyB] < sweepCount) continue;
+		if (!isActive(pair)) continue;
 		solvePair(bodies, pair, forwards);
 		changed = activateNeighbours(bodies, pair, threshold) || changed;
+	}
+	for (DashpotConstraint& joint : dashpots) {
+		if (!isActive(joint)) continue;
+		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
+		changed = activateNeighbours(bodies, joint, threshold) || changed;
 	}
 	return changed;
 }
@@ -253,10 +268,14 @@ int ContactSolver::sweepToConvergence(std::vector<SolverBody>& bodies, double to
 	++sweepCount;
 	for (SolverPair& pair : pairs)
 		solvePair(bodies, pair, true);
-	const double threshold = squaredThreshold(bodies, tolerance);
+	for (DashpotConstraint& joint : dashpots)
+		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
+	const double threshold = squaredThreshold(bodies, tolerance), first = firstSweepShare * firstSweepShare * threshold;
 	bool changed = false;
 	for (const SolverPair& pair : pairs)
-		changed = activateNeighbours(bodies, pair, firstSweepShare * firstSweepShare * threshold) || changed;
+		changed = activateNeighbours(bodies, pair, first) || changed;
+	for (const DashpotConstraint& joint : dashpots)
+		changed = activateNeighbours(bodies, joint, first) || changed;
 	int done = 1;
 	for (; changed && done < maxSweeps; ++done)
 		changed = sweepOnce(bodies, threshold, done % 2 == 0);
@@ -270,6 +289,8 @@ int ContactSolver::solve(std::vector<SolverBody>& bodies, double tolerance)
 		assert(size_t(std::max(pair.bodyA, pair.bodyB)) < bodies.size());
 		warmStart(bodies, pair);
 	}
+	for (const DashpotConstraint& joint : dashpots)
+		warmStartDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
 	return maxSweeps == 0 ? 0 : sweepToConvergence(bodies, tolerance);
 }
 

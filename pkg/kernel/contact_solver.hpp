@@ -39,29 +39,22 @@
 ///     x          -              a h C: decay rate of the dashpot times h [-]
 ///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
+/// Dashpots of joints (joint_dashpot.hpp) are visited after the pairs in each sweep.
+///
 /// Phases of a step, for each island (islands.hpp):
-///     1. begin() and addPair() list the pairs;
-///     2. prepare() makes the constraint of each point from its ContactInput (contact_pair.hpp: prepareContacts());
-///     3. solve(): warm start with the impulses of the last step, then sweeps over the pairs;
-///     4. constraint() gives the impulses (contact_pair.hpp: storeForces()).
+///     1. begin(), addPair() and addDashpot() list the pairs and the damped joints;
+///     2. prepare() makes the constraint of each point from its ContactInput (contact_pair.hpp: prepareContacts()), prepareDashpot() that of
+///        each joint;
+///     3. solve(): warm start with the impulses of the last step, then sweeps over the pairs and joints;
+///     4. constraint() and dashpot() give the impulses (contact_pair.hpp: storeForces(), joint_dashpot.hpp: dashpotForce()).
 #pragma once
+#include "joint_dashpot.hpp"
 #include "kinematics.hpp"
 #include <cassert>
 #include <cstddef>
 #include <vector>
 
 namespace timber {
-
-struct SolverBody {
-	Vec3 velocity, spin; ///< before the step [m/s, rad/s]
-	Vec3 newVelocity, newSpin; ///< in: after all forces except contacts; out: after contacts, too
-	double inverseMass; ///< 0 for a fixed body [1/kg]
-	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
-	Vec3 position = Vec3::Zero(); ///< [m]
-};
-
-/// Inverse of the equivalent mass of two bodies (Eq. 43). [1/kg]
-inline double pairInverseMass(const SolverBody& a, const SolverBody& b) { return a.inverseMass + b.inverseMass; }
 
 /// Inverse effective mass at a point. It decides theta, beta and the convergence of the sweeps, and varies slowly: it may be reused
 /// for some steps, but not when a body is fixed, freed or gets another mass.
@@ -142,6 +135,10 @@ public:
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
 	/// laneCount, on. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h);
+	/// Phase 1: reserves the constraint of a joint's dashpots. Returns its index.
+	size_t addDashpot(int bodyA, int bodyB);
+	/// Phase 2: constraint of the k-th joint for a step of h [s]. Thread-safe for different joints.
+	void prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const DashpotInput& input, double h);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points of a pair forwards and
 	/// backwards in turn, so that no side of a face is favoured. After the first sweep only active pairs are visited: those of which a body
 	/// has just changed. A pair counts as changed above `tolerance` times the root mean square of the island's impulses, each over the root
@@ -159,11 +156,18 @@ public:
 	/// Phase 4: constraint of a point of the k-th pair, and the group that begins with a point whose index is a multiple of laneCount.
 	Constraint constraint(size_t k, size_t point) const { return constraintAt(pair(k), point); }
 	const ConstraintGroup& constraintGroup(size_t k, size_t point) const { return groupAt(pair(k), point); }
+	/// Phase 4: the k-th joint.
+	const DashpotConstraint& dashpot(size_t k) const
+	{
+		assert(k < dashpots.size());
+		return dashpots[k];
+	}
 
 private:
 	int maxSweeps = 0;
 	std::vector<ConstraintGroup> groups;
 	std::vector<SolverPair> pairs;
+	std::vector<DashpotConstraint> dashpots;
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 
@@ -181,7 +185,9 @@ private:
 	void warmStart(std::vector<SolverBody>& bodies, const SolverPair& pair);
 	void solvePair(std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards);
 	double squaredThreshold(const std::vector<SolverBody>& bodies, double tolerance) const;
-	bool activateNeighbours(const std::vector<SolverBody>& bodies, const SolverPair& pair, double threshold);
+	/// Connection: SolverPair or DashpotConstraint.
+	template <class Connection> bool isActive(const Connection& c) const { return activeUntil[c.bodyA] >= sweepCount || activeUntil[c.bodyB] >= sweepCount; }
+	template <class Connection> bool activateNeighbours(const std::vector<SolverBody>& bodies, const Connection& c, double threshold);
 	bool sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards);
 	int sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance);
 };

@@ -72,10 +72,6 @@ class JointSpec:
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
-    law: str = "brittle"  # or 'slip': yields at the strength
-    friction_share: float = None     # law 'slip': share that dissipates energy in every cycle [-]
-    softening_stretch: float = None  # law 'slip': the strength falls beyond it [m]
-    ultimate_stretch: float = None   # law 'slip': the springs break [m]
 
     @property
     def name(self):

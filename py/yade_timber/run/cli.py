@@ -60,6 +60,8 @@ def parser(script):
     made.add_argument("--export", metavar="FILE",
                       help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
     made.add_argument("--every-step", action="store_true", help="compute every step (default: steps are skipped while house and ground are at rest)")
+    made.add_argument("--joint-damping", type=float, metavar="RATIO",
+                      help="damping ratio of all joints, 0 to 1 (default: the house's own); makes wrecks come to rest")
     made.add_argument("--quiet", action="store_true", help="print errors only")
     add_motion_options(made)
     return made
@@ -127,7 +129,7 @@ def _run(given, arguments, request):
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
     scale = 1.0 if shaking.scale is None else shaking.scale
     options = {"skip_rest": 0} if given.every_step else {}
-    times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse}
+    times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse, "joint_damping": given.joint_damping}
     scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, **times, options=options)
     return scenario, Output(
         folder=_path("--out", given.out) or Path("results") / request.name,
@@ -173,6 +175,8 @@ def _check_numbers(given):
     if not MIN_DT <= given.dt <= MAX_DT:
         limits = f"between {MIN_DT:g} s and {MAX_DT:g} s"
         raise RunError(f"--dt {given.dt:g}: the time step must be {limits}; joints of floors and roofs are unstable beyond")
+    if given.joint_damping is not None and not 0 <= given.joint_damping <= 1:
+        raise RunError(f"--joint-damping {given.joint_damping:g}: the damping ratio of the joints must be between 0 and 1")
     times = (("--duration", given.duration, "simulated time"), ("--checkpoint", given.checkpoint, "simulated time between checkpoints"))
     for option, value, noun in times:
         if value is not None and not 0 <= value <= MAX_DURATION:

@@ -25,7 +25,7 @@ DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/se
 def identity(scenario, model):
     """{property: value as JSON returns it} of a scenario and its HouseModel. The duration is left out: a run can be lengthened."""
     motion = scenario.motion and [scenario.motion.name, scenario.motion.dt, of_arrays([scenario.motion.acceleration])]
-    joints = [[j.a, j.b, j.kn, j.ks, j.strength, j.per, j.broken, j.kind, j.name, *_slip(j)] for j in model.joints]
+    joints = [[j.a, j.b, j.kn, j.ks, j.strength, j.per, j.damping_ratio, j.broken, j.kind, j.name, *_slip(j)] for j in model.joints]
     elements = [[e.name, e.kind, e.group, e.material, e.density, e.fixed, e.storey] for e in model.elements]
     known = {
         "name": scenario.name,

@@ -9,7 +9,6 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
-from ..house import build_house, load_house
 from ..pictures import all_pictures
 from ..recording import frames
 from ..recording.sentences import sentence
@@ -86,7 +85,7 @@ class Run:
         return True
 
     def _load(self):
-        self.model = build_house(load_house(self.scenario.house), snow_depth=self.scenario.snow_depth)
+        self.model = self.scenario.build_model()
         saved = checkpoint.load(self.checkpoint_path, identity(self.scenario, self.model))
         if O.iter >= self.steps:
             raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")

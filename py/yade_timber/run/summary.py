@@ -16,7 +16,7 @@ from ..scene.engines import find_engine
 from . import observer
 from .versions import versions
 
-DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_yield")
+DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield")
 """Terms of the energy balance that are dissipated."""
 SUMMARY, BREAKS = "summary.json", "breaks.csv"
 
@@ -41,6 +41,7 @@ def summary(scenario, observed, wall_s):
         "snow": scenario.snow_depth > 0,
         "snow_depth_m": scenario.snow_depth,
         "snow_mass_kg": model.counts()["mass_snow"],
+        "joint_damping": scenario.joint_damping,
         "record": record(scenario),
         "dt": scenario.dt,
         "duration_s": simulated,

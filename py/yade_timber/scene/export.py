@@ -18,8 +18,8 @@ def export_scene(path):
     elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
     materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
     joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
-               (null: unbreakable), reading 'spring' | 'joint', broken (one flag per spring), kind, name, slip (null: brittle; else the
-               parameters and the history of each spring); none of a removed body
+               (null: unbreakable), reading 'spring' | 'joint', damping_ratio [-], broken (one flag per spring), kind, name, slip (null: brittle;
+               else the parameters and the history of each spring); none of a removed body
     Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
     """
     for body in O.bodies:
@@ -91,6 +91,7 @@ def describe_joint(joint):
         "stiffness": [joint.kn, joint.ks],
         "strength": joint.strength if math.isfinite(joint.strength) else None,
         "reading": "joint" if joint.perJoint else "spring",
+        "damping_ratio": joint.dampingRatio,
         "broken": [bool(b) for b in joint.broken],
         "kind": joint.kind,
         "name": joint.name,

@@ -28,6 +28,7 @@ class JointValues:
     kind: str = ""
     name: str = ""
     broken: bool = False
+    damping_ratio: float = 0.0
     law: str = "brittle"
     friction_share: float = None
     softening_stretch: float = None
@@ -48,19 +49,20 @@ class SlipLaw:
     friction_share: float = 0.3
 
 
-def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name="", slip=None):
+def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name="", damping_ratio=0.0, slip=None):
     """Join two bodies with springs at `points`; returns the TimberJoint, whose `.springs` give force, stretch and break.
 
     points     (n, 3) world frame [m]: the springs are unstretched in the present placement
     normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
     stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
+    damping_ratio  of the vibration modes of the two bodies against each other, between 0 and 1 [-]
     slip       a SlipLaw: springs yield at the strength; needs kn = ks. None: they break at the strength
-    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`, a SlipLaw out of range.
+    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`, a damping ratio or SlipLaw out of range.
     """
     require_bodies("connect", id1, id2)
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
-    springs = checked_springs(points, normal, stiffness, strength, per, kind, name)
+    springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
     if slip is not None:
         springs = yielding(springs, slip)
     engine = find_engine(yw.JointEngine) or add_joint_engine()
@@ -69,7 +71,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     return joint
 
 
-def checked_springs(points, normal, stiffness, strength, per, kind, name):
+def checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio):
     """JointValues of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
     if not isinstance(per, str) or per not in PER_JOINT:
         arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
@@ -81,7 +83,11 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name):
     kn, ks = arguments.numbers_of_shape("connect: stiffness", stiffness, (2,), "two finite numbers > 0 [N/m]")
     kn, ks = arguments.positive("connect: stiffness[0]", kn, "N/m"), arguments.positive("connect: stiffness[1]", ks, "N/m")
     strength = arguments.positive("connect: strength", strength, "N", infinite=True)
-    return JointValues(points, normal, kn, ks, strength, per, arguments.text("connect: kind", kind), arguments.text("connect: name", name))
+    kind, name = arguments.text("connect: kind", kind), arguments.text("connect: name", name)
+    damping_ratio = arguments.number("connect: damping_ratio", damping_ratio)
+    if not 0 <= damping_ratio <= 1:
+        arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
+    return JointValues(points, normal, kn, ks, strength, per, kind, name, damping_ratio=damping_ratio)
 
 
 def yielding(springs, slip):
@@ -134,6 +140,7 @@ def make_joint(id1, id2, springs):
         strength=springs.strength,
         perJoint=PER_JOINT[springs.per],
         broken=[int(springs.broken)] * len(points),
+        dampingRatio=springs.damping_ratio,
         kind=springs.kind,
         name=springs.name,
         law=springs.law,

@@ -44,7 +44,7 @@ def energy():
 
     kinetic; gravity (potential, from the reference placement); elastic_contacts, elastic_joints; ground_motion
     (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
-    vanished under load), joint_yield. kinetic + gravity + elastic + dissipated - ground_motion is constant.
+    vanished under load), joint_dashpot, joint_yield. kinetic + gravity + elastic + dissipated - ground_motion is constant.
     """
     return dict(yw.HouseMonitor().energy())
 
@@ -60,7 +60,7 @@ def stable_dt(safety=0.5):
 
     2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
     M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0)
-    and for joints; implicit contacts (the default) are stable beyond it. Contacts that do not touch yet do not count: ask after a
+    and for joints, with or without dashpots, which are implicit; implicit contacts (the default) are stable beyond it. Contacts that do not touch yet do not count: ask after a
     few steps, or leave a safety for impacts. Infinite when nothing touches.
     """
     arguments.positive("stable_dt: safety", safety)

@@ -16,14 +16,15 @@ from .queries import stable_dt
 O = yw.Omega()
 
 JOINT_SAFETY = 0.98
-"""Largest time step over the joints' stability limit, which is that of linear springs without dashpots. [-]"""
+"""Largest time step over the joints' stability limit, which is that of linear springs; implicit dashpots do not change it. [-]"""
 
 
 @dataclass
 class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
-    scale: factor on the motion [-]; dt, duration [s]; until_collapse: whether a collapse ends the run; options: of `engines.engines`.
+    scale: factor on the motion [-]; dt, duration [s]; until_collapse: whether a collapse ends the run; joint_damping: damping ratio of all
+    joints [-], None: the house's own; options: of `engines.engines`.
     """
 
     name: str
@@ -34,7 +35,16 @@ class Scenario:
     dt: float = DEFAULT_DT
     duration: float = 30.0
     until_collapse: bool = False
+    joint_damping: float = None
     options: dict = field(default_factory=dict)
+
+    def build_model(self):
+        """HouseModel of the run. Raises HouseError."""
+        model = build_house(load_house(self.house), snow_depth=self.snow_depth)
+        if self.joint_damping is not None:
+            for joint in model.joints:
+                joint.damping_ratio = self.joint_damping
+        return model
 
 
 def build(scenario, stride=yw.RestSkipper().stride):
@@ -42,7 +52,7 @@ def build(scenario, stride=yw.RestSkipper().stride):
 
     stride: number of steps of which one is computed while scene and ground are at rest (`skip_rest` in the scenario's options has precedence)
     """
-    model = build_house(load_house(scenario.house), snow_depth=scenario.snow_depth)
+    model = scenario.build_model()
     O.reset()
     ids = add_elements(model)
     joints = add_joints(model, ids)
@@ -57,7 +67,7 @@ def build(scenario, stride=yw.RestSkipper().stride):
 
 
 def check_step(model):
-    """Raise StepError when the joints, which have no dashpots, are too stiff for the time step, as between light members."""
+    """Raise StepError when the joints, whose springs are explicit, are too stiff for the time step, as between light members."""
     limit = stable_dt(JOINT_SAFETY)
     if O.dt > limit:
         fault = f"a time step of {O.dt:g} s is too large for the joints between the lightest members"

@@ -29,6 +29,7 @@ OWN = {
     "braces": (str, "names of braces to add to the house, separated by ;"),
     "strength": (float, "factor on the strength of all joints (default 1)"),
     "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
+    "joint_damping": (float, "damping ratio of all joints (default: the house's own)"),
     "dt": (float, "time step [s]"),
     "duration": (float, "simulated time [s] (default: the motion's; without an earthquake 30)"),
     "until_collapse": (bool, "whether the run ends when the house has collapsed, yes or no (default no)"),

@@ -17,7 +17,7 @@ from .table import MOTION, NO_EARTHQUAKE, BatchError
 
 HOUSE = "house.yaml"
 """House file of a row that changes its house, in the run's folder."""
-LIMITS = {"dt": (MIN_DT, MAX_DT), "duration": (0, MAX_DURATION), "snow": (0, 20)}
+LIMITS = {"dt": (MIN_DT, MAX_DT), "duration": (0, MAX_DURATION), "snow": (0, 20), "joint_damping": (0, 1)}
 """{column: admissible range}, units as in the table."""
 
 
@@ -43,7 +43,7 @@ def options(row, folder):
     words = [str(folder / HOUSE) if any(changes(row)) else row.house]
     if row.cells.get("record") != NO_EARTHQUAKE:
         words.append("--quake")
-    for column in ("snow", "dt", "duration", "until_collapse", *MOTION):
+    for column in ("snow", "joint_damping", "dt", "duration", "until_collapse", *MOTION):
         value, option = row.record if column == "record" else row.value(column), f"--{column.replace('_', '-')}"
         if value is True:
             words.append(option)

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Dashpots of a joint: its two bodies vibrate against each other with a given damping ratio. Adapter: ContactForces.
+///
+/// Two bodies that are connected by one joint, and free otherwise, have six vibration modes: translations and rotations of B relative to A.
+/// Let w be the relative velocity and spin at the joint's centre, P the impulse and angular impulse on B, R the response, so that
+/// dw = R P, and K the stiffness of the unbroken springs. The modes z_k, columns of Z, have the frequencies omega_k, with
+///     Z^T R Z = 1,   K = Z omega^2 Z^T                                                          (1)
+/// The damping matrix D = 2 zeta Z omega Z^T gives each mode the damping ratio zeta, rotations of a slender member about its end included.
+/// (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations some thirty times less.)
+/// About the centroid of the springs' ends, forces do not rotate and torques do not move: K is block diagonal.
+///
+/// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and the dissipated energy
+/// h (w + w')^T D (w + w') / 4 is never negative. In terms of the modes, P = Z q, eta = Z^T w, these are six scalar dashpots:
+///     q = -x (eta + eta'),   x = h zeta omega                                                    (2)
+/// With eta_u of the current velocities, in which q0 acts already, and eta' = eta_u + q - q0, a visit of the joint is
+///     q = s (q0 - eta - eta_u),   s = x / (1 + x)                                                (3)
+/// Z is fixed in the axes of A. It is reused while the springs and masses are the same (modeSteps): (2) holds for any Z, and Z decides with (1)
+/// about the damping ratio and the convergence of (3) only.
+///
+/// Glossary
+///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
+///     eta      -             modal velocity: before the step; eta_u: current; eta': after the step [kg^1/2 m/s]
+///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
+///     omega    frequency     angular, of a mode [rad/s]
+///     P        impulse       on B at the joint's centre [N s, N m s]
+///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
+///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
+///     s        share         of the modal impulse of a joint that is infinitely damped [-]
+///     w        twist         velocity and spin of B relative to A at the joint's centre [m/s, rad/s]
+///     x        -             decay rate of the mode times h [-]
+///     Z        modes         world axes in DashpotConstraint, axes of A in JointModes [kg^1/2, kg^1/2 m]
+///     zeta     ratio         damping ratio [-]
+#pragma once
+#include "joint_law.hpp"
+#include "solver_body.hpp"
+#include <algorithm>
+
+namespace timber {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/// The unbroken springs of a joint.
+struct SpringGroup {
+	const std::vector<Vec3>& anchors; ///< ends of all springs in A, in the frame of A [m]
+	const std::vector<int>& broken; ///< 1 for a broken spring, else 0
+	JointStiffness stiffness; ///< of each
+	Vec3 normal; ///< unit, in the axes of A
+	size_t count() const { return size_t(std::count(broken.begin(), broken.end(), 0)); }
+};
+
+/// Vibration modes of two bodies with a joint, and the springs and masses for which they hold.
+struct JointModes {
+	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
+	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
+	Vec6 frequencies = Vec6::Zero(); ///< omega
+	size_t springs = 0; ///< number of the unbroken springs; 0: not computed
+	JointStiffness stiffness { 0, 0 }; ///< of each
+	double pairInverseMass = 0; ///< [1/kg]
+
+	bool holdFor(const SpringGroup& group, double inverseMass) const
+	{
+		return springs == group.count() && stiffness.normal == group.stiffness.normal && stiffness.shear == group.stiffness.shear
+		        && pairInverseMass == inverseMass;
+	}
+};
+/// What a joint keeps of its dashpots from step to step.
+struct DashpotHistory {
+	JointModes modes;
+	Vec6 force = Vec6::Zero(); ///< q / h of the last step [kg^1/2 m/s2]
+};
+
+/// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
+JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs);
+
+/// The same impulse (or force) at the centre in terms of other modes of the joint.
+Vec6 convertedImpulse(const Vec6& q, const JointModes& from, const JointModes& to);
+
+/// A joint's dashpots in a step.
+struct DashpotConstraint {
+	int bodyA, bodyB;
+	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
+	Mat6 modes; ///< Z
+	Vec6 share; ///< s
+	Vec6 before; ///< eta
+	Vec6 impulse; ///< q: in-out of the sweeps
+	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
+	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
+};
+
+/// Input of the prepare phase.
+struct DashpotInput {
+	const JointModes& modes;
+	const Mat3& axesA; ///< rotation matrix from the frame of A to the world
+	double ratio; ///< zeta
+	Vec6 impulse; ///< warm start: estimate of q
+};
+/// Constraint for a step of h [s]. isExplicit: its impulse is that of the velocities before the step.
+void prepareDashpot(DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const DashpotInput& input, double h, bool isExplicit);
+
+/// Applies the impulse of a joint's dashpots to its bodies.
+void warmStartDashpot(const DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
+
+/// One Gauss-Seidel visit: (3).
+void solveDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
+
+/// Force and torque of the dashpots on B at the joint's centre, and the energy that they dissipated in the step.
+struct DashpotForce {
+	Vec3 force, torque; ///< [N, N m]
+	double dissipated; ///< [J]
+};
+DashpotForce dashpotForce(const DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, double h);
+
+} // namespace timber
