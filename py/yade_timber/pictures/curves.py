@@ -30,6 +30,7 @@ DISSIPATED = {
     "friction": ("friction", colors.AMBER),
     "broken_springs": ("broken joints", colors.ORANGE),
     "lost_contacts": ("contacts lost\nunder load", colors.PURPLE),
+    "joint_dashpot": ("joint dashpots", colors.GREEN),
     "joint_yield": ("yielding joints", colors.GREY),
 }
 
