@@ -37,12 +37,12 @@ def test_keys_and_list_items(tmp_path):
     assert data["plumb"]["drift"] == 1e-3 and data["structures"]["main"]["stack"][2]["height"] == 2.5
 
 
-def test_added_braces_have_two_joints_each(tmp_path):
+def test_added_braces_have_joints_with_beams_and_columns(tmp_path):
     before = build_house(load_house("B"), check=False)
     names = ["main.brace1.EW.y0.3-4", "main.brace2.NS.x8.6-5"]
     _, model = built(tmp_path, braces=names)
     assert {e.name for e in model.elements} - {e.name for e in before.elements} == set(names)
-    assert len(model.joints) == len(before.joints) + 4
+    assert len(model.joints) == len(before.joints) + 8
 
 
 def test_names_with_a_hyphen(tmp_path):

@@ -118,7 +118,7 @@ def test_wings_of_the_l_house_are_joined():
 
 def test_the_order_of_the_kinds_in_a_joint_rule_does_not_matter(tmp_path):
     text = load_house("storehouse").path.read_text()
-    turned = text + "  column_ends: {between: [[sill, beam, floor], column]}\n  roofs: {between: [beam, roof]}\n"
+    turned = text + "joints:\n  column_ends: {between: [[sill, beam, floor], column]}\n  roofs: {between: [beam, roof]}\n"
     ends = [[{(j.a, j.b), (j.b, j.a), j.end} for j in house(tmp_path, one).joints] for one in (text, turned)]
     assert [frozenset(e) for e in ends[0]] == [frozenset(e) for e in ends[1]]
 

@@ -9,8 +9,8 @@ from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
 from .parser import Table, parse_table
 
-COMMON = ("base", "paper")
-"""Shipped files that houses extend: materials and joints; frame of the paper's houses."""
+COMMON = ("base", "paper", "plated")
+"""Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates."""
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
