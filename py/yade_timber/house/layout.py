@@ -144,7 +144,8 @@ HOUSE = Record({
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),
-    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "plate": Choice(("whole", "beam"), "whole"), "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
+    "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "plate": Choice(("whole", "beam"), "whole"),
+                      "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
     "snow": Record({"material": word("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),
     "plumb": Record({"drift": Number("", 0.0, 0.05, default=0.0), "towards": Choice(SIDES, "north")}, default={}),
 })

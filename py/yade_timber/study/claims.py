@@ -189,7 +189,8 @@ def within(seconds, limits):
 
 
 CLAIMS = {  # name -> (claim, check, runs that the check takes)
-    "E1": ("A, earthquake: tilts when strong shaking sets in (N-S in the paper), has collapsed about 6 s later", tilts_and_collapses_when_shaken, ("modelA_quake",)),
+    "E1": ("A, earthquake: tilts when strong shaking sets in (N-S in the paper), has collapsed about 6 s later",
+           tilts_and_collapses_when_shaken, ("modelA_quake",)),
     "E2": ("B, earthquake: does not collapse", does_not_collapse, ("modelB_quake",)),
     "E3": ("C, earthquake: does not collapse", does_not_collapse, ("modelC_quake",)),
     "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow, ("modelA_snow",)),

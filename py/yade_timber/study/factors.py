@@ -122,7 +122,7 @@ FACTORS = (
         Level("butting beams not joined", rules(beams=None)),
         Level("butting beams joined by corner fittings", rules(beams=BEAMS)))),
     Factor("floors", "floors and roof with fittings", (
-        Level("floors and roof nailed, unbreakable", fastened(kn=4e7, ks=4e7, strength=float("inf"), per="joint")),
+        Level("floors and roof nailed, unbreakable", fastened(kn=1e7, ks=1e7, strength=float("inf"), per="joint")),
         Level("floors and roof with the corner fitting's values", fastened(kn=58800, ks=58800, strength=5880, per=None)))),
     Factor("supports", "columns on the foundation", (
         Level("columns on sills", supports("sill")),
