@@ -140,7 +140,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = 0; k < pairCount; ++k)
 		storePair(solver, k, pairs[island[k]], result.energies);
 	for (int k = pairCount; k < count; ++k)
-		addForce(storeJoint(step, k - pairCount, joint(k), result.jointDashpot), joint(k).id1, joint(k).id2);
+		addForce(storeJoint(step, k - pairCount, result.jointDashpot), joint(k).id1, joint(k).id2);
 	return result;
 }
 

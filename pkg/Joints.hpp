@@ -7,12 +7,10 @@
 
 namespace boost {
 namespace serialization {
-	template <class Archive> void serialize(Archive& ar, timber::DashpotHistory& d, const unsigned int)
+	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
-		timber::JointModes& m = d.modes;
 		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies) & make_nvp("springs", m.springs);
 		ar& make_nvp("normal", m.stiffness.normal) & make_nvp("shear", m.stiffness.shear) & make_nvp("pairInverseMass", m.pairInverseMass);
-		ar& make_nvp("force", d.force);
 	}
 }
 }
@@ -51,7 +49,7 @@ public:
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
 		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
-		((timber::DashpotHistory, dashpot, , Attr::hidden, "Vibration modes and modal forces of a damped joint. [-]")),
+		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
