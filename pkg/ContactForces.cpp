@@ -93,7 +93,8 @@ void ContactForces::findIslands()
 	links.resize(pairs.size() + joints.size());
 	std::transform(pairs.begin(), pairs.end(), links.begin(),
 	        [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
-	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	std::transform(
+	        joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
 	islands.find(bodies.size(), links);
 }
 

@@ -21,8 +21,8 @@ void prepareJoint(const timber::SolverStep& step, size_t k, TimberJoint& joint, 
 	const timber::SolverBody &a = step.bodies[joint.id1], &b = step.bodies[joint.id2];
 	const Matrix3r axes = Body::byId(joint.id1)->state->ori.toRotationMatrix();
 	const timber::SpringGroup springs { joint.anchors1, joint.broken, joint.stiffness(), joint.normal };
-	const bool refresh = (scene.iter + joint.id1 + joint.id2) % timber::modeSteps == 0; // spread over the steps, reproducible after a load
-	if (refresh || !joint.modes.holdFor(springs, timber::pairInverseMass(a, b))) joint.modes = timber::jointModes(a, b, axes, springs);
+	if (scene.iter % timber::modeSteps == 0 || !joint.modes.holdFor(springs, timber::pairInverseMass(a, b)))
+		joint.modes = timber::jointModes(a, b, axes, springs);
 	step.solver.prepareDashpot(k, step.bodies, joint.modes, axes, joint.dampingRatio, step.h);
 }
 

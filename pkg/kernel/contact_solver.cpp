@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace timber {
@@ -155,8 +156,7 @@ size_t ContactSolver::addDashpot(int bodyA, int bodyB)
 	return dashpots.size() - 1;
 }
 
-void ContactSolver::prepareDashpot(
-        size_t k, const std::vector<SolverBody>& bodies, const JointModes& modes, const Mat3& axesA, double ratio, double h)
+void ContactSolver::prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const JointModes& modes, const Mat3& axesA, double ratio, double h)
 {
 	assert(k < dashpots.size() && size_t(std::max(dashpots[k].bodyA, dashpots[k].bodyB)) < bodies.size());
 	timber::prepareDashpot(dashpots[k], bodies[dashpots[k].bodyA], bodies[dashpots[k].bodyB], modes, axesA, ratio, h);
@@ -286,6 +286,7 @@ int ContactSolver::sweepToConvergence(std::vector<SolverBody>& bodies, double to
 	int done = 1;
 	for (; changed && done < maxSweeps; ++done)
 		changed = sweepOnce(bodies, threshold, done % 2 == 0);
+	if (changed) sweepDashpots(bodies, std::numeric_limits<double>::infinity()); // changes nothing but the dissipated energies
 	return done;
 }
 

@@ -79,7 +79,7 @@ struct DashpotConstraint {
 	Vec6 share; ///< s
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
-	double dissipated; ///< -q (eta + eta') / 2 after the last visit [J]
+	double dissipated; ///< -q (eta + eta') / 2 after the last visit: of the step, if no velocity changed afterwards [J]
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 

@@ -46,8 +46,8 @@ struct Assembly {
 	Matrix stiffness(const Joint& joint) const
 	{
 		Matrix all = Matrix::Zero(size(), size());
-		const Mat3 k = joint.stiffness.shear * Mat3::Identity()
-		        + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
+		const Mat3 k
+		        = joint.stiffness.shear * Mat3::Identity() + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
 		for (size_t i = 0; i < joint.points.size(); ++i) {
 			Matrix stretch = Matrix::Zero(3, size());
 			for (const auto& [body, sign] : { std::pair(joint.a, -1.), std::pair(joint.b, 1.) }) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A small scene with all mechanisms: a joined column and beam, a block that slides into the column, friction, gravity.
+"""A small scene with all mechanisms: a column and beam with damped joints, a block that slides into the column, friction, gravity.
 
 No faces are parallel, flush or symmetric, so that no comparison depends on ties. As a script it runs the scene and prints
 the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS`.
@@ -18,6 +18,8 @@ ANGLES = {"plate": 0.02, "column": 0.3, "beam": 0.1, "block": -0.4}
 NAMES = tuple(SIZES)
 JOINTS = (("plate", "column", 0.0), ("column", "beam", 1.2))
 """Two bodies and the height of the springs [m]."""
+DAMPING = 0.05
+"""Damping ratio of the joints. [-]"""
 
 
 def vertical(angle):
@@ -48,7 +50,7 @@ def append(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0)):
 def join(ids, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12):
     """Add the joints, rotated and shifted likewise; strength [N]."""
     for first, second, height in JOINTS:
-        yt.connect(ids[first], ids[second], joint_points(height) @ rotation.T + np.asarray(shift, float), strength=strength)
+        yt.connect(ids[first], ids[second], joint_points(height) @ rotation.T + np.asarray(shift, float), strength=strength, damping_ratio=DAMPING)
 
 
 def load(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, dt=1e-4, **options):

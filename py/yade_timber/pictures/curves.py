@@ -27,6 +27,7 @@ DISSIPATED = {
     "friction": ("friction", colors.AMBER),
     "broken_springs": ("broken joints", colors.ORANGE),
     "lost_contacts": ("contacts lost\nunder load", colors.PURPLE),
+    "joint_dashpot": ("joint dashpots", colors.GREY),
 }
 
 
@@ -138,10 +139,11 @@ def draw_breaks(axis, frames):
 def draw_energy(axis, history):
     """Energy input and its parts; the remainder is printed above."""
     supplied = history.energy("ground_motion") - history.energy("gravity")
-    parts = [history.energy(name) for name in DISSIPATED]
+    dissipated = {name: style for name, style in DISSIPATED.items() if f"{name} [J]" in history.columns}
+    parts = [history.energy(name) for name in dissipated]
     parts += [history.energy("elastic_contacts") + history.energy("elastic_joints"), history.energy("kinetic")]
-    names = [name for name, _ in DISSIPATED.values()] + ["elastic", "kinetic"]
-    fills = [color for _, color in DISSIPATED.values()] + [colors.GREEN, colors.YELLOW]
+    names = [name for name, _ in dissipated.values()] + ["elastic", "kinetic"]
+    fills = [color for _, color in dissipated.values()] + [colors.GREEN, colors.YELLOW]
     axis.stackplot(history.time, [part / 1e3 for part in parts], labels=names, colors=fills, lw=0)
     axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
     residual = abs(sum(parts) - supplied).max()
