@@ -93,7 +93,8 @@ void ContactForces::findIslands()
 	links.resize(pairs.size() + joints.size());
 	std::transform(pairs.begin(), pairs.end(), links.begin(),
 	        [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
-	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	std::transform(
+	        joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
 	islands.find(bodies.size(), links);
 }
 
@@ -140,7 +141,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = 0; k < pairCount; ++k)
 		storePair(solver, k, pairs[island[k]], result.energies);
 	for (int k = pairCount; k < count; ++k)
-		addForce(storeJoint(step, k - pairCount, joint(k), result.jointDashpot), joint(k).id1, joint(k).id2);
+		addForce(storeJoint(step, k - pairCount, result.jointDashpot), joint(k).id1, joint(k).id2);
 	return result;
 }
 

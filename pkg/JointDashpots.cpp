@@ -21,23 +21,18 @@ void prepareJoint(const timber::SolverStep& step, size_t k, TimberJoint& joint, 
 	const timber::SolverBody &a = step.bodies[joint.id1], &b = step.bodies[joint.id2];
 	const Matrix3r axes = Body::byId(joint.id1)->state->ori.toRotationMatrix();
 	const timber::SpringGroup springs { joint.anchors1, joint.broken, joint.stiffness(), joint.normal };
-	timber::DashpotHistory& dashpot = joint.dashpot;
-	const bool refresh = (scene.iter + joint.id1 + joint.id2) % timber::modeSteps == 0; // spread over the steps, reproducible after a load
-	if (refresh || !dashpot.modes.holdFor(springs, timber::pairInverseMass(a, b))) {
-		const timber::JointModes modes = timber::jointModes(a, b, axes, springs);
-		dashpot.force = timber::convertedImpulse(dashpot.force, dashpot.modes, modes);
-		dashpot.modes = modes;
-	}
-	step.solver.prepareDashpot(k, step.bodies, { dashpot.modes, axes, joint.dampingRatio, step.h * dashpot.force }, step.h);
+	if (scene.iter % timber::modeSteps == 0 || !joint.modes.holdFor(springs, timber::pairInverseMass(a, b)))
+		joint.modes = timber::jointModes(a, b, axes, springs);
+	step.solver.prepareDashpot(k, step.bodies, joint.modes, axes, joint.dampingRatio, step.h);
 }
 
-timber::PairForce storeJoint(const timber::SolverStep& step, size_t k, TimberJoint& joint, Real& dissipated)
+timber::PairForce storeJoint(const timber::SolverStep& step, size_t k, Real& dissipated)
 {
 	const timber::DashpotConstraint& c = step.solver.dashpot(k);
-	const timber::DashpotForce f = timber::dashpotForce(c, step.bodies[joint.id1], step.bodies[joint.id2], step.h);
-	joint.dashpot.force = c.impulse / step.h;
-	dissipated += f.dissipated;
-	return { f.force, -c.armA.cross(f.force) - f.torque, c.armB.cross(f.force) + f.torque };
+	const timber::DashpotImpulse P = timber::dashpotImpulse(c);
+	const Vector3r force = P.linear / step.h, torque = P.angular / step.h;
+	dissipated += c.dissipated;
+	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 }
 
 } // namespace yade

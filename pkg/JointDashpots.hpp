@@ -13,7 +13,7 @@ void findDampedJoints(const Scene&, const std::vector<timber::SolverBody>& bodie
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(const timber::SolverStep&, size_t k, TimberJoint&, const Scene&);
 
-/// Stores the impulse of the k-th joint of the solver for the next step. dissipated: added to [J].
-timber::PairForce storeJoint(const timber::SolverStep&, size_t k, TimberJoint&, Real& dissipated);
+/// Force of the dashpots of the solver's k-th joint. dissipated: added to [J].
+timber::PairForce storeJoint(const timber::SolverStep&, size_t k, Real& dissipated);
 
 } // namespace yade

@@ -9,12 +9,10 @@
 
 namespace boost {
 namespace serialization {
-	template <class Archive> void serialize(Archive& ar, timber::DashpotHistory& d, const unsigned int)
+	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
-		timber::JointModes& m = d.modes;
 		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies) & make_nvp("springs", m.springs);
 		ar& make_nvp("normal", m.stiffness.normal) & make_nvp("shear", m.stiffness.shear) & make_nvp("pairInverseMass", m.pairInverseMass);
-		ar& make_nvp("force", d.force);
 	}
 }
 }
@@ -64,7 +62,7 @@ public:
 		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
 		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
 		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]"))
-		((timber::DashpotHistory, dashpot, , Attr::hidden, "Vibration modes and modal forces of a damped joint. [-]")),
+		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")

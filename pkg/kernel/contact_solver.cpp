@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace timber {
@@ -155,10 +156,10 @@ size_t ContactSolver::addDashpot(int bodyA, int bodyB)
 	return dashpots.size() - 1;
 }
 
-void ContactSolver::prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const DashpotInput& input, double h)
+void ContactSolver::prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const JointModes& modes, const Mat3& axesA, double ratio, double h)
 {
 	assert(k < dashpots.size() && size_t(std::max(dashpots[k].bodyA, dashpots[k].bodyB)) < bodies.size());
-	timber::prepareDashpot(dashpots[k], bodies[dashpots[k].bodyA], bodies[dashpots[k].bodyB], input, h, maxSweeps == 0);
+	timber::prepareDashpot(dashpots[k], bodies[dashpots[k].bodyA], bodies[dashpots[k].bodyB], modes, axesA, ratio, h);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h)
@@ -243,42 +244,49 @@ template <class Connection> bool ContactSolver::activateNeighbours(const std::ve
 	return true;
 }
 
-/// A sweep over the active pairs. Returns whether another one is needed.
+/// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with those of contacts.
+/// Returns whether another sweep is needed.
 bool ContactSolver::sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards)
 {
 	bool changed = false;
 	++sweepCount;
 	for (SolverPair& pair : pairs) {
-		if (!isActive(pair)) continue;
+		if (activeUntil[pair.bodyA] < sweepCount && activeUntil[pair.bodyB] < sweepCount) continue;
 		solvePair(bodies, pair, forwards);
 		changed = activateNeighbours(bodies, pair, threshold) || changed;
 	}
+	return changed || sweepDashpots(bodies, threshold);
+}
+
+/// Returns whether another sweep over the pairs is needed.
+bool ContactSolver::sweepDashpots(std::vector<SolverBody>& bodies, double threshold)
+{
+	bool changed = false;
 	for (DashpotConstraint& joint : dashpots) {
-		if (!isActive(joint)) continue;
-		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
+		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB], threshold * double(joint.count));
 		changed = activateNeighbours(bodies, joint, threshold) || changed;
 	}
 	return changed;
 }
 
-/// All sweeps of a step: the first one over all pairs. Returns their number.
+/// All sweeps of a step: the first one over all joints and pairs. Returns their number.
 int ContactSolver::sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance)
 {
 	activeUntil.resize(bodies.size(), 0);
 	++sweepCount;
+	for (DashpotConstraint& joint : dashpots)
+		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB], 0);
 	for (SolverPair& pair : pairs)
 		solvePair(bodies, pair, true);
-	for (DashpotConstraint& joint : dashpots)
-		solveDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
-	const double threshold = squaredThreshold(bodies, tolerance), first = firstSweepShare * firstSweepShare * threshold;
+	const double threshold = squaredThreshold(bodies, tolerance);
 	bool changed = false;
 	for (const SolverPair& pair : pairs)
-		changed = activateNeighbours(bodies, pair, first) || changed;
-	for (const DashpotConstraint& joint : dashpots)
-		changed = activateNeighbours(bodies, joint, first) || changed;
+		changed = activateNeighbours(bodies, pair, firstSweepShare * firstSweepShare * threshold) || changed;
+	changed = changed || sweepDashpots(bodies, threshold);
 	int done = 1;
 	for (; changed && done < maxSweeps; ++done)
 		changed = sweepOnce(bodies, threshold, done % 2 == 0);
+	if (changed) sweepDashpots(bodies, std::numeric_limits<double>::infinity()); // changes nothing but the dissipated energies
 	return done;
 }
 
@@ -289,9 +297,10 @@ int ContactSolver::solve(std::vector<SolverBody>& bodies, double tolerance)
 		assert(size_t(std::max(pair.bodyA, pair.bodyB)) < bodies.size());
 		warmStart(bodies, pair);
 	}
-	for (const DashpotConstraint& joint : dashpots)
-		warmStartDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
-	return maxSweeps == 0 ? 0 : sweepToConvergence(bodies, tolerance);
+	if (maxSweeps > 0) return sweepToConvergence(bodies, tolerance);
+	for (DashpotConstraint& joint : dashpots)
+		applyExplicitDashpot(joint, bodies[joint.bodyA], bodies[joint.bodyB]);
+	return 0;
 }
 
 } // namespace timber

@@ -39,7 +39,7 @@
 ///     x          -              a h C: decay rate of the dashpot times h [-]
 ///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
-/// Dashpots of joints (joint_dashpot.hpp) are visited after the pairs in each sweep.
+/// Dashpots of joints (joint_dashpot.hpp) are visited before the first sweep over the pairs, and whenever no pair changes any more.
 ///
 /// Phases of a step, for each island (islands.hpp):
 ///     1. begin(), addPair() and addDashpot() list the pairs and the damped joints;
@@ -138,11 +138,11 @@ public:
 	/// Phase 1: reserves the constraint of a joint's dashpots. Returns its index.
 	size_t addDashpot(int bodyA, int bodyB);
 	/// Phase 2: constraint of the k-th joint for a step of h [s]. Thread-safe for different joints.
-	void prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const DashpotInput& input, double h);
+	void prepareDashpot(size_t k, const std::vector<SolverBody>& bodies, const JointModes& modes, const Mat3& axesA, double ratio, double h);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points of a pair forwards and
 	/// backwards in turn, so that no side of a face is favoured. After the first sweep only active pairs are visited: those of which a body
 	/// has just changed. A pair counts as changed above `tolerance` times the root mean square of the island's impulses, each over the root
-	/// of its equivalent mass [-] (firstSweepShare of that in the first sweep). Returns the number of sweeps.
+	/// of its equivalent mass [-] (firstSweepShare of that in the first sweep). A joint counts as one point. Returns the number of sweeps.
 	/// A small fixed number of sweeps would suffice for a standing house. In an impact between heavy and light members the remaining error
 	/// of the warm start would create energy.
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
@@ -186,9 +186,9 @@ private:
 	void solvePair(std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards);
 	double squaredThreshold(const std::vector<SolverBody>& bodies, double tolerance) const;
 	/// Connection: SolverPair or DashpotConstraint.
-	template <class Connection> bool isActive(const Connection& c) const { return activeUntil[c.bodyA] >= sweepCount || activeUntil[c.bodyB] >= sweepCount; }
 	template <class Connection> bool activateNeighbours(const std::vector<SolverBody>& bodies, const Connection& c, double threshold);
 	bool sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards);
+	bool sweepDashpots(std::vector<SolverBody>& bodies, double threshold);
 	int sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance);
 };
 

@@ -4,7 +4,6 @@
 #include "preconditions.hpp"
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 
@@ -52,33 +51,60 @@ namespace {
 		return axes.transpose() * (twistResponse(a, arm) + twistResponse(b, arm + a.position - b.position)) * axes;
 	}
 
-	Vec6 twist(const DashpotConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+	/// w of these velocities and spins, in world axes.
+	[[gnu::always_inline]] inline Vec6 twist(const DashpotConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
 	{
 		Vec6 w;
-		w << relativeVelocity<double>(c.armA, c.armB, vA, wA, vB, wB), wB - wA;
+		w.head<3>() = relativeVelocity<double>(c.armA, c.armB, vA, wA, vB, wB);
+		w.tail<3>() = wB - wA;
 		return w;
 	}
 
-	/// eta_u; after the sweeps: eta'.
-	Vec6 currentModalVelocity(const DashpotConstraint& c, const SolverBody& a, const SolverBody& b)
+	/// x^T y of six numbers; x: every stride-th number. In pairs, so that the processor need not wait for each sum.
+	[[gnu::always_inline]] inline double dot(const double* x, int stride, const Vec6& y)
 	{
-		return c.modes.transpose() * twist(c, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		return (x[0] * y[0] + x[stride] * y[1]) + (x[2 * stride] * y[2] + x[3 * stride] * y[3]) + (x[4 * stride] * y[4] + x[5 * stride] * y[5]);
+	}
+
+	/// Z^T times a twist in world axes.
+	[[gnu::always_inline]] inline Vec6 modalVelocity(const DashpotConstraint& c, const Vec6& twist)
+	{
+		Vec6 turned, result;
+		turned.head<3>() = c.axesA.transpose() * twist.head<3>();
+		turned.tail<3>() = c.axesA.transpose() * twist.tail<3>();
+		for (int k = 0; k < 6; ++k)
+			result[k] = dot(c.modes->modes.data() + 6 * k, 1, turned);
+		return result;
+	}
+
+	/// Z q, in world axes.
+	[[gnu::always_inline]] inline DashpotImpulse impulseOf(const DashpotConstraint& c, const Vec6& q)
+	{
+		Vec6 P;
+		for (int i = 0; i < 6; ++i)
+			P[i] = dot(c.modes->modes.data() + i, 6, q);
+		return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
 	}
 
 	/// Changes the velocities of a free body by an impulse and an angular impulse about its centre.
-	void accelerate(SolverBody& body, const Vec3& impulse, const Vec3& angular)
+	[[gnu::always_inline]] inline void accelerate(SolverBody& body, const Vec3& impulse, const Vec3& angular)
 	{
 		if (body.inverseMass == 0) return; // only read: it may belong to several islands, which other threads solve
 		body.newVelocity += body.inverseMass * impulse;
 		body.newSpin += body.inverseInertia * angular;
 	}
 
-	void apply(const DashpotConstraint& c, SolverBody& a, SolverBody& b, const Vec6& modalImpulse)
+	[[gnu::always_inline]] inline void apply(const DashpotConstraint& c, SolverBody& a, SolverBody& b, const Vec6& q)
 	{
-		const Vec6 P = c.modes * modalImpulse;
-		const Vec3 impulse = P.head<3>(), angular = P.tail<3>();
-		accelerate(a, -impulse, -c.armA.cross(impulse) - angular);
-		accelerate(b, impulse, c.armB.cross(impulse) + angular);
+		const DashpotImpulse P = impulseOf(c, q);
+		accelerate(a, -P.linear, -c.armA.cross(P.linear) - P.angular);
+		accelerate(b, P.linear, c.armB.cross(P.linear) + P.angular);
+	}
+
+	/// Z^T (w + u); after the sweeps: eta + eta'.
+	[[gnu::always_inline]] inline Vec6 modalSum(const DashpotConstraint& c, const SolverBody& a, const SolverBody& b)
+	{
+		return modalVelocity(c, c.before + twist(c, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin));
 	}
 
 } // namespace
@@ -99,41 +125,41 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	return result;
 }
 
-Vec6 convertedImpulse(const Vec6& q, const JointModes& from, const JointModes& to)
+void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h)
 {
-	assert(to.springs > 0 && isFinite(q));
-	return to.modes.partialPivLu().solve(from.modes * q);
-}
-
-void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody& b, const DashpotInput& input, double h, bool isExplicit)
-{
-	assert(h > 0 && input.ratio >= 0 && input.modes.springs > 0 && isRotation(input.axesA) && isFinite(input.impulse));
-	c.armA = input.axesA * input.modes.centre;
+	assert(h > 0 && ratio >= 0 && modes.springs > 0 && isRotation(axesA));
+	c.modes = &modes;
+	c.axesA = axesA;
+	c.armA = axesA * modes.centre;
 	c.armB = c.armA + a.position - b.position;
-	c.modes.topRows<3>() = input.axesA * input.modes.modes.topRows<3>();
-	c.modes.bottomRows<3>() = input.axesA * input.modes.modes.bottomRows<3>();
-	c.before = c.modes.transpose() * twist(c, a.velocity, a.spin, b.velocity, b.spin);
-	const Vec6 x = h * input.ratio * input.modes.frequencies;
+	c.before = twist(c, a.velocity, a.spin, b.velocity, b.spin);
+	const Vec6 x = h * ratio * modes.frequencies;
 	c.share = x.array() / (1 + x.array());
-	c.impulse = isExplicit ? Vec6(-2 * x.cwiseProduct(c.before)) : input.impulse;
+	c.impulse.setZero();
+	c.dissipated = 0;
 }
 
-void warmStartDashpot(const DashpotConstraint& c, SolverBody& a, SolverBody& b) { apply(c, a, b, c.impulse); }
-
-void solveDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b)
+void solveDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b, double threshold)
 {
-	const Vec6 impulse = c.share.cwiseProduct(c.impulse - c.before - currentModalVelocity(c, a, b)); // (3)
-	const Vec6 change = impulse - c.impulse;
-	c.impulse = impulse;
+	const Vec6 sum = modalSum(c, a, b), change = c.share.cwiseProduct(c.impulse - sum) - c.impulse; // (3)
 	c.squaredChange = change.squaredNorm();
+	if (c.squaredChange <= threshold) {
+		c.dissipated = -c.impulse.dot(sum) / 2;
+		return;
+	}
+	c.impulse += change;
+	c.dissipated = -c.impulse.dot(sum + change) / 2;
 	apply(c, a, b, change);
 }
 
-DashpotForce dashpotForce(const DashpotConstraint& c, const SolverBody& a, const SolverBody& b, double h)
+void applyExplicitDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b)
 {
-	assert(h > 0);
-	const Vec6 force = c.modes * c.impulse / h;
-	return { force.head<3>(), force.tail<3>(), -c.impulse.dot(c.before + currentModalVelocity(c, a, b)) / 2 };
+	const Vec6 eta = modalVelocity(c, c.before), x = c.share.array() / (1 - c.share.array());
+	c.impulse = -2 * x.cwiseProduct(eta);
+	apply(c, a, b, c.impulse);
+	c.dissipated = -c.impulse.dot(modalSum(c, a, b)) / 2;
 }
+
+DashpotImpulse dashpotImpulse(const DashpotConstraint& c) { return impulseOf(c, c.impulse); }
 
 } // namespace timber

@@ -12,23 +12,25 @@
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and the dissipated energy
 /// h (w + w')^T D (w + w') / 4 is never negative. In terms of the modes, P = Z q, eta = Z^T w, these are six scalar dashpots:
 ///     q = -x (eta + eta'),   x = h zeta omega                                                    (2)
-/// With eta_u of the current velocities, in which q0 acts already, and eta' = eta_u + q - q0, a visit of the joint is
-///     q = s (q0 - eta - eta_u),   s = x / (1 + x)                                                (3)
+/// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
+///     q = s (q0 - Z^T (w + u)),   s = x / (1 + x)                                                (3)
+/// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so that no impulse has to be
+/// kept from step to step.
 /// Z is fixed in the axes of A. It is reused while the springs and masses are the same (modeSteps): (2) holds for any Z, and Z decides with (1)
 /// about the damping ratio and the convergence of (3) only.
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
-///     eta      -             modal velocity: before the step; eta_u: current; eta': after the step [kg^1/2 m/s]
+///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
 ///     omega    frequency     angular, of a mode [rad/s]
 ///     P        impulse       on B at the joint's centre [N s, N m s]
 ///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
 ///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
-///     w        twist         velocity and spin of B relative to A at the joint's centre [m/s, rad/s]
+///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current [m/s, rad/s]
 ///     x        -             decay rate of the mode times h [-]
-///     Z        modes         world axes in DashpotConstraint, axes of A in JointModes [kg^1/2, kg^1/2 m]
+///     Z        modes         in the axes of A [kg^1/2, kg^1/2 m]
 ///     zeta     ratio         damping ratio [-]
 #pragma once
 #include "joint_law.hpp"
@@ -64,51 +66,37 @@ struct JointModes {
 		        && pairInverseMass == inverseMass;
 	}
 };
-/// What a joint keeps of its dashpots from step to step.
-struct DashpotHistory {
-	JointModes modes;
-	Vec6 force = Vec6::Zero(); ///< q / h of the last step [kg^1/2 m/s2]
-};
-
 /// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs);
-
-/// The same impulse (or force) at the centre in terms of other modes of the joint.
-Vec6 convertedImpulse(const Vec6& q, const JointModes& from, const JointModes& to);
 
 /// A joint's dashpots in a step.
 struct DashpotConstraint {
 	int bodyA, bodyB;
+	const JointModes* modes; ///< Z in the axes of A
+	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
-	Mat6 modes; ///< Z
+	Vec6 before; ///< w
 	Vec6 share; ///< s
-	Vec6 before; ///< eta
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
+	double dissipated; ///< -q (eta + eta') / 2 after the last visit: of the step, if no velocity changed afterwards [J]
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Input of the prepare phase.
-struct DashpotInput {
-	const JointModes& modes;
-	const Mat3& axesA; ///< rotation matrix from the frame of A to the world
-	double ratio; ///< zeta
-	Vec6 impulse; ///< warm start: estimate of q
+/// Constraint for a step of h [s], with zero impulse. modes are not copied.
+void prepareDashpot(
+        DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h);
+
+/// One Gauss-Seidel visit: (3). A squared change of at most `threshold` [J] is not applied.
+void solveDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b, double threshold);
+
+/// Impulse of explicit dashpots, of the velocities before the step.
+void applyExplicitDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
+
+/// Impulse of the dashpots on B at the joint's centre.
+struct DashpotImpulse {
+	Vec3 linear, angular; ///< [N s, N m s]
 };
-/// Constraint for a step of h [s]. isExplicit: its impulse is that of the velocities before the step.
-void prepareDashpot(DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const DashpotInput& input, double h, bool isExplicit);
-
-/// Applies the impulse of a joint's dashpots to its bodies.
-void warmStartDashpot(const DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
-
-/// One Gauss-Seidel visit: (3).
-void solveDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
-
-/// Force and torque of the dashpots on B at the joint's centre, and the energy that they dissipated in the step.
-struct DashpotForce {
-	Vec3 force, torque; ///< [N, N m]
-	double dissipated; ///< [J]
-};
-DashpotForce dashpotForce(const DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, double h);
+DashpotImpulse dashpotImpulse(const DashpotConstraint& constraint);
 
 } // namespace timber

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A small scene with all mechanisms: a joined column and beam, a block that slides into the column, friction, gravity.
+"""A small scene with all mechanisms: a column and beam with damped joints, a block that slides into the column, friction, gravity.
 
 No faces are parallel, flush or symmetric, so that no comparison depends on ties. As a script it runs the scene and prints
 the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS [yielding]`.
@@ -20,6 +20,8 @@ JOINTS = (("plate", "column", 0.0), ("column", "beam", 1.2))
 """Two bodies and the height of the springs [m]."""
 YIELDING = {"strength": 60.0, "slip": yt.SlipLaw(0.002, 0.02, 0.3)}
 """Options of joints that yield at 1 mm, when the block hits the column, and soften from 2 mm on."""
+DAMPING = 0.05
+"""Damping ratio of the joints. [-]"""
 
 
 def vertical(angle):
@@ -50,7 +52,8 @@ def append(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0)):
 def join(ids, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, slip=None):
     """Add the joints, rotated and shifted likewise; strength [N]; slip: SlipLaw."""
     for first, second, height in JOINTS:
-        yt.connect(ids[first], ids[second], joint_points(height) @ rotation.T + np.asarray(shift, float), strength=strength, slip=slip)
+        points = joint_points(height) @ rotation.T + np.asarray(shift, float)
+        yt.connect(ids[first], ids[second], points, strength=strength, damping_ratio=DAMPING, slip=slip)
 
 
 def load(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0), strength=1e12, slip=None, dt=1e-4, **options):

@@ -24,10 +24,10 @@ def row(tmp_path):
 
 
 def test_every_column_becomes_an_option(row, tmp_path):
-    shaken = task_of(row("house snow scale dt duration until_collapse seed start azimuth resample shortest", "C2 0.4 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
+    shaken = task_of(row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest", "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
     assert (shaken.script, shaken.frames) == ("house", False)
     assert shaken.options[:2] == ("C2", "--quake") and shaken.options.count("--resample") == shaken.options.count("--until-collapse") == 1 and "--shortest" not in shaken.options
-    values = {"--snow": "0.4", "--dt": "5e-05", "--duration": "3.0", "--seed": "0", "--start": "14.0", "--azimuth": "90.0", "--scale": "1.5"}
+    values = {"--snow": "0.4", "--joint-damping": "0.03", "--dt": "5e-05", "--duration": "3.0", "--seed": "0", "--start": "14.0", "--azimuth": "90.0", "--scale": "1.5"}
     assert {option: shaken.options[shaken.options.index(option) + 1] for option in values} == values
     assert task_of(row("house record snow", "A none 1"), tmp_path).options == ("A", "--snow", "1.0")
     assert task_of(row("house", "A"), tmp_path).options == ("A", "--quake")
@@ -50,6 +50,7 @@ def test_changed_houses_are_written(row, tmp_path):
     "columns, values, parts",
     [
         ("house snow", "A -1", ["runs.txt:2, column snow", "0", "20"]),
+        ("house joint_damping", "A 1.5", ["runs.txt:2, column joint_damping", "0", "1"]),
         ("house dt", "A 1e-2", ["runs.txt:2, column dt"]),
         ("house dt", "A nan", ["runs.txt:2, column dt"]),
         ("house duration", "A nan", ["runs.txt:2, column duration"]),

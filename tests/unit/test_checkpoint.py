@@ -62,7 +62,7 @@ def joint_change(name, value):
         ("joints", move_spring),
         ("element values", lambda model: setattr(model.elements[3], "density", 1.0)),
         ("element values", lambda model: setattr(model.elements[-1], "fixed", not model.elements[-1].fixed)),
-        *(("joint values", joint_change(name, value)) for name, value in (("kn", 1.0), ("ks", 1.0), ("strength", 1.0), ("per", "joint"), ("broken", True), ("law", "slip"), ("ultimate_stretch", 0.1))),
+        *(("joint values", joint_change(name, value)) for name, value in (("kn", 1.0), ("ks", 1.0), ("strength", 1.0), ("per", "spring"), ("damping_ratio", 0.1), ("broken", True), ("law", "slip"), ("ultimate_stretch", 0.1))),
         ("materials", lambda model: model.materials["timber"].update(density=1.0)),
         ("materials", lambda model: model.friction.append(("timber", "snow", 0.1))),
         ("law", lambda model: model.law.update(hertz="increment")),

@@ -54,7 +54,12 @@ def test_times_beyond_all_runs(refused, option, value):
     assert option in refused(option, value) and f"{MAX_DURATION:g} s" in refused(option, value)
 
 
-@pytest.mark.parametrize("option", ["--duration", "--dt", "--checkpoint"])
+@pytest.mark.parametrize("value", ["-0.1", "1.1", "nan"])
+def test_joint_damping(refused, value):
+    assert "--joint-damping" in refused("--joint-damping", value) and "between 0 and 1" in refused("--joint-damping", value)
+
+
+@pytest.mark.parametrize("option", ["--duration", "--dt", "--checkpoint", "--joint-damping"])
 @pytest.mark.parametrize("value", ["long", "", "1e", "0x10", "1,5", "-", "\x00"])
 def test_not_a_number(refused, option, value):
     assert option in refused(option, value)
@@ -204,7 +209,7 @@ def test_help_names_every_option(capsys):
         cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
     assert stop.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("duration", "dt", "out", "resume", "no-views", "no-frames", "every-step", "export", "quiet", *(f.name for f in fields(MotionRequest))):
+    for option in ("duration", "dt", "out", "resume", "no-views", "no-frames", "every-step", "joint-damping", "export", "quiet", *(f.name for f in fields(MotionRequest))):
         assert f"--{option}" in shown
 
 

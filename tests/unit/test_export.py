@@ -70,7 +70,7 @@ def scene(tmp_path):
     post = body("post", timber(CEDAR, "cedar"), radius=0.015, kind="column")
     O.dt, O.engines = 1e-4, yt.engines(gravity=GRAVITY)
     yt.connect(post, plate, POINTS, NORMAL, stiffness=(3e4, 2e4), strength=np.inf, per="joint", kind="foot", name="foot 1")
-    torn = yt.connect(plate, post, POINTS[:2], NORMAL, stiffness=(4e4, 5e4), strength=600.0)
+    torn = yt.connect(plate, post, POINTS[:2], NORMAL, stiffness=(4e4, 5e4), strength=600.0, damping_ratio=0.05)
     torn.broken = [0, 1]
     state = O.bodies[post].state
     state.pos, state.ori = state.pos + Vector3(*SHIFT), quaternion(LEAN) * state.ori
@@ -116,9 +116,9 @@ def test_faces_are_closed_and_outward(scene):
 
 def test_joints(scene):
     whole, torn = scene["joints"]
-    described = {"elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None}
+    described = {"elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "damping_ratio": 0.0, "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None}
     assert {key: whole[key] for key in described} == described
-    described = {"elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "broken": [False, True], "kind": "", "name": "", "slip": None}
+    described = {"elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "damping_ratio": 0.05, "broken": [False, True], "kind": "", "name": "", "slip": None}
     assert {key: torn[key] for key in described} == described and torn["broken"][1] is True  # no 1
     assert set(whole) == set(torn) == {*described, "points", "normal"}
 

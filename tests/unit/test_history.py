@@ -98,10 +98,27 @@ def test_a_ripple_is_no_period():
 
 
 def test_residual_drift_without_a_period():
-    """The mean of the last second, without its sign."""
-    residual, amplitude = drift.residual(of_drift([-0.3] * 500 + [-0.02] * 50 + [-0.04] * 50))
+    """The mean of the last second, without its sign; the amplitude in the last five seconds."""
+    residual, amplitude = drift.residual(of_drift([-0.3] * 500 + [-0.02] * 450 + [-0.04] * 50))
     assert residual == pytest.approx([0.03, 0.0]) and amplitude == pytest.approx([0.01, 0])
     assert drift.residual(of_drift([])) == ([], []) and not drift.still_moving([])
+
+
+def test_amplitude_is_that_of_the_last_swing():
+    """A wreck with a period of 5.2 s and 5 % of critical damping. The swing's range is the sum of a maximum and of the minimum before it; the mean
+    over a decaying swing is off by a twentieth of its amplitude."""
+    time = np.arange(0, 40, 0.01)
+    swing = np.exp(-0.05 * 2 * np.pi * time / 5.2) * np.sin(2 * np.pi * time / 5.2)
+    residual, amplitude = drift.residual(of_drift(0.3 + 0.7 * swing))
+    last = 0.7 * np.ptp(swing[time > 40 - 2 * 5.2]) / 2
+    assert amplitude[0] < 1.01 * last and residual[0] == pytest.approx(0.3, abs=0.05 * last)
+
+
+@pytest.mark.parametrize("time_constant", [3.0, 10.0])
+def test_a_slow_approach_is_still_moving(time_constant):
+    """Without a whole swing: the last second alone looks like rest."""
+    _, amplitude = drift.residual(of_drift(0.01 * np.exp(-np.arange(0, 6, 0.01) / time_constant)))
+    assert drift.still_moving(amplitude)
 
 
 def test_a_fall_is_still_moving():

@@ -136,7 +136,7 @@ def test_each_class(name):
 
 
 RESULTS = {
-    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "released", "elasticNormal", "elasticShear", "elasticPower"},
+    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "jointDashpot", "released", "elasticNormal", "elasticShear", "elasticPower"},
     "GroundMotionEngine": {"work"},
     "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
@@ -222,6 +222,9 @@ CALLS = [
     (lambda: yt.connect(0, 1, [(0, 0, 0)], per="nail"), "connect: per", "nail"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], per=[]), "connect: per"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], kind=1), "connect: kind"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio=1.5), "connect: damping_ratio", "1.5"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio=NAN), "connect: damping_ratio"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio="critical"), "connect: damping_ratio"),
     (lambda: yt.connect("a", 1, [(0, 0, 0)]), "connect", "no body"),
     (lambda: yt.contacts(0, 99), "contacts", "99"),
     (lambda: yt.stable_dt("small"), "stable_dt: safety"),

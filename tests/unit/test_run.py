@@ -35,7 +35,7 @@ PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
     **{f"model{house}_snow": (house, True, True) for house in ("B1", "B2", "C1", "C2")},
 }
 KEYS = (
-    "scenario model earthquake snow record dt duration_s until_collapse steps wall_s real_time_factor threads elements joints broken tilt_time_s collapsed "
+    "scenario model earthquake snow joint_damping record dt duration_s until_collapse steps wall_s real_time_factor threads elements joints broken tilt_time_s collapsed "
     "collapse_time_s peak_drift residual_drift final_amplitude still_moving events energy versions"
 ).split()
 MAY_DIFFER = {"wall_s", "real_time_factor", "threads"}

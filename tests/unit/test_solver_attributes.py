@@ -33,6 +33,7 @@ RANGES = [  # class, attributes that make it complete, owner of the attribute in
     (yw.TimberJoint, JOINT, "TimberJoint", "normal", ((0, 0, 0), (0, 0, 2), (NAN, 0, 1))),
     *[(yw.TimberJoint, JOINT, "TimberJoint", name, ([(0, 0, NAN)], [(0, 0, 0)] * 2)) for name in ("anchors1", "anchors2")],
     (yw.TimberJoint, JOINT, "TimberJoint", "broken", ([0, 0],)),
+    (yw.TimberJoint, JOINT, "TimberJoint", "dampingRatio", (-0.1, 1.1, NAN)),
 ]
 
 
@@ -112,5 +113,8 @@ def test_stable_dt_counts_unbroken_springs_of_the_joint_engine():
     joint = find_engine(yw.JointEngine).joints[0]
     joint.kn = joint.ks = 4 * joint.kn
     assert yt.stable_dt(1) == pytest.approx(free / 2, rel=1e-3)  # stop of the power iteration
+    limit = yt.stable_dt(1)
+    joint.dampingRatio = 1
+    assert yt.stable_dt(1) == limit  # dashpots are implicit
     joint.broken = [1] * 4
     assert yt.stable_dt(1) == math.inf

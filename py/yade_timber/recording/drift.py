@@ -6,8 +6,12 @@ from .history import DIRECTIONS
 
 SHORT_WINDOW = 1.0
 """Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
+SLOW_WINDOW = 5.0
+"""Last part of such a run that gives the amplitude: about the period of a swinging wreck, of which a shorter part looks like rest. [s]"""
 WINDOWS = (2.0, 4.0, 8.0, 16.0)
 """Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
+AVERAGED = 2.0
+"""As many of the last whole periods are averaged as make up this time, at least one: slow swings decay, and earlier ones are larger. [s]"""
 HYSTERESIS = 0.25
 """A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
 RECENT = 1.2
@@ -20,24 +24,33 @@ def residual(history):
     """([residual drift], [amplitude at the end]), each ns1, ew1, ns2, ew2, ... [-]; empty lists without samples.
 
     Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at the end; without a
-    whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the same part of the run.
+    whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the same periods, or in the last SLOW_WINDOW.
     """
     if not history.samples:
         return [], []
-    parts = [values[last_periods(history.time, values)] for _, _, values in history.drifts()]
-    return [float(abs(part.mean())) for part in parts], [float(np.ptp(part) / 2) for part in parts]
+    parts = [last_parts(history.time, values) for _, _, values in history.drifts()]
+    return [float(abs(averaged.mean())) for averaged, _ in parts], [float(np.ptp(moving) / 2) for _, moving in parts]
+
+
+def last_parts(time, values):
+    """(values that give the residual drift, values that give the amplitude) of the last part of a run."""
+    periods = last_periods(time, values)
+    if periods is not None:
+        return values[periods], values[periods]
+    return values[start_of(time, SHORT_WINDOW):], values[start_of(time, SLOW_WINDOW):]
 
 
 def last_periods(time, values):
-    """Slice of the samples of the last whole periods; of the last SHORT_WINDOW when none is found."""
+    """Slice of the samples of the last whole periods, None when there is no whole period."""
     for window in WINDOWS:
         first = start_of(time, window)
-        crossings = [first + k for k in upward_crossings(values[first:])]
+        crossings = np.array([first + k for k in upward_crossings(values[first:])], int)
         if len(crossings) > 1 and time[-1] - time[crossings[-1]] < RECENT * np.diff(time[crossings]).max():
-            return slice(crossings[0], crossings[-1])
+            enough = np.flatnonzero(time[crossings[-1]] - time[crossings[:-1]] >= AVERAGED)
+            return slice(crossings[enough[-1] if len(enough) else 0], crossings[-1])
         if first == 0:
             break
-    return slice(start_of(time, SHORT_WINDOW), None)
+    return None
 
 
 def start_of(time, window):

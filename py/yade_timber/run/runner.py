@@ -241,4 +241,5 @@ def title(scenario, model):
     """Title of the pictures: house and loads."""
     shaken = "earthquake" if scenario.motion is not None else ""
     snow = f"{scenario.snow_depth:g} m of snow" if scenario.snow_depth > 0 else ""
-    return f"House {model.name}: {' and '.join(filter(None, (shaken, snow))) or 'own weight only'}"
+    damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
+    return f"House {model.name}: {' and '.join(filter(None, (shaken, snow))) or 'own weight only'}{damped}"

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Dashpots of joints: closed forms of single oscillators, two joints against a dense linear system, conservation, limits.
+#include "heap.hpp"
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <kernel/joint_dashpot.hpp>
+#include <unsupported/Eigen/MatrixFunctions>
+
+using namespace timber;
+using namespace timber::shapes;
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+constexpr double pi = 3.14159265358979323846;
+
+/// A joint in the world frame; the bodies' frames are parallel to it.
+struct Joint {
+	int a, b;
+	std::vector<Vec3> points; ///< [m]
+	JointStiffness stiffness;
+	Vec3 normal = Vec3::UnitZ();
+	double ratio = 0.05;
+	std::vector<int> broken = std::vector<int>(points.size(), 0);
+};
+
+/// Bodies and joints with linear springs: displacements and rotations x, six numbers for each body, leave the arms as they are.
+struct Assembly {
+	std::vector<SolverBody> bodies;
+	std::vector<Joint> joints;
+
+	size_t size() const { return 6 * bodies.size(); }
+	/// Zero for a fixed body.
+	Matrix inverseMass() const
+	{
+		Matrix all = Matrix::Zero(size(), size());
+		for (size_t k = 0; k < bodies.size(); ++k) {
+			all.block<3, 3>(6 * k, 6 * k) = bodies[k].inverseMass * Mat3::Identity();
+			all.block<3, 3>(6 * k + 3, 6 * k + 3) = bodies[k].inverseInertia;
+		}
+		return all;
+	}
+	/// Sum of the springs of one joint.
+	Matrix stiffness(const Joint& joint) const
+	{
+		Matrix all = Matrix::Zero(size(), size());
+		const Mat3 k
+		        = joint.stiffness.shear * Mat3::Identity() + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
+		for (size_t i = 0; i < joint.points.size(); ++i) {
+			Matrix stretch = Matrix::Zero(3, size());
+			for (const auto& [body, sign] : { std::pair(joint.a, -1.), std::pair(joint.b, 1.) }) {
+				stretch.block<3, 3>(0, 6 * body) = sign * Mat3::Identity();
+				stretch.block<3, 3>(0, 6 * body + 3) = -sign * crossMatrix(joint.points[i] - bodies[body].position);
+			}
+			if (!joint.broken[i]) all += stretch.transpose() * k * stretch;
+		}
+		return all;
+	}
+	Matrix stiffness() const
+	{
+		Matrix all = Matrix::Zero(size(), size());
+		for (const Joint& joint : joints)
+			all += stiffness(joint);
+		return all;
+	}
+	/// 2 zeta M^1/2 (M^-1/2 K M^-1/2)^1/2 M^1/2 of each joint and its bodies, by another way than the kernel's: in the coordinates of the bodies.
+	Matrix damping() const
+	{
+		Matrix all = Matrix::Zero(size(), size());
+		const Matrix root = Eigen::SelfAdjointEigenSolver<Matrix>(inverseMass()).operatorSqrt(); // M^-1/2
+		const Matrix inverse = root.completeOrthogonalDecomposition().pseudoInverse();
+		for (const Joint& joint : joints) {
+			const Eigen::SelfAdjointEigenSolver<Matrix> modes(root * stiffness(joint) * root);
+			const double zero = 1e-12 * modes.eigenvalues().maxCoeff(); // rounding of the rigid motions' eigenvalues
+			const Vector omega = modes.eigenvalues().unaryExpr([zero](double square) { return square > zero ? std::sqrt(square) : 0; });
+			all += 2 * joint.ratio * inverse * modes.eigenvectors() * omega.asDiagonal() * modes.eigenvectors().transpose() * inverse;
+		}
+		return all;
+	}
+	Vector velocities() const
+	{
+		Vector v(size());
+		for (size_t k = 0; k < bodies.size(); ++k)
+			v.segment<6>(6 * k) << bodies[k].newVelocity, bodies[k].newSpin;
+		return v;
+	}
+	void setVelocities(const Vector& v)
+	{
+		for (size_t k = 0; k < bodies.size(); ++k) {
+			bodies[k].velocity = bodies[k].newVelocity = v.segment<3>(6 * k);
+			bodies[k].spin = bodies[k].newSpin = v.segment<3>(6 * k + 3);
+		}
+	}
+	/// Starts a step: the velocities before it are those after the last one, the new ones contain an acceleration.
+	void accelerate(const Vector& change)
+	{
+		setVelocities(velocities());
+		for (size_t k = 0; k < bodies.size(); ++k) {
+			bodies[k].newVelocity += change.segment<3>(6 * k);
+			bodies[k].newSpin += change.segment<3>(6 * k + 3);
+		}
+	}
+	/// The dashpots of one step. Returns the dissipated energy.
+	double damp(double h, int sweeps = 50, double tolerance = 1e-14)
+	{
+		ContactSolver solver;
+		std::vector<JointModes> modes(joints.size());
+		solver.begin(sweeps);
+		for (size_t k = 0; k < joints.size(); ++k) {
+			const Joint& j = joints[k];
+			std::vector<Vec3> anchors = j.points;
+			for (Vec3& point : anchors)
+				point -= bodies[j.a].position;
+			modes[k] = jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal });
+			solver.addDashpot(j.a, j.b);
+			solver.prepareDashpot(k, bodies, modes[k], Mat3::Identity(), j.ratio, h);
+		}
+		solver.solve(bodies, tolerance);
+		double dissipated = 0;
+		for (size_t k = 0; k < joints.size(); ++k)
+			dissipated += solver.dashpot(k).dissipated;
+		return dissipated;
+	}
+	/// Displacements after `steps` steps of the leapfrog from x0 with the velocities v0.
+	Vector run(const Vector& x0, const Vector& v0, double h, int steps)
+	{
+		const Matrix W = inverseMass(), K = stiffness();
+		Vector x = x0;
+		setVelocities(v0 + h / 2 * W * (K * x0 + damping() * v0)); // half a step earlier
+		for (int k = 0; k < steps; ++k) {
+			accelerate(-h * W * (K * x));
+			damp(h);
+			x += h * velocities();
+		}
+		return x;
+	}
+	/// The same at a time [s] by the matrix exponential.
+	Vector exact(const Vector& x0, const Vector& v0, double time) const
+	{
+		const Eigen::Index n = Eigen::Index(size());
+		Matrix A = Matrix::Zero(2 * n, 2 * n);
+		A.topRightCorner(n, n).setIdentity();
+		A.bottomLeftCorner(n, n) = -inverseMass() * stiffness();
+		A.bottomRightCorner(n, n) = -inverseMass() * damping();
+		Vector start(2 * n);
+		start << x0, v0;
+		return ((A * time).exp() * start).head(n);
+	}
+};
+
+SolverBody member(double mass, const Vec3& moments, const Vec3& position)
+{
+	SolverBody b = body(mass, Vec3::Zero());
+	if (mass > 0) b.inverseInertia = moments.cwiseInverse().asDiagonal();
+	b.position = position;
+	return b;
+}
+
+std::vector<Vec3> square(const Vec3& centre, double x, double y)
+{
+	return { centre + Vec3(x, y, 0), centre + Vec3(-x, y, 0), centre + Vec3(x, -y, 0), centre + Vec3(-x, -y, 0) };
+}
+
+/// A body on the ground, held by four springs about its centre: six independent oscillators.
+Assembly oscillator(double ratio)
+{
+	Assembly all { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
+	all.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
+	return all;
+}
+
+/// Ground, slender column and beam with two joints off their centres.
+Assembly chain(double ratio)
+{
+	Assembly all { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }), member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) }, {} };
+	all.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
+	all.joints.push_back({ 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
+	return all;
+}
+
+Vector randomFree(Random& random, const Assembly& all)
+{
+	Vector x = Vector::Zero(Eigen::Index(all.size()));
+	for (size_t k = 6; k < all.size(); ++k) // the first body is fixed
+		x[Eigen::Index(k)] = uniform(random, -1, 1);
+	return x;
+}
+
+} // namespace
+
+/// Translations along three axes and rotations about them: the damped oscillation exp(-zeta omega t) sin(omega_d t), and its logarithmic
+/// decrement over ten periods. I phi'' + c_phi phi' + k_phi phi = 0 with k_phi = sum k r^2 and c_phi = 2 zeta sqrt(I k_phi).
+TEST(Oscillator, HasTheDampingRatioInEachDirection)
+{
+	const double k[] = { 4 * 40000, 4 * 40000, 4 * 60000, 4 * 60000 * 0.05 * 0.05, 4 * 60000 * 0.06 * 0.06, 4 * 40000 * (0.06 * 0.06 + 0.05 * 0.05) };
+	const double m[] = { 8, 8, 8, 0.5, 0.7, 0.02 };
+	for (const double zeta : { 0.02, 0.05, 0.3 })
+		for (int axis = 0; axis < 6; ++axis) {
+			Assembly one = oscillator(zeta);
+			const double omega = std::sqrt(k[axis] / m[axis]), damped = omega * std::sqrt(1 - zeta * zeta), h = 2 * pi / damped / 400;
+			Vector x0 = Vector::Zero(12), v0 = Vector::Zero(12);
+			x0[6 + axis] = 1;
+			v0[6 + axis] = -zeta * omega; // x = exp(-zeta omega t) cos(omega_d t)
+			const int periods = zeta < 0.1 ? 10 : 2;
+			const Vector x = one.run(x0, v0, h, 400 * periods);
+			const double decrement = -std::log(x[6 + axis]) / periods, expected = 2 * pi * zeta / std::sqrt(1 - zeta * zeta);
+			EXPECT_NEAR(decrement, expected, 2e-3 * expected) << zeta << " " << axis; // (omega h)^2 = 2.5e-4, phase error of ten periods included
+			EXPECT_LT((x - x[6 + axis] * x0).norm(), 1e-9) << "other directions do not move";
+		}
+}
+
+/// One step multiplies the modal velocity by (1 - x) / (1 + x), x = h zeta omega: it never changes its energy upwards, however large x is.
+TEST(Oscillator, IsStableAtAnyRate)
+{
+	for (const double x : { 1e-3, 1., 1e3, 1e6 }) {
+		Assembly one = oscillator(1);
+		one.setVelocities((Vector(12) << 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0).finished());
+		one.damp(x / std::sqrt(4 * 60000 / 8.));
+		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x) / (1 + x), 1e-12) << x; // rounding of some products
+	}
+}
+
+/// A chain with strong damping and long steps: all energy that disappears is dissipated, and none appears.
+TEST(Chain, LosesTheEnergyThatIsDissipated)
+{
+	Random random(3);
+	for (const double h : { 1e-4, 1e-2, 1., 1e3 }) {
+		Assembly all = chain(1);
+		all.setVelocities(randomFree(random, all));
+		const double before = kineticEnergy(all.bodies), dissipated = all.damp(h, 500000); // rigid dashpots of light members converge slowly
+		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated, 1e-9 * before) << h; // residual of the sweeps
+		EXPECT_GT(dissipated, 0) << h;
+	}
+}
+
+/// The sweeps solve M v' = M v + h f - h D (v + v') / 2 of all bodies.
+TEST(Chain, SolvesTheDenseSystem)
+{
+	Random random(7);
+	for (const double ratio : { 0.02, 0.3, 1. })
+		for (const double h : { 2.5e-4, 5e-3 }) {
+			Assembly all = chain(ratio);
+			const Matrix W = all.inverseMass(), D = all.damping(), one = Matrix::Identity(18, 18);
+			const Vector v = randomFree(random, all), change = randomFree(random, all);
+			const Vector expected = (one + h / 2 * W * D).partialPivLu().solve(v + change - h / 2 * W * D * v);
+			all.setVelocities(v);
+			all.accelerate(change);
+			all.damp(h, 5000);
+			EXPECT_LT((all.velocities() - expected).norm(), 1e-9 * expected.norm()) << ratio << " " << h; // residual of the sweeps
+		}
+}
+
+/// The error against the matrix exponential falls with the square of the step.
+TEST(Chain, ConvergesWithSecondOrderToTheExponential)
+{
+	Random random(11);
+	for (const double ratio : { 0.05, 0.5 }) {
+		Assembly all = chain(ratio);
+		const Vector x0 = 1e-3 * randomFree(random, all), v0 = 0.1 * randomFree(random, all);
+		const double time = 0.1;
+		const Vector expected = all.exact(x0, v0, time);
+		double before = 0;
+		for (const int steps : { 400, 800, 1600 }) {
+			const double error = (all.run(x0, v0, time / steps, steps) - expected).norm() / expected.norm();
+			if (before > 0) {
+				EXPECT_NEAR(before / error, 4, 0.2) << ratio << " " << steps; // higher orders
+			}
+			before = error;
+		}
+		EXPECT_LT(before, 1e-3); // the fastest mode turns by 0.06 rad in a step
+	}
+}
+
+/// Free bodies: the impulses are opposite and act along one line.
+TEST(Chain, ConservesMomentumAndAngularMomentum)
+{
+	Random random(5);
+	Assembly all = chain(0.5);
+	all.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
+	all.setVelocities(Vector::NullaryExpr(18, [&] { return uniform(random, -1, 1); }));
+	const auto momenta = [&] {
+		Vec6 sum = Vec6::Zero();
+		for (const SolverBody& b : all.bodies) {
+			const Vec3 p = b.newVelocity / b.inverseMass;
+			sum.head<3>() += p;
+			sum.tail<3>() += b.position.cross(p) + b.inverseInertia.inverse() * b.newSpin;
+		}
+		return sum;
+	};
+	const Vec6 before = momenta();
+	all.damp(1e-3);
+	EXPECT_LT((momenta() - before).norm(), 1e-12 * before.norm());
+}
+
+TEST(Chain, RigidMotionIsNotDamped)
+{
+	Assembly all = chain(1);
+	all.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
+	const Vec3 spin(0.3, -1, 2);
+	Vector v(18);
+	for (size_t k = 0; k < 3; ++k)
+		v.segment<6>(Eigen::Index(6 * k)) << Vec3(1, 2, 3) + spin.cross(all.bodies[k].position), spin;
+	all.setVelocities(v);
+	all.damp(1e-3);
+	EXPECT_LT((all.velocities() - v).norm(), 1e-12 * v.norm());
+}
+
+/// A joint with one spring left resists no rotation about it.
+TEST(Oscillator, OneSpringDampsNoRotation)
+{
+	Assembly one = oscillator(1);
+	one.joints[0].broken = { 1, 1, 1, 0 };
+	one.setVelocities((Vector(12) << 0, 0, 0, 0, 0, 0, Vec3(1, 2, 3).cross(Vec3(0.06, 0.05, 0)), Vec3(1, 2, 3)).finished());
+	const Vector v = one.velocities();
+	one.damp(1e-2);
+	EXPECT_LT((one.velocities() - v).norm(), 1e-6 * v.norm()); // the square root of the rounding of a zero eigenvalue
+}
+
+/// sweeps = 0: the impulse of the velocities before the step, -h D w.
+TEST(Oscillator, ExplicitWithoutSweeps)
+{
+	Assembly all = chain(0.3);
+	Random random(13);
+	const double h = 1e-5;
+	const Vector v = randomFree(random, all), change = randomFree(random, all);
+	all.setVelocities(v);
+	all.accelerate(change);
+	all.damp(h, 0);
+	const Vector expected = v + change - h * all.inverseMass() * all.damping() * v;
+	EXPECT_LT((all.velocities() - expected).norm(), 1e-11 * expected.norm()); // rounding times the ratio of the column's inertias
+}
+
+/// Modes depend on springs and masses: they are computed again when one of these changes.
+TEST(JointModes, HoldForTheirSpringsAndMasses)
+{
+	const std::vector<Vec3> anchors = square(Vec3::Zero(), 0.1, 0.1);
+	std::vector<int> broken(4, 0);
+	const SolverBody a = body(2, Vec3::Zero()), b = body(3, Vec3::Zero());
+	const double inverse = pairInverseMass(a, b);
+	const JointModes modes = jointModes(a, b, Mat3::Identity(), { anchors, broken, { 100, 200 }, Vec3::UnitZ() });
+	EXPECT_TRUE(modes.holdFor({ anchors, broken, { 100, 200 }, Vec3::UnitZ() }, inverse));
+	EXPECT_FALSE(modes.holdFor({ anchors, broken, { 100, 300 }, Vec3::UnitZ() }, inverse));
+	EXPECT_FALSE(modes.holdFor({ anchors, broken, { 100, 200 }, Vec3::UnitZ() }, 2 * inverse));
+	broken[2] = 1;
+	EXPECT_FALSE(modes.holdFor({ anchors, broken, { 100, 200 }, Vec3::UnitZ() }, inverse));
+	EXPECT_FALSE(JointModes().holdFor({ anchors, broken, { 100, 200 }, Vec3::UnitZ() }, inverse));
+}
+
+/// A contact and a damped joint between the same bodies: both laws hold at the end of the sweeps.
+TEST(Chain, IsSolvedTogetherWithContacts)
+{
+	Random random(17);
+	Assembly all = chain(1);
+	all.setVelocities(randomFree(random, all));
+	const double h = 1e-3;
+	const std::vector<SolverBody> start = all.bodies;
+	ContactSolver solver;
+	solver.begin(5000);
+	HeapPoint p = central(3000, 50000);
+	p.friction = 1e3; // sticks
+	p.armA = Vec3(0.05, 0.05, 2.8) - start[1].position;
+	p.armB = Vec3(0.05, 0.05, 2.8) - start[2].position;
+	const PointResponse response = responseAt(start[1], start[2], p.armA, p.armB, p.normal);
+	p.normalResponse = response.normalResponse;
+	p.shearResponse = response.shearResponse;
+	solver.prepare<double>(solver.addPair(1, 2, 1), 0, all.bodies, p, h);
+	std::vector<JointModes> modes;
+	for (const Joint& j : all.joints) {
+		std::vector<Vec3> anchors = j.points;
+		for (Vec3& point : anchors)
+			point -= start[j.a].position;
+		modes.push_back(jointModes(start[j.a], start[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }));
+	}
+	for (size_t k = 0; k < 2; ++k)
+		solver.prepareDashpot(solver.addDashpot(all.joints[k].a, all.joints[k].b), all.bodies, modes[k], Mat3::Identity(), 1, h);
+	solver.solve(all.bodies, 1e-12);
+	Vector impulse = Vector::Zero(18); // of the contact
+	const Vec3 contact = solver.constraint(0, 0).impulse;
+	impulse.segment<6>(6) << -contact, -p.armA.cross(contact);
+	impulse.segment<6>(12) << contact, p.armB.cross(contact);
+	const Assembly before { start, all.joints };
+	const Matrix W = all.inverseMass();
+	const Vector v = before.velocities(), after = all.velocities();
+	const Vector expected = v + W * impulse - h / 2 * W * all.damping() * (v + after);
+	EXPECT_GT(contact.z(), 0);
+	EXPECT_LT((after - expected).norm(), 1e-8 * expected.norm()); // residual of the sweeps
+}
