@@ -54,7 +54,7 @@ def test_snow_slides_where_the_roof_is_steeper_than_friction(tmp_path, pitch):
 @pytest.mark.parametrize("grid", ["x: {module: 0.91, count: 1}, y: {module: 0.91, count: 1}", "x: {module: 0.91, count: 3}, y: {module: 0.91, count: 3}"])
 def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     last = int(grid[-2])
-    start, end = STOREHOUSE.index("    grid:"), STOREHOUSE.index("\njoints:")
+    start, end = STOREHOUSE.index("    grid:"), len(STOREHOUSE)
     text = STOREHOUSE[:start] + f"""    grid: {{{grid}}}
     margin: 0.06
     lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last}, cut: true}}]

@@ -143,7 +143,7 @@ def draw_breaks(axis, frames):
 def draw_energy(axis, history):
     """Energy input and its parts, without dissipated terms that are zero; the remainder is printed above."""
     supplied = history.energy("ground_motion") - history.energy("gravity")
-    dissipated = {term: style for term, style in DISSIPATED.items() if history.energy(term).any()}
+    dissipated = {term: style for term, style in DISSIPATED.items() if f"{term} [J]" in history.columns and history.energy(term).any()}
     parts = [history.energy(term) for term in dissipated]
     parts += [history.energy("elastic_contacts") + history.energy("elastic_joints"), history.energy("kinetic")]
     names = [name for name, _ in dissipated.values()] + ["elastic", "kinetic"]
