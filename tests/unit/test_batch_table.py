@@ -110,6 +110,18 @@ def test_comma_separated_values(table):
     assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"} and first.name.startswith("calm_long-")
 
 
+@pytest.mark.parametrize("text, remedy", [
+    ("house,scale\nC,0,5", "write decimal points"),
+    ("house scale\nC 1,5", "write a decimal point: 1.5"),
+    ("house scale\nC,0.5", "separate the names in it by commas"),
+    ("house, record, scale\nC, a.NS,a.EW, 0.5", "in quotes"),
+    ("house;scale\nC;0.5", "semicolons"),
+])
+def test_commas_are_answered_with_the_remedy(table, text, remedy):
+    with pytest.raises(BatchError, match=remedy):
+        [row.value("scale") for row in table(text)]
+
+
 SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}, "record": None}
 
 

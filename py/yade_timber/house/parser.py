@@ -118,21 +118,16 @@ class _Parser(yaml.SafeLoader):
         table = Table(where=self._where(node.start_mark))
         previous = None
         for key_node, value_node in node.value:
-            where, key = self._where(key_node.start_mark), self._convert(key_node, depth + 1)
+            where = self._where(key_node.start_mark)
+            _refuse_decimal_comma(where, key_node, previous, value_node)
+            key = self._convert(key_node, depth + 1)
             if not isinstance(key, str):
-                self._refuse_key(where, key, previous, value_node)
+                raise HouseError(f"{where}: a key must be a word, got {shown(key)}")
             if key in table:
                 raise HouseError(f"{where}: key {shown(key)} is given twice (first in line {table.at(key).rsplit(':', 1)[-1]}); remove one")
             previous = table[key] = self._convert(value_node, depth + 1)
             table.entries[key] = where
         return table
-
-    def _refuse_key(self, where, key, previous, value_node):
-        """`{height: 2,73}` reads as height 2 and a key 73 without a value."""
-        comma = isinstance(previous, int) and isinstance(key, int) and isinstance(value_node, yaml.ScalarNode) and not value_node.value
-        if comma:
-            raise HouseError(f"{where}: '{previous},{key}' has a decimal comma; write a decimal point: {previous}.{key}")
-        raise HouseError(f"{where}: a key must be a word, got {shown(key)}")
 
     def _scalar(self, node):
         """None, bool, int, float or str."""
@@ -161,6 +156,13 @@ class _Parser(yaml.SafeLoader):
 
     def _where(self, mark):
         return self.source or f"{self.file}:{mark.line + 1}"
+
+
+def _refuse_decimal_comma(where, key_node, previous, value_node):
+    """`{height: 2,73}` reads as height 2 and a key 73 without a value."""
+    is_number = isinstance(key_node, yaml.ScalarNode) and re.fullmatch(r"\d{1,20}", key_node.value) and isinstance(previous, int)
+    if is_number and isinstance(value_node, yaml.ScalarNode) and not value_node.value:
+        raise HouseError(f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point: {previous}.{key_node.value}")
 
 
 _Parser.yaml_implicit_resolvers = {

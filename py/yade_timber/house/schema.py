@@ -50,7 +50,7 @@ class Number:
 
     def check(self, value, where, name):
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            fail(where, name, f"expected a number{self._range()}, got {shown(value)}{_decimal_point(value)}")
+            fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
         wrong_kind = math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
         if wrong_kind or not self._admits(value):
             fail(where, name, f"must be a{' whole' if self.whole else ''} number{self._range()}, got {value!r}{self._other_units(value)}")
@@ -71,7 +71,7 @@ class Number:
         return f" in {'(' if self.open_low else '['}{self.low:g}, {self.high:g}]{unit}"
 
 
-def _decimal_point(value):
+def decimal_point(value):
     """Hint for a text like '2,73'."""
     comma = isinstance(value, str) and _DECIMAL_COMMA.fullmatch(value)
     return f"; write a decimal point: {value.replace(',', '.')}" if comma else ""
@@ -132,7 +132,7 @@ class ListOf:
         if not isinstance(value, list):
             fail(where, name, f"expected a list, got {shown(value)}")
         if self.length and len(value) != self.length:
-            fail(where, name, f"expected {self.length} items, got {len(value)}")
+            fail(where, name, f"expected {self.length} items, got {len(value)}{'; write decimal points, not commas' if len(value) > self.length else ''}")
         if len(value) > self.most:
             fail(where, name, f"a list of {len(value)} items; at most {self.most}")
         checked = [self.item.check(v, value.at(i), f"{name}[{i + 1}]") for i, v in enumerate(value)]

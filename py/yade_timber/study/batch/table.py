@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ...base.errors import RunError
 from ...house import HouseError, load_house
-from ...house.schema import nearest
+from ...house.schema import decimal_point, nearest
 from ...motion import MotionRequest, RecordError
 from ...motion.readers import find_files
 
@@ -67,7 +67,7 @@ class Row:
             return _FLAGS[text.lower()] if kind is bool else kind(text)
         except (ValueError, KeyError):
             wanted = {int: "a whole number", float: "a number", bool: "yes or no"}[kind]
-            raise BatchError(f"{self.where(column)}: '{text}' is not {wanted}; {COLUMNS[column][1]}") from None
+            raise BatchError(f"{self.where(column)}: '{text}' is not {wanted}{decimal_point(text)}; {COLUMNS[column][1]}") from None
 
     @property
     def house(self):
@@ -127,8 +127,7 @@ def read_table(path):
     rows, above = [], {}
     for number, cells in body:
         if len(cells) != len(heads):
-            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; "
-                             "values contain no blanks, in CSV files no commas outside quotes")
+            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; {_remedy(path, number)}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in zip(heads, cells)}
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
@@ -140,16 +139,31 @@ def read_table(path):
 
 def _lines(path):
     """[(line number, cells)] of the lines that are not empty."""
+    lines = _text_lines(path)
+    if lines and ";" in lines[0][1]:
+        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks")
+    separate = _csv_cells if lines and "," in lines[0][1] else str.split
+    return [(number, separate(line)) for number, line in lines]
+
+
+def _text_lines(path):
+    """[(line number, text)] of the lines that are not empty, without comments."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as problem:
         raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or 'not UTF-8 text'}") from None
     lines = [(number, re.sub(r"\s*#.*$", "", line)) for number, line in enumerate(text.splitlines(), 1)]
-    lines = [(number, line) for number, line in lines if line.strip()]
-    if lines and ";" in lines[0][1]:
-        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks")
-    separate = _csv_cells if lines and "," in lines[0][1] else str.split
-    return [(number, separate(line)) for number, line in lines]
+    return [(number, line) for number, line in lines if line.strip()]
+
+
+def _remedy(path, number):
+    """Remedy for a line with too few or too many values."""
+    first, line = _text_lines(path)[0][1], dict(_text_lines(path))[number]
+    if "," in first:
+        return 'the first line has commas, which separate the values here, too: write decimal points (1.5) and put a value with commas in quotes ("a,b")'
+    if "," in line and len(line.split(",")) == len(first.split()):
+        return "the first line has no commas, so blanks separate the columns: separate the names in it by commas, or the values here by blanks"
+    return "blanks separate the columns: values contain none, * stands for a default"
 
 
 def _csv_cells(line):
