@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, check_house, load_house  # noqa: E402
+from yade_timber.house import build_house, check_house, load_house  # noqa: E402
 
 SHED = """\
 extends: base
@@ -74,12 +74,23 @@ def test_ridge_height_and_pitch_are_equivalent(tmp_path):
         assert a.vertices == pytest.approx(b.vertices, abs=1e-9)
 
 
-def test_eaves_rest_on_the_plates_up_to_their_limit(tmp_path):
-    """Soffits are 0.12 sqrt(1 + 0.16) / 0.4 = 0.323 m wide; 0.06 m of it are the margin."""
-    model = shed(tmp_path, "type: hip, pitch: 0.4, eaves: 0.20, thickness: 0.12, corner_cut: 0.1")
-    assert model.counts()["joints_by_kind"]["roof_beam"] >= 4
-    with pytest.raises(HouseError, match="eaves below 0.263"):
-        shed(tmp_path, "type: hip, pitch: 0.4, eaves: 0.27, thickness: 0.12")
+@pytest.mark.parametrize("kind", ["gable", "hip"])
+def test_boxed_eaves(tmp_path, kind):
+    """Parallel slabs have soffits of 0.12 sqrt(1 + 0.16) / 0.4 = 0.323 m, enough for eaves of 0.2 m; wider ones are boxed, 0.11 m beyond them."""
+    slope, thickness, width = np.hypot(1, 0.4), 0.12, {"gable": 2, "hip": 4}[kind]
+    for eaves in (0.2, 0.45, 0.9):
+        model = shed(tmp_path, f"type: {kind}, pitch: 0.4, eaves: {eaves}, thickness: {thickness}", snow=0.5, nx=width, ny=width + 1)
+        assert model.counts()["joints_by_kind"]["roof_beam"] >= 2
+        slabs, out = model.of_kind("roof"), eaves + 0.06
+        level = np.array([v for e in slabs for v in e.vertices if abs(v[2] - 2.24) < 1e-9])
+        soffit = max(0.3231, out + 0.05)
+        reach = np.abs(level - np.array([width / 2, (width + 1) / 2, 2.24]))
+        if kind == "gable":
+            assert np.unique(reach[:, 0].round(3)) == pytest.approx([width / 2 + out - soffit, width / 2 + out], abs=1e-3)
+        if eaves > 0.2:
+            rafters = np.prod([width + 2 * out, width + 1 + 2 * out]) * slope * thickness
+            corners = {"gable": 0, "hip": 2 * (2 * 0.2**2 / 2 * 1 + 0.2**2)}[kind] * slope * thickness  # cut off the hip ends, at 45 degrees in plan
+            assert sum(e.mass for e in slabs) == pytest.approx(340 * (rafters - corners), rel=1e-9)
 
 
 def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):

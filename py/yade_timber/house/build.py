@@ -123,5 +123,6 @@ def _ground(data, structures):
 def _model(description, elements, joints, structures, depth):
     data = description.data
     levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"} for s in structures.values()}
+    grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
     return HouseModel(data["name"], data["description"], elements, joints, {k: dict(v) for k, v in data["materials"].items()},
-                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels)
+                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids)

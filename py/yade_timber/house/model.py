@@ -19,7 +19,7 @@ class Element:
     kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
     vertices: np.ndarray    # (n, 3) [m]
     material: str           # key of HouseModel.materials
-    density: float          # [kg/m3]
+    density: float          # mass over volume, with what it carries and without hollows [kg/m3]
     fixed: bool = False
     storey: int = 0         # storey of the columns below it (columns, braces: their own); 0 below the first
     side: frozenset = frozenset()  # walls of which it is a part: 'north', 'south', 'east', 'west'; empty inside the house
@@ -45,6 +45,10 @@ class Element:
     def mass(self):
         """[kg]"""
         return self.density * self.volume
+
+    def set_mass(self, mass):
+        """Give it another mass [kg], spread evenly over its volume."""
+        self.density = mass / self.volume
 
 
 @dataclass(eq=False)
@@ -96,6 +100,7 @@ class HouseModel:
     law: dict                # 'joint_reading', 'vertex_edge_contacts', 'flush_supports', 'hertz'
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
+    grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}
 
     @cached_property
     def by_name(self):

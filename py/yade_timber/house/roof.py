@@ -2,7 +2,9 @@
 """Roof slabs and the snow on them. Lengths in m. The outline is the roof's rectangle of the grid, extended by margin and eaves.
 
 All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, on which it
-rests with a level face, the soffit of the eaves. Gable: two slabs that share the ridge. Hip (paper, 3.4): hips run at 45 degrees
+rests with a level face, the soffit of the eaves. Where that face would end before the plates, the eaves are boxed: the soffit reaches
+over the plates, and from there the underside rises to the slab's own thickness at the ridge. A boxed slab is hollow: it has the mass of
+its thickness over its sloped area. Gable: two slabs that share the ridge. Hip (paper, 3.4): hips run at 45 degrees
 in plan; each slab is the part of the outline nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three
 corners are cut off, octahedra. A square plan gives a pyramid.
 """
@@ -12,8 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box
+from .geometry import Polyhedron, box
 
+SEAT = 0.05
+"""Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
 OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 
@@ -31,6 +35,11 @@ class Plan:
         """(d, e): a point p of the plan lies e - d . p [m] inside the eave of `side`."""
         d = np.array(OUTWARD[side], float)
         return d, max(d @ self.low, d @ self.high)
+
+    def bottom(self, side, rise, drop):
+        """Plane of the slab's underside: it rises by `rise` [-] and lies `drop` [m] below the parallel plane through the eave."""
+        d, e = self.distance(side)
+        return (*(-rise * d), -1.0), -(self.eave + rise * e - drop)
 
     def edge(self, side):
         """Vertical plane above the eave of `side`."""
@@ -117,7 +126,7 @@ PLANS = {"hip": hip_plan, "gable": gable_plan}
 
 
 def slope(structure, layer, half):
-    """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves and for eaves wider than the soffit."""
+    """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves."""
     table, found = layer.table, layer.table["pitch"]
     if found is None:
         rise = table["ridge_height"] - layer.z0
@@ -125,24 +134,51 @@ def slope(structure, layer, half):
             raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
                              f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
         found = rise / half
-    soffit, out = table["thickness"] * np.hypot(1.0, found) / found, table["eaves"] + structure.table["margin"]
-    if soffit <= out:
-        raise HouseError(f"{table.at('eaves')}: {structure.name}: the roof does not reach its wall plates: its soffit is {soffit:.3g} m wide "
-                         f"(thickness and pitch), eaves and margin are {out:.3g} m; "
-                         f"give eaves below {soffit - structure.table['margin']:.3g} or a thickness above {out * found / np.hypot(1.0, found):.3g}")
     return found
+
+
+def vertical_thickness(layer, plan):
+    """Of a slab. [m]"""
+    return layer.table["thickness"] * np.hypot(1.0, plan.slope)
+
+
+def underside(structure, layer, plan):
+    """(rise, drop) of `Plan.bottom`: parallel to the upper face, or steeper where the eaves are boxed."""
+    drop = vertical_thickness(layer, plan)
+    seat = layer.table["eaves"] + structure.table["margin"] + SEAT
+    if not is_boxed(structure, layer, plan):
+        return plan.slope, drop
+    rise = (plan.slope * plan.half - drop) / (plan.half - seat)
+    return rise, rise * seat
+
+
+def is_boxed(structure, layer, plan):
+    """Whether a slab between parallel planes would end before the plates, in a roof wider than these."""
+    soffit, seat = vertical_thickness(layer, plan) / plan.slope, layer.table["eaves"] + structure.table["margin"] + SEAT
+    return soffit < seat < plan.half
 
 
 def pitched_roof(structure, layer):
     """{side: vertices} of slabs with level faces on the wall plates; the thickness is measured across the slope."""
     plan = PLANS[layer.table["type"]](structure, layer)
-    drop = layer.table["thickness"] * np.hypot(1.0, plan.slope)
+    bottom = underside(structure, layer, plan)
     slabs = {}
     for side in plan.sides:
-        normal, offset = plan.top(side)
-        bottom = (tuple(-v for v in normal), -(offset - drop))
-        slabs[side] = structure.cut(f"roof.{side}", [(normal, offset), bottom, ((0, 0, -1), -plan.eave), *plan.outline(side)], layer.table.where)
+        planes = [plan.top(side), plan.bottom(side, *bottom), ((0, 0, -1), -plan.eave), *plan.outline(side)]
+        slabs[side] = structure.cut(f"roof.{side}", planes, layer.table.where)
     return slabs
+
+
+def slab_masses(structure, layer):
+    """{side: mass [kg]} of the hollow slabs of a roof with boxed eaves; empty for other roofs."""
+    if layer.table["type"] not in PLANS:
+        return {}
+    plan = PLANS[layer.table["type"]](structure, layer)
+    if not is_boxed(structure, layer, plan):
+        return {}
+    density = structure.materials[layer.table["material"]]["density"]
+    areas = {side: Polyhedron(vertices).volume for side, vertices in pitched_snow(structure, layer, 1.0).items()}
+    return {side: density * vertical_thickness(layer, plan) * area for side, area in areas.items()}
 
 
 def pitched_snow(structure, layer, depth):
@@ -172,7 +208,10 @@ ROOFS = {"hip": (pitched_roof, pitched_snow), "gable": (pitched_roof, pitched_sn
 def lay_roof(structure, layer):
     """Roof elements, one per slab."""
     slabs = ROOFS[layer.table["type"]][0](structure, layer)
-    return [_element(structure, layer, "roof", side, vertices, layer.table) for side, vertices in slabs.items()]
+    elements = [_element(structure, layer, "roof", side, vertices, layer.table) for side, vertices in slabs.items()]
+    for element, mass in zip(elements, slab_masses(structure, layer).values()):
+        element.set_mass(mass)
+    return elements
 
 
 def lay_snow(structure, layer, depth, material):

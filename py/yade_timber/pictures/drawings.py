@@ -19,6 +19,8 @@ CELLS = ((0.06, 0.49, 0.42, 0.375), (0.55, 0.49, 0.42, 0.375), (0.06, 0.105, 0.4
 """Left, bottom, width, height of the four drawings in parts of the figure."""
 DAMAGE_MARGIN = 0.35
 """Between damaged joints and the ellipse around them. [m]"""
+NODE_GAP = 0.33
+"""Between a structure's outer grid line and the numbers of its nodes in the plan. [m]"""
 LABEL_GAP = 0.12
 """Between the baselines of two labels of heights. [inch]"""
 THICK = 0.11
@@ -125,8 +127,22 @@ def draw_plan(ax, model):
             draw_brace(ax, element)
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
+    for grid in model.grids.values():
+        number_nodes(ax, grid, next(iter(model.grids.values())))
     ax.set_title("Plan of the first storey, north up: columns and braces", fontsize=9, loc="left")
     finish_plan(ax, columns)
+
+
+def number_nodes(ax, grid, main):
+    """Numbers of a structure's grid nodes along the two sides that do not face the main structure. grid, main: {'x', 'y'}: positions [m]."""
+    before = {axis: grid[axis].mean() <= main[axis].mean() + 1e-9 for axis in "xy"}
+    gap = NODE_GAP if grid is main else 1.6 * NODE_GAP  # numbers of neighbouring structures in two rows
+    edge = {axis: grid[axis][0] - gap if before[axis] else grid[axis][-1] + gap for axis in "xy"}
+    style = dict(fontsize=5.5, color="#666666", ha="center", va="center")
+    for number, x in enumerate(grid["x"]):
+        ax.text(x, edge["y"], f"{number}", **style)
+    for number, y in enumerate(grid["y"]):
+        ax.text(edge["x"], y, f"{number}", **style)
 
 
 def draw_outline(ax, element, **style):

@@ -84,6 +84,12 @@ def principal_body(vertices, density, radius, **look):
     return body
 
 
+def scale_mass(body, factor):
+    """Multiply mass and inertia of a body by a factor [-], as for a member that carries a load along its whole volume."""
+    body.state.mass *= factor
+    body.state.inertia *= factor
+
+
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):
     """Rectangular parallelepiped: extents (3,) full edge lengths [m], centre (3,) [m], orientation a Quaternion or None.
 

@@ -15,7 +15,7 @@ O = yw.Omega()
 def export_scene(path):
     """Write the loaded scene to a JSON file: elements, materials with friction per pair, joints, gravity.
 
-    elements   id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density [kg/m3], radius [m], fixed, material
+    elements   id, name, kind, vertices (n, 3) world [m], faces (vertex indices, outward), density: mass over volume [kg/m3], radius [m], fixed, material
     materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
     joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
                (null: unbreakable), reading 'spring' | 'joint', damping_ratio [-], broken (one flag per spring), kind, name, slip (null: brittle;
@@ -74,7 +74,7 @@ def describe_element(body, known):
         "kind": body.shape.kind,
         "vertices": world_vertices(body),
         "faces": body.shape.faces(),
-        "density": body.material.density,
+        "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),
         "radius": body.shape.radius,
         "fixed": not body.dynamic,
         "material": material_name(body.material, known),

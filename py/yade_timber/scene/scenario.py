@@ -92,6 +92,7 @@ def add_elements(model):
             kind=element.kind,
             color=KINDS.get(element.kind),
         )
+        bodies.scale_mass(body, element.density / model.materials[element.material]["density"])
         ids[element.name] = O.bodies.append(body)
     return ids
 
