@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Print the counts of a house and draw it: show_house.py C2 [--snow 1.0] [--out house.png]. Needs no YADE."""
+"""Print counts and weights of a house and draw it: show_house.py C2 [--snow 1.0] [--out house.png]. Needs no YADE."""
 import json
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.house import build_house, load_house, shipped_houses
+from yade_timber.house import build_house, load_house, shipped_houses, weigh
 from yade_timber.pictures import drawings
 from yade_timber.pictures.figures import stem_of
 
@@ -22,7 +22,7 @@ def main():
     options = arguments()
     with errors_in_a_line(options.out or "the picture"):
         model = build_house(load_house(options.house), options.snow)
-        print(json.dumps(model.counts(), indent=2))
+        print(json.dumps({**model.counts(), "weight": weigh(model)}, indent=2))
         written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)
     print("written: " + ", ".join(map(str, written)))
 

@@ -3,7 +3,7 @@
 import pytest
 import yade.wrapper as yw
 from yade import O
-from yade_timber.house import friction
+from yade_timber.house import friction, loads
 from yade_timber.run.identity import identity
 from yade_timber.scene import engines, scenario
 
@@ -45,3 +45,16 @@ def test_flush_members_have_fewer_supports_without_them(tmp_path):
 
 def test_increment_form(tmp_path):
     assert built(tmp_path, "{hertz: increment}")[1].increment
+
+
+def test_loads_are_mass_of_the_bodies(tmp_path):
+    """Mass and inertia of each body are those of its element; gravity is the one that turns loads into mass."""
+    path = tmp_path / "house.yaml"
+    path.write_text("extends: storehouse\nname: mine\nloads: {roof: 0.9, wall: 0.6}\n")
+    assert engines.GRAVITY == (0, 0, -loads.GRAVITY)
+    model = scenario.build(scenario.Scenario("loads", str(path)))
+    heavy = [(body.state.mass, body.state.inertia) for body in O.bodies]
+    assert [mass for mass, _ in heavy] == pytest.approx([e.mass for e in model.elements], rel=1e-12)
+    scenario.build(scenario.Scenario("bare", "storehouse"))
+    for body, (mass, inertia) in zip(O.bodies, heavy):
+        assert list(inertia) == pytest.approx([mass / body.state.mass * i for i in body.state.inertia], rel=1e-9)

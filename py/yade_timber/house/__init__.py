@@ -12,6 +12,7 @@ from .description import Description, load_house, shipped_houses
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
 from .overlay import brace_parts, changed_house
+from .weight import weigh
 
 __all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
-           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "load_house", "overlaps", "shipped_houses"]
+           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "load_house", "overlaps", "shipped_houses", "weigh"]

@@ -12,6 +12,7 @@ from .description import require_snow_depth
 from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
+from .loads import apply_loads
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
@@ -33,6 +34,7 @@ def build_house(description, snow_depth=None, check=True):
         elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
         require_few(len(elements), structure.table.where, f"structures.{structure.name}")
     _number_repeats(elements)
+    apply_loads(elements, structures, data["loads"])
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
     apply_damage(joints, structures, data["damage"])

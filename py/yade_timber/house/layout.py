@@ -79,6 +79,10 @@ layer = Variants("layer", {
     "roof": roof,
 })
 
+_slab_load = Number("kN/m2", 0.05, 20.0, default=None)
+loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
+
+
 place = Record({
     "origin": ListOf(Number("m", -1000, 1000), 2, default=None),
     "beside": word(None),
@@ -96,6 +100,7 @@ structure = Record({
     "stack": ListOf(layer, most=MAX_LAYERS),
     "columns": ListOf(column_group),
     "braces": braces,
+    "loads": loads,
 })
 
 material = Variants("law", {
@@ -140,6 +145,7 @@ HOUSE = Record({
     }, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
     "structures": MapOf(structure),
+    "loads": loads,
     "joint_types": MapOf(joint_type),
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),

@@ -5,6 +5,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Polygon, Rectangle
 
 from ..base import colors
+from ..house import weigh
+from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
 from .raster import Window, even_density, front_of, shade
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
@@ -54,12 +56,12 @@ def solid(element):
 
 
 def describe(model):
-    """Description and counts of a house, in two lines."""
+    """Description, counts and weight of a house, in three lines."""
     found = model.counts()
     snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
     columns = " and ".join(f"{count} columns of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
     description = " ".join(model.description.split())
-    return f"{description}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}"
+    return f"{description}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}\n{sentence(weigh(model))}"
 
 
 def density(ax, box, dpi):

@@ -7,6 +7,7 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import write_text
 from ..base.table import csv_text
+from ..house import weigh
 from ..motion import interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
@@ -41,6 +42,7 @@ def summary(scenario, observed, wall_s):
         "snow": scenario.snow_depth > 0,
         "snow_depth_m": scenario.snow_depth,
         "snow_mass_kg": model.counts()["mass_snow"],
+        "weight": weigh(model),
         "joint_damping": scenario.joint_damping,
         "record": record(scenario),
         "dt": scenario.dt,

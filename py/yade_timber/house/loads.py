@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Loads as engineers state them, in kN per m2: of roof surface and of floor with the slab itself, of outer wall beside its columns.
+
+A load becomes mass of the member that carries it, spread evenly over the member's volume: roof and floor slabs, and for walls the
+columns, half of each bay on the column at either end.
+"""
+
+import numpy as np
+
+from .geometry import plane_axes, polygon_area
+from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
+
+GRAVITY = 9.81
+"""Between weight and mass, that of the scene. [m/s2]"""
+
+
+def apply_loads(elements, structures, loads):
+    """Set the masses of loaded elements. loads: those of the house file, which a structure's own ones override key by key."""
+    for structure in structures.values():
+        own = structure.table["loads"]
+        mine = {key: loads[key] if own[key] is None else own[key] for key in loads}
+        members = [element for element in elements if element.group == structure.name]
+        for element in members:
+            if element.kind in ("roof", "floor") and mine[element.kind] is not None:
+                element.set_mass(mass_of(mine[element.kind] * upper_area(element)))
+        if mine["wall"]:
+            _hang_walls(structure, members, mine["wall"])
+
+
+def mass_of(weight):
+    """Mass [kg] of a weight [kN]."""
+    return 1000 * weight / GRAVITY
+
+
+def weight_of(mass):
+    """Weight [kN] of a mass [kg]."""
+    return mass * GRAVITY / 1000
+
+
+def upper_area(element):
+    """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
+    return sum(abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T)) for face in element.solid.faces if face.normal[2] > 1e-6)
+
+
+def _hang_walls(structure, members, load):
+    """Add the weight [kN/m2] of the outer walls to the columns in them."""
+    added = {}
+    for low, high in outer_bays(members):
+        half = load * bay_length(low, high) * storey_height(structure, low.storey) / 2
+        for column in (low, high):
+            added[column.name] = added.get(column.name, 0.0) + mass_of(half)
+    for column in members:
+        if column.name in added:
+            column.set_mass(column.mass + added[column.name])
+
+
+def outer_bays(members):
+    """[(column, column)] of the bays in the outer walls: neighbouring columns of a storey on one side."""
+    bays = []
+    columns = [element for element in members if element.kind == "column"]
+    for axis in "xy":
+        along = 0 if ACROSS[axis] == "x" else 1
+        for side in (LOW_SIDE[axis], HIGH_SIDE[axis]):
+            for storey in sorted({column.storey for column in columns}):
+                row = [column for column in columns if side in column.side and column.storey == storey]
+                row.sort(key=lambda column: column.solid.centroid[along])
+                bays += zip(row, row[1:])
+    return bays
+
+
+def bay_length(low, high):
+    """Horizontal distance between the axes of two columns. [m]"""
+    return float(np.hypot(*(high.solid.centroid - low.solid.centroid)[:2]))
+
+
+def storey_height(structure, storey):
+    """From the foot of a storey's columns to that of the next storey, or to the roof. [m]"""
+    layer = structure.layer_of_storey(storey)
+    above = structure.layers[structure.layers.index(layer) + 1:]
+    top = next((other.z0 for other in above if other.kind in ("columns", "roof")), above[-1].z1 if above else layer.z1)
+    return top - layer.z0

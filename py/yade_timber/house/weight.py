@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
+
+from .loads import weight_of
+
+HALVED = ("column", "brace")
+"""Kinds of members of which one half belongs to the level above and one to the level below."""
+
+
+def weigh(model):
+    """Weights of a HouseModel [kN].
+
+    total_kn                of all members that can move, without snow
+    snow_kn                 of the snow
+    floor_area_m2           sum over the storeys of the area between the axes of the outer columns
+    per_floor_area_kn_m2    total over floor area
+    storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the columns and walls below and
+                            above; of this level and all higher ones, the weight that drives the storey's shear. Without snow.
+    """
+    area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
+    total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
+    return {
+        "total_kn": round(total, 3),
+        "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),
+        "floor_area_m2": round(area, 3),
+        "per_floor_area_kn_m2": round(total / area, 3) if area > 0 else None,
+        "storeys": {group: _storeys(model, group) for group, storeys in model.storey_levels.items() if storeys},
+    }
+
+
+def floor_area(model, group, storey):
+    """Area between the axes of the outer columns of a storey. [m2]"""
+    centres = [e.solid.centroid for e in model.of_kind("column", group=group) if e.storey == storey]
+    if not centres:
+        return 0.0
+    (x0, y0), (x1, y1) = (tuple(pick(c[k] for c in centres) for k in (0, 1)) for pick in (min, max))
+    return float((x1 - x0) * (y1 - y0))
+
+
+def _storeys(model, group):
+    members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
+    found, carried = {}, 0.0
+    for storey in sorted(model.storey_levels[group], reverse=True):
+        level = weight_of(sum(_share(e, storey) * e.mass for e in members))
+        carried += level
+        found[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
+    return dict(reversed(found.items()))
+
+
+def _share(element, storey):
+    """Part of a member that belongs to the level at the top of a storey."""
+    if element.kind in HALVED:
+        return 0.5 if element.storey in (storey, storey + 1) else 0.0
+    return 1.0 if element.storey == storey else 0.0
+
+
+def sentence(weights):
+    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first structure's storeys."""
+    per_area = "" if weights["per_floor_area_kn_m2"] is None else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor"
+    storeys = next(iter(weights["storeys"].values()), {})
+    carried = ", ".join(f"storey {name} {values['carried_kn']:.0f} kN" for name, values in storeys.items())
+    return f"weighs {weights['total_kn']:.0f} kN{per_area}; carried by {carried}"
