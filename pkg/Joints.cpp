@@ -28,7 +28,7 @@ void TimberJoint::validate() const
 {
 	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
 	requireGiven(hasSprings, "TimberJoint.kn", kn, false);
-	requireGiven(hasSprings, "TimberJoint.ks", ks, false);
+	if (!(yields() && ks == 0)) requireGiven(hasSprings, "TimberJoint.ks", ks, false);
 	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
 	require(dampingRatio >= 0 && dampingRatio <= 1, "TimberJoint.dampingRatio", dampingRatio, "between 0 and 1");
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
@@ -47,7 +47,7 @@ void TimberJoint::validateLaw() const
 	require(softeningStretch > 0, "TimberJoint.softeningStretch", softeningStretch, "> 0");
 	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
 	if (!yields() || std::isnan(kn)) return;
-	require(kn == ks, "TimberJoint.ks", ks, "equal to kn with the law slip");
+	require(kn == ks || ks == 0, "TimberJoint.ks", ks, "equal to kn, or 0, with the law slip");
 	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch", softeningStretch,
 	        "finite and > strength / kn with the law slip");
 	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch", ultimateStretch,
@@ -156,7 +156,7 @@ timber::JointForce JointEngine::forceOf(TimberJoint& joint) const
 		return {};
 	}
 	const timber::JointPlacement placed = placement(joint, *b1->state, *b2->state);
-	if (joint.yields()) return timber::slipForces(joint.slipLaw(), placed, joint.springs(), joint.slipHistories());
+	if (joint.yields()) return timber::slipForces(joint.slipLaw(), placed, joint.slipAxis(), joint.springs(), joint.slipHistories());
 	return timber::springForces(joint.stiffness(), placed, joint.normal, joint.springs());
 }
 
@@ -244,12 +244,13 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 {
 	for (const shared_ptr<TimberJoint>& j : joints) {
 		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
-		const Real stiffness = math::max(j->stiffness().normal, j->stiffness().shear);
+		const timber::JointStiffness k = j->stiffness();
+		const Real tangential = k.shear == 0 ? 0 : math::max(k.normal, k.shear), along = math::max(k.normal, k.shear);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
 			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
-			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, Vector3r::UnitZ(), stiffness, stiffness });
+			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, along, tangential });
 		}
 	}
 }

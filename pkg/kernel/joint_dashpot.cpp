@@ -112,7 +112,7 @@ namespace {
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs)
 {
 	assert(isRotation(axesA) && isUnit(springs.normal) && springs.anchors.size() == springs.broken.size() && springs.count() > 0);
-	assert(springs.stiffness.normal > 0 && springs.stiffness.shear > 0 && pairInverseMass(a, b) > 0);
+	assert(springs.stiffness.normal > 0 && springs.stiffness.shear >= 0 && pairInverseMass(a, b) > 0);
 	JointModes result;
 	result.springs = springs.count();
 	result.stiffness = springs.stiffness;

@@ -44,14 +44,17 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 		k * (phi * mean * flow + (1 - phi) * growth), { plastic, largest } };
 }
 
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const JointSprings& springs, const SlipHistories& histories)
+JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs, const SlipHistories& histories)
 {
+	assert(axis.isZero() || isUnit(axis));
 	assert(isFinite(placement.distance) && histories.plastic.size() == springs.broken.size() && histories.largest.size() == springs.broken.size());
+	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
 		if (springs.broken[i]) continue;
 		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
-		const Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
+		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
+		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
 		const SlipForce f = slipForce(law, { histories.plastic[i], histories.largest[i] }, placement.axesA.transpose() * stretch);
 		const Vec3 force = placement.axesA * f.force;
 		springs.stretches[i] = stretch;

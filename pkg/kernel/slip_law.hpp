@@ -29,6 +29,8 @@
 /// Radial paths: forces and history do not depend on the length of the steps. Energies do not, either, but for a step that begins below R and
 /// ends beyond both R and d_c. Other paths: error of first order in forces (radial return), of second order in the energy balance.
 ///
+/// Springs that act along one axis of body A only, as those of a wall in its plane: d is the projection of the stretch on the axis.
+///
 /// Frames. d, p and the force are in the frame of body A, so that the history turns with the body. The force acts on both bodies at the anchor
 /// of B. Its power is then that of the rate of d in the frame of A: the balance is exact and angular momentum is conserved, although the
 /// force is not parallel to the stretch. With the bodies swapped, p would turn with the other body. The results differ by the rotation
@@ -78,7 +80,8 @@ struct SlipHistories {
 };
 
 /// Stretches, forces and new histories of a joint's unbroken springs. The entries of broken springs stay as they are.
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const JointSprings& springs, const SlipHistories& histories);
+/// axis: unit vector in the frame of A, on which the stretches are projected; zero: the springs act in all directions.
+JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs, const SlipHistories& histories);
 
 /// Springs that have reached the ultimate stretch, in their order. They have no force and no energy left.
 std::vector<SpringBreak> slipBreaks(

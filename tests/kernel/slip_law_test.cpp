@@ -293,10 +293,11 @@ struct Joint {
 	std::vector<int> broken { 0, 0 };
 	std::vector<double> largest { 0, 0 };
 	Mat3 axesA = Mat3::Identity(), axesB = Mat3::Identity();
+	Vec3 axis = Vec3::Zero(); ///< zero: in all directions
 
 	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
 	SlipHistories histories() { return { plastic, largest }; }
-	JointForce place(const Vec3& distance) { return slipForces(law, { axesA, axesB, distance }, springs(), histories()); }
+	JointForce place(const Vec3& distance) { return slipForces(law, { axesA, axesB, distance }, axis, springs(), histories()); }
 	std::vector<SpringBreak> breaks() { return slipBreaks(law, { axesA, axesB, Vec3::Zero() }, Vec3::UnitZ(), springs(), histories()); }
 };
 
@@ -349,4 +350,44 @@ TEST(SlipJoint, SpringsBreakOneByOne)
 	joint.broken[0] = 1;
 	joint.place({ 0, 0, 0.02 });
 	EXPECT_TRUE(joint.breaks().empty());
+}
+
+/// Springs along one axis: no force across it, the force of the law along it, and the axis turns with A.
+TEST(SlipJoint, SpringsAlongAnAxis)
+{
+	Joint joint, free;
+	joint.axis = Vec3::UnitZ();
+	EXPECT_EQ(joint.place({ 0.02, 0.011, 0 }).force, Vec3(Vec3::Zero()));
+	EXPECT_EQ(joint.largest[0], 0);
+	const Vec3 force = joint.place({ 0.02, -0.011, 0.004 }).force;
+	EXPECT_LT((force - free.place({ 0, 0, 0.004 }).force).norm(), rounding * F);
+	joint.axesA = joint.axesB = about({ 1, 0, 0 }, M_PI / 2).toRotationMatrix(); // z becomes -y
+	EXPECT_LT((joint.place({ 0.02, -0.004, 0.3 }).force - Vec3(0, -force.z(), 0)).norm(), rounding * F);
+}
+
+/// Axis and bodies move on closed paths: the work on both bodies is the stored energy plus the dissipated one.
+TEST(SlipJoint, EnergyOfSpringsAlongAnAxis)
+{
+	Joint joint;
+	joint.axis = Vec3(0.6, 0, 0.8);
+	const int steps = 20000;
+	const auto place = [&](double t) {
+		joint.axesA = about({ 0, 1, 0 }, 0.03 * std::sin(2 * t)).toRotationMatrix();
+		joint.axesB = about({ 1, 2, 0 }, 0.05 * std::sin(t)).toRotationMatrix();
+		return joint.place(Vec3(0.004 * std::sin(3 * t), 0.02 * t, 0.009 * std::sin(t)));
+	};
+	double work = 0, dissipated = 0;
+	JointForce last = place(0);
+	for (int k = 1; k <= steps; ++k) {
+		const double t = 2. * k / steps, before = 2. * (k - 1) / steps;
+		const JointForce now = place(t);
+		const Vec3 move(0.004 * (std::sin(3 * t) - std::sin(3 * before)), 0.02 * (t - before), 0.009 * (std::sin(t) - std::sin(before)));
+		const Vec3 spinA(0, 0.03 * (std::sin(2 * t) - std::sin(2 * before)), 0),
+		        spinB = 0.05 * (std::sin(t) - std::sin(before)) * Vec3(1, 2, 0).normalized();
+		work += ((last.force + now.force).dot(move) - (last.torqueA + now.torqueA).dot(spinA) - (last.torqueB + now.torqueB).dot(spinB)) / 2;
+		dissipated += now.dissipated;
+		last = now;
+	}
+	EXPECT_GT(dissipated, F * y);
+	EXPECT_NEAR(work, last.energy + dissipated, 1e-4 * dissipated); // the sum over steps and the radial return: 1e-4 / 2 at 10 000 steps
 }
