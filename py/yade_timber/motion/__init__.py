@@ -33,6 +33,7 @@ from .processing import (
 from .readers import DEFAULT_RECORD, default_motion, read_motion
 from .record import GAL, GroundMotion, RecordError, RecordWarning
 from .request import MotionRequest, add_motion_options, motion_request
+from .sequence import joined
 from .synthetic import synthetic_motion
 from .writer import write_csv
 
@@ -52,6 +53,7 @@ __all__ = [
     "highpass",
     "interpolation_error",
     "jma_intensity",
+    "joined",
     "motion_request",
     "onset",
     "pga",

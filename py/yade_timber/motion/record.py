@@ -54,6 +54,7 @@ class GroundMotion:
     name          short name
     source        files or generator, mapping of the components, processing
     begins        date and time of the first sample, where the record states it (K-NET, JMA: Japan Standard Time)
+    parts         of a sequence: its motions (sequence.Part); else empty
     Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
     """
 
@@ -62,6 +63,7 @@ class GroundMotion:
     name: str = "motion"
     source: str = ""
     begins: datetime | None = None
+    parts: tuple = ()
 
     def __post_init__(self):
         acceleration = np.array(self.acceleration, dtype=float)

@@ -10,6 +10,7 @@ from ..base.input_file import shown
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_motion
 from .record import RecordError, require_possible
+from .sequence import DEFAULT_GAP, following, joined
 from .synthetic import DEFAULT_SEED, synthetic_motion
 
 
@@ -47,6 +48,11 @@ class MotionRequest:
     intensity: float = _option(float, "I", "scale all components to this JMA intensity (not rounded)", 0, 8)
     scale: float = _option(float, "X", "factor on the ground motion (default 1)", 0, 1e6)
     resample: bool = _option(bool, None, "resample at the run's time step, band-limited, instead of linear interpolation between the record's samples")
+    then: str = _option(
+        str, "RECORDS", "records that follow, as a main shock after a foreshock: record or record@factor, separated by ; "
+        "all other options apply to each of them, too"
+    )
+    gap: float = _option(float, "S", f"quiet between the records of a sequence [s] (default {DEFAULT_GAP:g})", 0, 1000)
 
     def given(self):
         """Names of the requested fields."""
@@ -62,14 +68,27 @@ class MotionRequest:
             if getattr(self, one) is not None and getattr(self, other) is not None:
                 raise RecordError(f"{name.format(one)} and {name.format(other)} exclude each other; give one of them")
         for only in ("component", "units", "shortest"):
-            if getattr(self, only) and self.record is None:
+            if getattr(self, only) and self.record is None and self.then is None:
                 raise RecordError(f"{name.format(only)} belongs to a record; give {name.format('record')}, too")
+        if self.gap is not None and self.then is None:
+            raise RecordError(f"{name.format('gap')} belongs to a sequence; give {name.format('then')}, too")
+        if self.then is not None:
+            following(self.then, name.format("then"))
         if self.end is not None and self.end <= (self.start or 0.0):
             raise RecordError(f"{name.format('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
     def motion(self, dt):
         """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`. Raises RecordError."""
-        motion = self._source()
+        first = self._processed(self._source(), dt)
+        if self.then is None:
+            return first
+        records, factors = zip(*following(self.then, "--then"))
+        motions = [first, *(self._processed(self._read(record), dt) for record in records)]
+        sequence = joined(motions, [1.0, *factors], DEFAULT_GAP if self.gap is None else self.gap)
+        self._require_possible(sequence)
+        return sequence
+
+    def _processed(self, motion, dt):
         if self.start is not None or self.end is not None:
             motion = trim(motion, self.start or 0.0, self.end)
         if self.detrend is not None:
@@ -80,13 +99,19 @@ class MotionRequest:
             motion = scaled_to_pga(motion, self.pga, "level")
         if self.intensity is not None:
             motion = scaled_to_intensity(motion, self.intensity)
-        require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)
+        self._require_possible(motion)
         return resample(motion, dt)[0] if self.resample else motion
 
     def _source(self):
         if self.seed is not None:
             return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
-        return read_motion(DEFAULT_RECORD if self.record is None else self.record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+        return self._read(DEFAULT_RECORD if self.record is None else self.record)
+
+    def _read(self, record):
+        return read_motion(record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+
+    def _require_possible(self, motion):
+        require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)
 
 
 def _shown(value):

@@ -15,6 +15,7 @@ from ..house import HouseError
 from ..house.loader import house_files
 from ..motion import RecordError
 from ..motion.readers import find_files
+from ..motion.sequence import following
 
 ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv", "data/houses/*")
 """Files of the package that decide results, besides its compiled module."""
@@ -106,6 +107,8 @@ def _named_files(arguments):
         option, _, value = argument.partition("=") if argument.startswith("--") else (before, "", argument)
         if option == "--record" and value:
             files += find_files(value)
+        elif option == "--then" and value:
+            files += [file for record, _ in following(value, option) for file in find_files(record)]
         elif value.endswith((".yaml", ".yml")):
             files += house_files(value)
     return files

@@ -91,7 +91,14 @@ def record(scenario):
         "dt": motion.dt,
         "interpolation_error": round(error, 6),
         "onset_s": onset(motion),
+        "sequence": [part_of_record(part, scenario.scale) for part in motion.parts] or None,
     }
+
+
+def part_of_record(part, scale):
+    """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
+    pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
+    return {"source": part.source, "start_s": round(part.start, 6), "duration_s": round(part.duration, 6), "scale": scale * part.scale, "pga_gal": pga}
 
 
 def energy_balance(terms):

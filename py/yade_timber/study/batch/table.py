@@ -35,6 +35,8 @@ OWN = {
     "until_collapse": (bool, "whether the run ends when the house has collapsed, yes or no (default no)"),
 }
 MOTION = {f.name: (f.metadata["kind"], f.metadata["help"]) for f in fields(MotionRequest)}
+RECORDS = ("record", "then")
+"""Columns with names of files, which properties of Row resolve."""
 COLUMNS = {**OWN, **MOTION}
 """{column: (type, description)}, without the column `description`."""
 
@@ -81,14 +83,28 @@ class Row:
     def record(self):
         """Files or prefix of the record; None: synthetic motion or no earthquake."""
         given = self.cells.get("record")
-        return None if given in (None, NO_EARTHQUAKE) else ",".join(str(self.table.parent / part) for part in given.split(","))
+        return None if given in (None, NO_EARTHQUAKE) else self._beside(given)
+
+    @property
+    def then(self):
+        """Records that follow the first, with their own factors; relative paths are relative to the table. None: no sequence."""
+        given = self.cells.get("then")
+        return None if given is None else ";".join(self._beside(part.strip()) for part in given.split(";"))
+
+    def _beside(self, record):
+        return ",".join(str(self.table.parent / part) for part in record.split(","))
 
     @property
     def name(self):
         """Name of the run and its folder. It follows from the content of the row, its house and its record, not from its line."""
         label = self.description or Path(self.cells["house"]).stem
-        content = json.dumps([sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record)])
+        content = json.dumps([sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()])
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
+
+
+    def _then_digests(self):
+        """Of the records that follow; none without a sequence."""
+        return [] if self.then is None else [_record_digest(entry.rpartition("@")[0] or entry) for entry in self.then.split(";")]
 
 
 _FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}

@@ -13,7 +13,7 @@ from ...house import HouseError, build_house, changed_house, load_house
 from ...motion import MotionRequest, RecordError
 from ...base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..driver import Task, run_missing
-from .table import MOTION, NO_EARTHQUAKE, BatchError
+from .table import MOTION, NO_EARTHQUAKE, RECORDS, BatchError
 
 HOUSE = "house.yaml"
 """House file of a row that changes its house, in the run's folder."""
@@ -44,7 +44,7 @@ def options(row, folder):
     if row.cells.get("record") != NO_EARTHQUAKE:
         words.append("--quake")
     for column in ("snow", "joint_damping", "dt", "duration", "until_collapse", *MOTION):
-        value, option = row.record if column == "record" else row.value(column), f"--{column.replace('_', '-')}"
+        value, option = getattr(row, column) if column in RECORDS else row.value(column), f"--{column.replace('_', '-')}"
         if value is True:
             words.append(option)
         elif value is not None and value is not False:
@@ -85,13 +85,13 @@ def _check_numbers_and_motion(row):
         value = row.value(column, low)
         if not low <= value <= high:
             raise BatchError(f"{row.where(column)}: {value:g}: must be between {low:g} and {high:g}")
-    request = MotionRequest(record=row.record, **{column: row.value(column) for column in MOTION if column != "record"})
+    request = MotionRequest(**{column: getattr(row, column) for column in RECORDS}, **{column: row.value(column) for column in MOTION if column not in RECORDS})
     if row.cells.get("record") == NO_EARTHQUAKE:
         for column in request.given():
             raise BatchError(f"{row.where(column)}: this run has no earthquake (record: {NO_EARTHQUAKE})")
     with _located(row):
         request.check(f"{row.table.name}:{row.line}, column {{}}:")
-        if row.record is not None:
+        if row.record is not None or row.then is not None:
             _read_record(request, row.value("dt", DEFAULT_DT))
 
 

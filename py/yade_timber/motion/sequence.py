@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sequences: several ground motions one after the other, as a foreshock and a main shock, with quiet between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+
+import numpy as np
+
+from .filters import require_size
+from .record import GroundMotion, RecordError
+
+DEFAULT_GAP = 5.0
+"""Quiet between two motions of a sequence. [s]"""
+DENOMINATOR = 100_000
+"""Largest denominator of a time step as a fraction of a second."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One motion of a sequence. source: file or generator; start and duration [s]; scale: its own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it."""
+
+    source: str
+    start: float
+    duration: float
+    scale: float
+    pga_gal: dict
+
+
+def joined(motions, scales, gap=DEFAULT_GAP):
+    """One GroundMotion of several: each times its own factor, `gap` seconds of quiet between them, in `parts` the data of each.
+
+    The time step is the largest that divides all steps, so that straight lines between the samples stay as they are.
+    Raises RecordError for motions whose steps have no such common part.
+    """
+    step = common_step([motion.dt for motion in motions], " and ".join(motion.name for motion in motions))
+    quiet = np.zeros((round(gap / step), 3))
+    pieces, parts, start = [], [], 0.0
+    for motion, scale in zip(motions, scales):
+        samples = scale * refined(motion, round(motion.dt / step))
+        if pieces:
+            pieces.append(quiet)
+            start += len(quiet) * step
+        pga = {axis: abs(scale) * value for axis, value in motion.pga_gal.items()}
+        parts.append(Part(motion.source or motion.name, start, len(samples) * step, scale, pga))
+        pieces.append(samples)
+        start += len(samples) * step
+    require_size(sum(map(len, pieces)), "the sequence")
+    name, source = " then ".join(motion.name for motion in motions), f"; then after {gap:g} s: ".join(part.source for part in parts)
+    return GroundMotion(step, np.vstack(pieces), name, source, motions[0].begins, tuple(parts))
+
+
+def common_step(steps, where):
+    """Largest time step [s] of which all steps are multiples."""
+    fractions = [Fraction(step).limit_denominator(DENOMINATOR) for step in steps]
+    whole = [abs(float(fraction) - step) <= 1e-9 * step for fraction, step in zip(fractions, steps)]
+    common = Fraction(gcd(*(f.numerator for f in fractions)), lcm(*(f.denominator for f in fractions)))
+    if not all(whole) or min(steps) > 100 * common:
+        raise RecordError(f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample")
+    return float(common) if len(set(steps)) > 1 else steps[0]
+
+
+def refined(motion, factor):
+    """(n, 3) accelerations of a motion [m/s2] on a step `factor` times smaller, straight lines between the samples; ends in the last sample."""
+    if factor == 1:
+        return motion.acceleration
+    times = np.arange((len(motion) - 1) * factor + 1) / factor
+    return np.column_stack([np.interp(times, np.arange(len(motion)), column) for column in motion.acceleration.T])
+
+
+def following(text, name):
+    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for messages."""
+    found = []
+    for entry in text.split(";"):
+        record, sign, factor = entry.strip().rpartition("@")
+        record, factor = (record, factor) if sign else (factor, "1")
+        try:
+            value = float(factor)
+        except ValueError:
+            value = -1.0
+        if not record or not 0 < value <= 1e6:
+            raise RecordError(f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are separated by ;")
+        found.append((record, value))
+    return found

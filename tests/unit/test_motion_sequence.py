@@ -1,0 +1,103 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sequences of ground motions: joined in time, with their own factors and time steps; command line and tables."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv  # noqa: E402
+from yade_timber.motion.sequence import common_step, following  # noqa: E402
+from yade_timber.study.batch.table import read_table  # noqa: E402
+
+
+def motion(dt, n, name="a", seed=0):
+    return GroundMotion(dt, np.random.default_rng(seed).normal(size=(n, 3)), name, f"{name}.csv")
+
+
+def test_motions_follow_each_other_after_the_gap():
+    first, second = motion(0.01, 300), motion(0.01, 200, "b", 1)
+    both = joined([first, second], [1.0, 0.5], 5.0)
+    assert both.dt == 0.01 and len(both) == 300 + 500 + 200 and both.name == "a then b"
+    assert np.array_equal(both.acceleration[:300], first.acceleration)
+    assert not both.acceleration[300:800].any()
+    assert np.array_equal(both.acceleration[800:], 0.5 * second.acceleration)
+    assert [(part.source, part.start, part.duration, part.scale) for part in both.parts] == [("a.csv", 0.0, 3.0, 1.0), ("b.csv", 8.0, 2.0, 0.5)]
+    assert both.parts[1].pga_gal["ns"] == pytest.approx(0.5 * second.pga_gal["ns"])
+
+
+def test_different_steps_keep_the_straight_lines_between_samples():
+    """0.01 and 0.004 s have the common step 0.002 s; at every old sample the value is the old one, between them it lies on the line."""
+    first, second = motion(0.01, 101), motion(0.004, 51, "b", 1)
+    both = joined([first, second], [1.0, 1.0], 2.0)
+    assert both.dt == pytest.approx(0.002, rel=1e-12)
+    assert both.acceleration[:501:5] == pytest.approx(first.acceleration, abs=1e-12)
+    assert both.acceleration[2] == pytest.approx(0.6 * first.acceleration[0] + 0.4 * first.acceleration[1], abs=1e-12)
+    assert both.acceleration[501 + 1000 :: 2] == pytest.approx(second.acceleration, abs=1e-12)
+    assert both.parts[1].start == pytest.approx(0.002 * 1501, rel=1e-12)
+
+
+@pytest.mark.parametrize("steps, common", [((0.01, 0.005), 0.005), ((0.01, 0.02, 0.004), 0.002), ((0.01, 0.01), 0.01), ((1 / 120, 0.01), 1 / 600)])
+def test_common_step(steps, common):
+    assert common_step(steps, "x") == pytest.approx(common, rel=1e-12)
+
+
+def test_steps_without_a_common_one():
+    with pytest.raises(RecordError, match="--resample"):
+        common_step([0.01, 0.00999], "a and b")
+
+
+@pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]), ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)])])
+def test_records_with_their_factors(text, found):
+    assert following(text, "--then") == found
+
+
+@pytest.mark.parametrize("text", ["", "b@", "b@-1", "b@x", "@2", "b;;c", "b@nan"])
+def test_wrong_records(text):
+    with pytest.raises(RecordError, match="--then"):
+        MotionRequest(then=text).check()
+
+
+def test_gap_belongs_to_a_sequence():
+    with pytest.raises(RecordError, match="--gap belongs to a sequence; give --then"):
+        MotionRequest(gap=3.0).check()
+
+
+@pytest.fixture
+def files(tmp_path):
+    for name, seed in (("fore", 0), ("main", 1)):
+        write_csv(motion(0.01, 500, name, seed), tmp_path / f"{name}.csv")
+    return tmp_path
+
+
+def test_a_request_processes_each_record(files):
+    """Scaled to 100 gal each, the second then doubled; cut to two seconds each."""
+    request = MotionRequest(record=str(files / "fore.csv"), then=f"{files / 'main.csv'}@2", pga=100.0, end=2.0, gap=1.0)
+    request.check()
+    found = request.motion(2.5e-4)
+    assert found.duration == pytest.approx(2.01 + 1.0 + 2.01)
+    assert [max(part.pga_gal["ns"], part.pga_gal["ew"]) for part in found.parts] == pytest.approx([100, 200])
+
+
+def test_resampled_records_have_one_step(files):
+    found = MotionRequest(record=str(files / "fore.csv"), then=str(files / "main.csv"), resample=True).motion(1e-3)
+    assert found.dt == 1e-3 and len(found.parts) == 2
+
+
+def test_the_column_of_a_table(files):
+    """Paths relative to the table; the name of the run depends on the content of the second record."""
+    path = files / "runs.txt"
+    path.write_text("house record then gap\nC fore.csv main.csv@0.8 3\n")
+    row, = read_table(path)
+    assert row.then == f"{files / 'main.csv'}@0.8" and row.value("gap") == 3.0
+    assert following(row.then, "then")[0][1] == 0.8 and read_motion(row.record).dt == pytest.approx(0.01)
+    before = row.name
+    write_csv(motion(0.01, 500, "main", 2), files / "main.csv")
+    from yade_timber.study.batch import table
+    table._record_digest.cache_clear()
+    assert read_table(path)[0].name != before
