@@ -17,6 +17,7 @@ from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
 from .structure import Structure, require_few
+from .walls import sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
@@ -37,6 +38,8 @@ def build_house(description, snow_depth=None, check=True):
     apply_loads(elements, structures, data["loads"])
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
+    for structure in structures.values():
+        joints += sheathe(structure, elements, data)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)
     if check:

@@ -12,6 +12,7 @@ from .layout import HOUSE, MAX_SNOW, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail, nearest
+from .walls import check_wall_types
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ def checked(table, path):
     check_friction(data)
     check_joint_types(data["joint_types"])
     check_joint_rules(data["joints"])
+    check_wall_types(data["wall_types"])
     require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data
 
@@ -66,6 +68,11 @@ def _check_references(data):
         _require_known(table, "material", data["materials"], name, "material")
     for name, rule in data["joints"].items():
         _require_known(rule, "type", data["joint_types"], f"joints.{name}", "joint type")
+    for name, structure in data["structures"].items():
+        for i, line in enumerate(structure["walls"]):
+            for wall in line["type"]:
+                if wall not in data["wall_types"]:
+                    fail(line.at("type"), f"structures.{name}.walls[{i + 1}].type", f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}")
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
             _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")

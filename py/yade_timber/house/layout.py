@@ -79,6 +79,9 @@ layer = Variants("layer", {
     "roof": roof,
 })
 
+wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "type": ListOf(word(), scalar=True, most=5),
+                    "opening": Choice(("none", "window", "door"), "none"), "storeys": storeys})
+
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
 
@@ -100,6 +103,7 @@ structure = Record({
     "stack": ListOf(layer, most=MAX_LAYERS),
     "columns": ListOf(column_group),
     "braces": braces,
+    "walls": ListOf(wall_line, default=()),
     "loads": loads,
 })
 
@@ -120,6 +124,13 @@ joint_type = Record({
 })
 SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
+
+wall_type = Record({
+    "multiplier": Number("", 0.1, 20.0, default=None),
+    "strength": Number("N/m", 10.0, 1e6, default=None), "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
+    "friction_share": Number("", 0.0, 1.0, default=0.2),
+    "softening_drift": Number("rad", 1e-4, 1.0, default=0.05), "ultimate_drift": Number("rad", 1e-4, 1.0, default=0.103),
+})
 
 joint_rule = Record({
     "between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(), "across": Flag(False),
@@ -147,6 +158,7 @@ HOUSE = Record({
     "structures": MapOf(structure),
     "loads": loads,
     "joint_types": MapOf(joint_type),
+    "wall_types": MapOf(wall_type, default={}),
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),

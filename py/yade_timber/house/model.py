@@ -53,17 +53,17 @@ class Element:
 
 @dataclass(eq=False)
 class JointSpec:
-    """Four springs between elements `a` and `b` at the corners of their contact area (paper, 2.4 and 4)."""
+    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4 and 4), or one of a wall."""
 
     a: str
     b: str
-    points: np.ndarray   # (4, 3) spring points [m], world frame
-    normal: np.ndarray   # (3,) unit, from a to b
+    points: np.ndarray   # (4, 3) or (1, 3) spring points [m], world frame
+    normal: np.ndarray   # (3,) unit, from a to b; of a wall, along which its spring acts
     area: float          # contact area [m2]
     type: str            # key of joint_types
     kind: str            # 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...
     kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
-    ks: float            # [N/m] tangential stiffness, likewise
+    ks: float            # [N/m] tangential stiffness, likewise; 0: the springs act along the normal only
     strength: float      # [N] P_max, with law 'slip' the yield force, likewise; inf: unbreakable
     per: str             # 'spring': values of each spring; 'joint': of the joint as a whole
     storey: int
@@ -76,10 +76,11 @@ class JointSpec:
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
+    label: str = ""      # name of a joint that is not named after its members: of a wall
 
     @property
     def name(self):
-        return f"{self.a}|{self.b}"
+        return self.label or f"{self.a}|{self.b}"
 
     @property
     def centre(self):
@@ -124,6 +125,7 @@ class HouseModel:
             "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
             "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)),
             "braces": len(braces),
+            "wall_sheets": sum(j.kind == "wall_beam" for j in self.joints),
             "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
             "joints": len(self.joints),
             "joints_by_kind": dict(Counter(j.kind for j in self.joints)),

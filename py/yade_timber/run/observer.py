@@ -104,7 +104,8 @@ def sides_of(joint):
 def break_row(entry, model):
     """Values of a JointBreak in the order of breaks.csv."""
     joint = model.joints[entry.joint]
-    return entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, entry.cause, entry.force
+    cause = "shear" if joint.ks == 0 else entry.cause  # of a wall: tension and compression are directions of its drift
+    return entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, cause, entry.force
 
 
 # --- states -----------------------------------------------------------------------------------------------------------

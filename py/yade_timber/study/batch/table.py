@@ -101,7 +101,6 @@ class Row:
         content = json.dumps([sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()])
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
 
-
     def _then_digests(self):
         """Of the records that follow; none without a sequence."""
         return [] if self.then is None else [_record_digest(entry.rpartition("@")[0] or entry) for entry in self.then.split(";")]

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sheathed walls: springs of the law slip in each bay, whose shear follows the backbone of a wall test. Lengths in m.
+
+A sheet is nailed to the beams above and below it and to the columns at its sides. Its drift is that of its bay. Half of its shear H acts
+between the beams, horizontally; the other half between the columns, vertically: as a force H h / L, with the bay's height h and length L,
+which does the same work and pulls the columns out of their joints. The half is the factor 0.5 by which the rule for fittings of the
+Japanese code (Notification 1460 of 2000, N-value method) takes the restraint of neighbouring members into account.
+
+Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no stiffness across their plane.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import HouseError
+from .members import DIRECTION, column_plan
+from .model import JointSpec
+from .schema import fail
+from .structure import ACROSS
+
+ALLOWABLE = 1960.0
+"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article 46)"""
+STRENGTH_RATIO, STIFFNESS_RATIO = 1.5, 150.0
+"""Least strength over the allowable shear [-], least stiffness over it [1/rad], by which wall tests give a multiplier: two thirds of the largest
+load, and the load at a drift of 1/150."""
+SHARE = 0.5
+"""Of a wall's shear, between beams and between columns. [-]"""
+OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
+"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (JBDPA, precise diagnosis of 2004). [-]"""
+REACH = 1e-3
+"""Beyond the ends of the columns, where beam and sill are looked for. [m]"""
+KINDS = ("wall_beam", "wall_column")
+"""Kinds of joints: between beams, between columns."""
+
+
+@dataclass(frozen=True)
+class Bay:
+    """A bay with sheathing: its two columns (elements), line, storey, opening and source in the house file."""
+
+    name: str
+    low: object
+    high: object
+    side: frozenset
+    opening: str
+    where: str
+
+    @property
+    def length(self):
+        """Between the axes of the columns. [m]"""
+        return float(np.hypot(*(self.high.solid.centroid - self.low.solid.centroid)[:2]))
+
+    @property
+    def height(self):
+        """Clear height of the columns. [m]"""
+        low, high = self.low.solid.bounds[:, 2]
+        return float(high - low)
+
+    @property
+    def centre(self):
+        """(3,) [m]"""
+        return (self.low.solid.centroid + self.high.solid.centroid) / 2
+
+    @property
+    def share(self):
+        """Of the strength of a wall without an opening. [-]"""
+        return OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
+
+    def end(self, top):
+        """(3,) point just above the top or below the foot of the bay, midway between the columns. [m]"""
+        level = self.low.solid.bounds[1 if top else 0][2]
+        ends = [column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0) for column in (self.low, self.high)]
+        return np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
+
+
+def check_wall_types(types):
+    """HouseError for a type without strength or stiffness, or whose yield, softening and ultimate drift do not ascend."""
+    for name, table in types.items():
+        for key in ("strength", "stiffness"):
+            if table["multiplier"] is None and table[key] is None:
+                fail(table.where, f"wall_types.{name}", f"give multiplier or {key}")
+        strength, stiffness = backbone(table)
+        start, first, last = strength / stiffness, table["softening_drift"], table["ultimate_drift"]
+        if not start < first < last:
+            fail(table.at("softening_drift"), f"wall_types.{name}", f"strength / stiffness = {start:.3g}, softening_drift {first:g} and "
+                 f"ultimate_drift {last:g} must ascend")
+
+
+def backbone(table):
+    """(strength [N/m], stiffness [N/m per rad]) of a wall type: its own, else those that its multiplier demands."""
+    allowable = ALLOWABLE * (table["multiplier"] or 0.0)
+    return (STRENGTH_RATIO * allowable if table["strength"] is None else table["strength"],
+            STIFFNESS_RATIO * allowable if table["stiffness"] is None else table["stiffness"])
+
+
+def sheathe(structure, elements, data):
+    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file."""
+    members = [element for element in elements if element.group in (structure.name, "")]
+    joints, seen = [], {}
+    for line in structure.table["walls"]:
+        for bay in _bays(structure, line, {element.name: element for element in members}):
+            for name in line["type"]:
+                if (bay.name, name) in seen:
+                    raise HouseError(f"{bay.where}: {bay.name} has sheathing of type {name} already ({seen[bay.name, name]}); remove one")
+                seen[bay.name, name] = bay.where
+                joints += _joints(bay, name, members, data)
+    return joints
+
+
+def _bays(structure, line, by_name):
+    """Bays of a line of the house file in all its storeys and positions."""
+    for number in line["storeys"]:
+        if number not in structure.storeys:
+            raise HouseError(f"{line.at('storeys')}: {structure.name}: walls: no storey {number}; the stack has {structure.storeys}")
+    bays = []
+    for storey in line["storeys"] or structure.storeys:
+        for at in line["at"]:
+            nodes = _nodes(structure, line, storey, at)
+            bays += [_bay(structure, line, (storey, at, low, high), by_name) for low, high in zip(nodes, nodes[1:])]
+    return bays
+
+
+def _nodes(structure, line, storey, at):
+    """Nodes with columns on a line from its first to its last node, which must be among them."""
+    along = line["along"]
+    on_line = sorted(x if along == "x" else y for x, y in column_plan(structure, storey) if (y if along == "x" else x) == at)
+    for key in ("from", "to"):
+        if line[key] not in on_line:
+            known = ", ".join(f"{node:g}" for node in on_line) or "none"
+            raise HouseError(f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}: no column at node "
+                             f"{line[key]:g}; nodes with columns on this line: {known}")
+    if line["from"] >= line["to"]:
+        raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
+    return [node for node in on_line if line["from"] <= node <= line["to"]]
+
+
+def _bay(structure, line, place, by_name):
+    """place: (storey, node of the line, nodes of the two columns)."""
+    storey, at, *ends = place
+    along, across = line["along"], ACROSS[line["along"]]
+    nodes = [(node, at) if along == "x" else (at, node) for node in ends]
+    low, high = (by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in nodes)
+    name = f"{structure.name}.wall{storey}.{DIRECTION[along]}.{across}{at:g}.{ends[0]:g}-{ends[1]:g}"
+    return Bay(name, low, high, structure.sides(**{across: at}), line["opening"], line.where)
+
+
+def _joints(bay, name, members, data):
+    """The two halves of a wall of the type `name`."""
+    along = bay.high.solid.centroid - bay.low.solid.centroid
+    along[2] = 0.0
+    below, above = (_member_at(bay, members, top) for top in (False, True))
+    beams = _values(bay, data["wall_types"][name], bay.height, 1.0)
+    columns = _values(bay, data["wall_types"][name], bay.length, bay.height / bay.length)
+    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side,
+                  group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"])
+    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=KINDS[0], label=f"{bay.name}.{name}.beams", **beams, **common),
+            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=KINDS[1], label=f"{bay.name}.{name}.columns", **columns, **common)]
+
+
+def _values(bay, table, lever, ratio):
+    """Law of one half. lever: stretch over drift [m]; ratio: force of the spring over the shear that it stands for [-]."""
+    part, (strength, stiffness) = SHARE * bay.share * bay.length * ratio, backbone(table)
+    return {"kn": part * stiffness / lever, "strength": part * strength, "friction_share": table["friction_share"],
+            "softening_stretch": lever * table["softening_drift"], "ultimate_stretch": lever * table["ultimate_drift"]}
+
+
+def _member_at(bay, members, top):
+    """The element on which the columns of a bay stand, or which lies on them, midway between them."""
+    point = bay.end(top)
+    for element in members:
+        low, high = element.solid.bounds
+        if element.kind not in ("column", "brace", "snow") and (low <= point).all() and (point <= high).all():
+            return element
+    word = "above" if top else "below"
+    raise HouseError(f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y {point[1]:.3f}, z {point[2]:.3f} m; "
+                     "lay one there or remove the wall")
