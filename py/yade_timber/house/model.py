@@ -125,7 +125,7 @@ class HouseModel:
             "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
             "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)),
             "braces": len(braces),
-            "wall_sheets": sum(j.kind == "wall_beam" for j in self.joints),
+            "walls": len({(j.a, j.b) for j in self.joints if j.kind == "wall_column"}),
             "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
             "joints": len(self.joints),
             "joints_by_kind": dict(Counter(j.kind for j in self.joints)),

@@ -145,7 +145,8 @@ def _bay(structure, line, place, by_name):
 
 
 def _joints(bay, name, members, data):
-    """The two halves of a wall of the type `name`."""
+    """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in '.plywood.window.beams'."""
+    label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
     along = bay.high.solid.centroid - bay.low.solid.centroid
     along[2] = 0.0
     below, above = (_member_at(bay, members, top) for top in (False, True))
@@ -153,8 +154,8 @@ def _joints(bay, name, members, data):
     columns = _values(bay, data["wall_types"][name], bay.length, bay.height / bay.length)
     common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side,
                   group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"])
-    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=KINDS[0], label=f"{bay.name}.{name}.beams", **beams, **common),
-            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=KINDS[1], label=f"{bay.name}.{name}.columns", **columns, **common)]
+    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=KINDS[0], label=f"{label}.beams", **beams, **common),
+            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=KINDS[1], label=f"{label}.columns", **columns, **common)]
 
 
 def _values(bay, table, lever, ratio):

@@ -2,7 +2,7 @@
 """Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey. Needs no YADE."""
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.patches import Ellipse, Polygon, Rectangle
+from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 
 from ..base import colors
 from ..house import weigh
@@ -17,12 +17,14 @@ OBLIQUE = View("space", "In space, from the north-east (roof half transparent)",
 TRANSPARENT = ("roof", "snow")
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
-CELLS = ((0.06, 0.49, 0.42, 0.375), (0.55, 0.49, 0.42, 0.375), (0.06, 0.105, 0.42, 0.335), (0.55, 0.105, 0.42, 0.335))
+CELLS = ((0.06, 0.49, 0.42, 0.36), (0.55, 0.49, 0.42, 0.36), (0.06, 0.105, 0.42, 0.335), (0.55, 0.105, 0.42, 0.335))
 """Left, bottom, width, height of the four drawings in parts of the figure."""
 DAMAGE_MARGIN = 0.35
 """Between damaged joints and the ellipse around them. [m]"""
 NODE_GAP = 0.33
 """Between a structure's outer grid line and the numbers of its nodes in the plan. [m]"""
+WALL, WALL_WIDTH = "#8c6d46", 0.16
+"""Of sheathed bays in the plan: colour, width [m]."""
 LABEL_GAP = 0.12
 """Between the baselines of two labels of heights. [inch]"""
 THICK = 0.11
@@ -60,8 +62,9 @@ def describe(model):
     found = model.counts()
     snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
     columns = " and ".join(f"{count} columns of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
+    walls = f", {found['walls']} bays with walls" if found["walls"] else ""
     description = " ".join(model.description.split())
-    return f"{description}\n{columns}, {found['braces']} braces, {found['joints']} joints{snow}\n{sentence(weigh(model))}"
+    return f"{description}\n{columns}, {found['braces']} braces{walls}, {found['joints']} joints{snow}\n{sentence(weigh(model))}"
 
 
 def density(ax, box, dpi):
@@ -127,11 +130,14 @@ def draw_plan(ax, model):
     for element in model.of_kind("brace"):
         if element.storey == 1:
             draw_brace(ax, element)
+    for joint in model.joints:
+        if joint.kind == "wall_column" and joint.storey == 1:
+            draw_wall(ax, model, joint)
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
     for grid in model.grids.values():
         number_nodes(ax, grid, next(iter(model.grids.values())))
-    ax.set_title("Plan of the first storey, north up: columns and braces", fontsize=9, loc="left")
+    ax.set_title("Plan of the first storey, north up: columns, braces and walls", fontsize=9, loc="left")
     finish_plan(ax, columns)
 
 
@@ -151,6 +157,15 @@ def draw_outline(ax, element, **style):
     """The bounding rectangle of an element in plan."""
     low, high = element.solid.bounds[:, :2]
     ax.add_patch(Rectangle(low, *(high - low), **style))
+
+
+def draw_wall(ax, model, joint):
+    """The sheathing of a bay seen from above: a filled band, or two lines where it has a window or a door."""
+    start, end = (model.element(name).solid.centroid[:2] for name in (joint.a, joint.b))
+    aside = WALL_WIDTH / 2 * np.array([start[1] - end[1], end[0] - start[0]]) / np.linalg.norm(end - start)
+    has_opening = any(f".{opening}." in joint.name for opening in ("window", "door"))
+    ax.add_patch(Polygon([start + aside, end + aside, end - aside, start - aside], closed=True, facecolor="white" if has_opening else WALL,
+                         edgecolor=WALL, lw=0.8, zorder=1 if has_opening else 1.5))
 
 
 def draw_brace(ax, element):
@@ -197,6 +212,8 @@ def legend(figure, solids, model):
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
         entries.append(Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE, label="brace (plan; thin end: foot)"))
+    if any(j.kind == "wall_column" and j.storey == 1 for j in model.joints):
+        entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black",
                               label="joint broken before the start"))
