@@ -103,7 +103,7 @@ def sheet(frames, view, form):
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
-    legend(figure, start, {mark.state for shot in shots for mark in shot.marks}, 8)
+    legend(figure, start, {state for shot in shots for state in shot.states}, 8)
     return figure
 
 
@@ -139,5 +139,5 @@ def both_views(frames, frame, dpi):
         scale_bar(ax, box, 10)
         left += size[0] + GAP
     heading(figure, f"{frames.title}. After {frames.time[frame]:.1f} s", result(frames))
-    legend(figure, start, {mark.state for mark in shot.marks}, 10)
+    legend(figure, start, shot.states, 10)
     return figure

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """From recorded frames to plain data for pictures. Needs no YADE."""
 from ..base import colors
+from .panels import panels
 from .views import Mark, Snapshot, Solid
 
 
 def snapshot(frames, frame):
     """Snapshot of a frame."""
-    return Snapshot(solids(frames, frame), marks(frames, frame))
+    return Snapshot(solids(frames, frame), marks(frames, frame), panels(frames, frame))
 
 
 def solids(frames, frame=None):
@@ -17,6 +18,6 @@ def solids(frames, frame=None):
 
 
 def marks(frames, frame):
-    """Mark of every joint that is broken or partly broken in a frame."""
-    positions = frames.joint_places(frame)
-    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame)) if state != "whole"]
+    """Mark of every joint that is broken or partly broken in a frame, without those of walls, which are drawn as panels."""
+    positions, kinds = frames.joint_places(frame), frames.joints.kind
+    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame)) if state != "whole" and not kinds[j].startswith("wall_")]

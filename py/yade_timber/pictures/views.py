@@ -7,6 +7,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..base import colors
+from .panels import NAMES as PANEL_NAMES
+from .panels import STYLES, draw_panels
 from .raster import Window, outline, shade
 
 
@@ -47,6 +49,12 @@ class Snapshot:
 
     solids: list
     marks: list = field(default_factory=list)
+    panels: list = field(default_factory=list)
+
+    @property
+    def states(self):
+        """Of its marks, and 'wall whole', 'wall partly', 'wall broken' of its panels: what the legend explains."""
+        return {mark.state for mark in self.marks} | {f"wall {panel.state}" for panel in self.panels}
 
 
 FRONT = View("front", "Front, seen from the east", (0, 1, 0), (1, 0, 0), "south", "north")
@@ -96,6 +104,7 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
     picture, depth = shade(snapshot.solids, window, front)
     ax.imshow(np.rint(255 * picture).astype(np.uint8), extent=box, interpolation="none", aspect="equal")
     ax.axhline(0, color="black", linewidth=0.16 * mark_size)
+    draw_panels(ax, window.view, snapshot.panels)
     for mark in snapshot.marks:
         draw_mark(ax, window, depth, mark, mark_size)
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
@@ -150,6 +159,7 @@ def legend(figure, solids, states, size):
     """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
+    entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
     style = dict(handles=entries, loc="lower center", ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5, columnspacing=1.6)

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sheathed walls in the front and side views: whole, partly broken, broken. Needs no YADE."""
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.patches import Polygon
+
+from ..base import colors
+
+FACING = {(1, 0, 0): "east", (0, 1, 0): "north"}
+"""Outer walls that face the viewer: direction towards the viewer -> side."""
+FILL = "#d8c39a"
+"""Of a whole wall."""
+STYLES = {
+    "whole": dict(facecolor=FILL, edgecolor=FILL, alpha=0.45, linewidth=0.0),
+    "partly": dict(facecolor=FILL, edgecolor=colors.AMBER, alpha=0.7, linewidth=1.0, hatch="//"),
+    "broken": dict(facecolor="none", edgecolor=colors.ORANGE, alpha=0.9, linewidth=0.8, hatch="x"),
+}
+OPENINGS = {"window": (0.2, 0.8, 0.33, 0.78), "door": (0.2, 0.8, 0.0, 0.75)}
+"""Left, right, lower and upper edge of an opening as parts of its bay."""
+OPEN = dict(facecolor="#e8f1f8", edgecolor="#777777", linewidth=0.5)
+NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken"}
+
+
+@dataclass
+class Panel:
+    """The wall of a bay. corners (4, 3) world [m], around the bay; sides: of the house, as 'north'; state: a key of STYLES."""
+
+    corners: np.ndarray
+    sides: tuple
+    state: str
+    opening: str = ""
+
+    def opening_corners(self):
+        """(4, 3) corners of its opening. [m]"""
+        left, right, low, high = OPENINGS[self.opening]
+        foot, other_foot, other_head, head = self.corners
+        at = [(left, low), (right, low), (right, high), (left, high)]
+        return np.array([(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head for u, v in at])
+
+
+def panels(frames, frame):
+    """Panels of all walls in a frame; their corners are the ends of the axes of the bays' columns."""
+    joints, states = frames.joints, frames.joint_states(frame)
+    sheets = {}
+    for number, kind in enumerate(joints.kind):
+        if kind == "wall_column":
+            sheets.setdefault((joints.a[number], joints.b[number]), []).append(number)
+    found = []
+    for (low, high), numbers in sheets.items():
+        (foot, head), (other_foot, other_head) = (axis_ends(frames, frame, column) for column in (low, high))
+        broken = [states[number] != "whole" for number in numbers]
+        state = "broken" if all(broken) else "partly" if any(broken) else "whole"
+        opening = next((name for name in OPENINGS if f".{name}." in joints.name[numbers[0]]), "")
+        found.append(Panel(np.array([foot, other_foot, other_head, head]), tuple(joints.side[numbers[0]].split("+")), state, opening))
+    return found
+
+
+def axis_ends(frames, frame, column):
+    """((3,) foot, (3,) head) of a column's axis in a frame. [m]"""
+    top = frames.corners_at_start(column)[:, 2]
+    corners = frames.corners(frame, column)
+    return corners[top < top.mean()].mean(0), corners[top > top.mean()].mean(0)
+
+
+def draw_panels(ax, view, shown):
+    """Panels of the outer wall that faces the viewer. view: View; shown: list of Panel."""
+    for panel in shown:
+        if FACING.get(tuple(view.toward)) in panel.sides:
+            ax.add_patch(_polygon(view, panel.corners, **STYLES[panel.state]))
+            if panel.opening and panel.state != "broken":
+                ax.add_patch(_polygon(view, panel.opening_corners(), **OPEN))
+
+
+def _polygon(view, corners, **style):
+    return Polygon(np.column_stack([corners @ view.right, corners @ view.up]), closed=True, zorder=4, **style)

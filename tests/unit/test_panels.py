@@ -1,0 +1,53 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Panels of walls in pictures: corners, states, openings."""
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+from yade_timber.pictures.figures import new_figure  # noqa: E402
+from yade_timber.pictures.panels import draw_panels, panels  # noqa: E402
+from yade_timber.pictures.views import FRONT, SIDE, Snapshot  # noqa: E402
+
+
+def column(y):
+    """Corners of a column of 0.1 x 0.1 x 2.5 m on the ground at x = 0."""
+    return np.array([[dx, y + dy, z] for z in (0, 2.5) for dx in (-0.05, 0.05) for dy in (-0.05, 0.05)])
+
+
+def frames(*states, name="h.wall1.NS.x0.0-1.mud.window.columns"):
+    """Two columns 2 m apart, the second one lifted by 0.1 m in frame 0, with one sheet for each state."""
+    start = [column(0.0), column(2.0)]
+    moved = [start[0], start[1] + [0, 0, 0.1]]
+    count = len(states)
+    joints = SimpleNamespace(kind=["wall_column"] * count, a=[0] * count, b=[1] * count, side=["east"] * count, name=[name] * count)
+    return SimpleNamespace(joints=joints, joint_states=lambda frame: states, corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
+
+
+@pytest.mark.parametrize("states, state", [(("whole", "whole"), "whole"), (("broken", "whole"), "partly"), (("broken", "broken"), "broken")])
+def test_corners_and_states(states, state):
+    panel, = panels(frames(*states), 0)
+    assert panel.corners == pytest.approx(np.array([[0, 0, 0], [0, 2, 0.1], [0, 2, 2.6], [0, 0, 2.5]]))
+    assert (panel.state, panel.sides, panel.opening) == (state, ("east",), "window")
+    assert Snapshot([], [], [panel]).states == {f"wall {state}"}
+
+
+def test_opening_lies_within_the_bay():
+    panel, = panels(frames("whole"), 0)
+    corners = panel.opening_corners()
+    assert corners[0] == pytest.approx([0, 0.4, 0.33 * 2.5 + 0.2 * 0.1]) and corners[2] == pytest.approx([0, 1.6, 0.78 * 2.5 + 0.8 * 0.1])
+
+
+def test_walls_that_face_the_viewer_are_drawn():
+    """The wall of the east side in the front view: its panel and its window; none in the side view."""
+    for view, drawn in ((FRONT, 2), (SIDE, 0)):
+        ax = new_figure(2, 2, 50).add_axes((0, 0, 1, 1))
+        draw_panels(ax, view, panels(frames("whole"), 0))
+        assert len(ax.patches) == drawn
