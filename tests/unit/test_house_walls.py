@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, load_house, weigh  # noqa: E402
+from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh  # noqa: E402
 
 
 def house(tmp_path, walls, types="{}", base="C"):
@@ -75,6 +76,27 @@ def test_the_tiled_house():
     model = build_house(load_house("tiled_house"))
     assert 2.5 < weigh(model)["per_floor_area_kn_m2"] < 3.0
     assert model.counts()["braces"] == 0 and model.counts()["walls"] == 64
+
+
+def test_walls_are_added_by_name(tmp_path):
+    """In a bay without walls of house C, and in all of them; a second one of the type is refused by the name of its bay."""
+    names = free_wall_bays(load_house("C"), "plywood")
+    assert "main.wall1.EW.y0.3-4.plywood" in names and len(names) == len(set(names)) > 80
+    path = tmp_path / "walled.yaml"
+    path.write_text(yaml.safe_dump(changed_house("C", braces=names), sort_keys=False))
+    assert build_house(load_house(path)).counts()["walls"] == len(names) and free_wall_bays(load_house(path), "mud") == []
+    path.write_text(yaml.safe_dump(changed_house(path, braces=names[:1]), sort_keys=False))
+    with pytest.raises(HouseError, match=f"{names[0].removesuffix('.plywood')} has sheathing of type plywood already"):
+        build_house(load_house(path))
+
+
+@pytest.mark.parametrize("name, words", [
+    ("main.wall1.EW.y0.3-4", "a wall like main.wall2.NS.x8.6-7.plywood"),
+    ("shed.wall1.EW.y0.3-4.mud", "unknown structure 'shed'"),
+])
+def test_wrong_names_of_walls(name, words):
+    with pytest.raises(HouseError, match=words):
+        changed_house("C", braces=[name])
 
 
 MISTAKES = {

@@ -5,7 +5,7 @@
     model.elements, model.joints, model.counts()
 """
 
-from .bays import free_bays
+from .bays import free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses
@@ -15,4 +15,4 @@ from .overlay import brace_parts, changed_house
 from .weight import weigh
 
 __all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
-           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "load_house", "overlaps", "shipped_houses", "weigh"]
+           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "overlaps", "shipped_houses", "weigh"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bays without a brace: between neighbouring columns on a line of beams."""
+"""Bays without a brace or without a wall: between neighbouring columns on a line of beams. Names are those that `changed_house` takes."""
 
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
@@ -11,30 +11,62 @@ def free_bays(description):
     The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of houses B and C.
     """
     names = []
+    for structure, storey in _storeys(description):
+        braced = _braced(structure, storey)
+        for line, at, low, high in _bays(structure, storey):
+            if (line["along"], at, low, high) not in braced:
+                foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
+                names.append(_name(structure, "brace", storey, (line["along"], at, foot, head)))
+    return names
+
+
+def free_wall_bays(description, kind):
+    """Names of the walls of a type that can be added with `changed_house`, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for each bay without walls."""
+    names = []
+    for structure, storey in _storeys(description):
+        walled = _walled(structure, storey)
+        bays = ((line["along"], at, low, high) for line, at, low, high in _bays(structure, storey))
+        names += [f"{_name(structure, 'wall', storey, bay)}.{kind}" for bay in bays if bay not in walled]
+    return names
+
+
+def _storeys(description):
+    """(Structure, storey) of all storeys of a house."""
     structures = {}
     for name, table in description.data["structures"].items():
         structures[name] = Structure(name, table, description.data["materials"], structures)
         for storey in structures[name].storeys:
-            names += _free_in_storey(structures[name], storey)
-    return names
+            yield structures[name], storey
 
 
-def _free_in_storey(structure, storey):
-    braced = _braced(structure, storey)
+def _bays(structure, storey):
+    """(line, node of the line, lower node, higher node) of the bays of a storey."""
     plan = column_plan(structure, storey)
-    names = []
     for line in structure.table["lines"]:
         along = line["along"]
         for at in line["at"]:
             nodes = sorted(node[along == "y"] for node in plan if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"])
             for low, high in zip(nodes, nodes[1:]):
-                if (along, at, low, high) not in braced:
-                    foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
-                    names.append(f"{structure.name}.brace{storey}.{DIRECTION[along]}.{ACROSS[along]}{at:g}.{foot:g}-{head:g}")
-    return names
+                yield line, at, low, high
+
+
+def _name(structure, kind, storey, bay):
+    along, at, start, end = bay
+    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{at:g}.{start:g}-{end:g}"
+
+
+def _in_storey(lines, storey):
+    return [line for line in lines if not line["storeys"] or storey in line["storeys"]]
 
 
 def _braced(structure, storey):
     """{(along, at, lower node, higher node)} of the bays that have a brace in this storey."""
-    lines = [line for line in structure.table["braces"]["lines"] if not line["storeys"] or storey in line["storeys"]]
+    lines = _in_storey(structure.table["braces"]["lines"], storey)
     return {(line["along"], at, min(run), max(run)) for line in lines for at in line["at"] for run in line["runs"]}
+
+
+def _walled(structure, storey):
+    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey."""
+    lines = [(line["along"], at, line["from"], line["to"]) for line in _in_storey(structure.table["walls"], storey) for at in line["at"]]
+    bays = {(line["along"], at, low, high) for line, at, low, high in _bays(structure, storey)}
+    return {bay for bay in bays for along, at, first, last in lines if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last}

@@ -13,7 +13,9 @@ from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
 _NODE = r"(\d{1,4}(?:\.\d{1,6})?)"
-_BRACE = re.compile(rf"({NAME})\.brace(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}")
+_PLACE = rf"(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}"
+_BRACE = re.compile(rf"({NAME})\.brace{_PLACE}")
+_WALL = re.compile(rf"({NAME})\.wall{_PLACE}\.({NAME})")
 
 
 MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
@@ -24,7 +26,7 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     """The merged and changed tables of a house file, checked against the schema, as dicts and lists.
 
     settings  'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3': keys of the house file, list items from 1
-    braces    element names of the braces to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3)
+    braces    names of braces and walls to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3), 'main.wall1.EW.y0.3-4.plywood'
     strength  factor on the strength of all joint types
     where     function of 'set', 'braces' or 'strength' that gives the source of this change for messages
     Raises HouseError.
@@ -36,7 +38,7 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
         _set(data, text, where("set"))
     checked(data, path)
     for name in braces:
-        _add_brace(data, name, where("braces"))
+        (_add_wall if _WALL.fullmatch(name) else _add_brace)(data, name, where("braces"))
     checked(data, path)
     _strengthen(data, strength, where("strength"))
     return plain(data)
@@ -99,27 +101,49 @@ def _require_item(node, step, key, where):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
 
 
-# --- braces and joints ------------------------------------------------------------------------------------------------
+# --- braces, walls and joints ------------------------------------------------------------------------------------------------
 
 
 def brace_parts(name, where="brace"):
     """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises HouseError."""
     match = _BRACE.fullmatch(name)
     if match is None:
-        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or main.brace2.NS.x8.6-7")
+        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like main.wall2.NS.x8.6-7.plywood")
+    return _parts(match)
+
+
+def wall_parts(name):
+    """'main.wall1.EW.y0.3-4.plywood' -> ('main', storey 1, along 'x', at 0.0, from 3.0, to 4.0 [grid nodes], 'plywood'); None for another name."""
+    match = _WALL.fullmatch(name)
+    return match and (*_parts(match), match.groups()[-1])
+
+
+def _parts(match):
     structure, storey, wall, *nodes = match.groups()
-    return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes)
+    return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes[:3])
 
 
 def _add_brace(data, name, where):
     structure, storey, along, at, foot, head = brace_parts(name, where)
+    runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
+    table = _structure(data, structure, name, where).setdefault("braces", Table(where=where))
+    _append(table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs}, where)
+
+
+def _add_wall(data, name, where):
+    structure, storey, along, at, first, last, kind = wall_parts(name)
+    walls = _structure(data, structure, name, where).setdefault("walls", Items((), where))
+    _append(walls, {"along": along, "at": at, "storeys": storey, "from": first, "to": last, "type": kind}, where)
+
+
+def _structure(data, structure, name, where):
     if structure not in data["structures"]:
         raise HouseError(f"{where}: {name}: unknown structure '{structure}'; known: {', '.join(data['structures'])}")
-    line = {"along": along, "at": at, "storeys": storey}
-    runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
-    table = data["structures"][structure].setdefault("braces", Table(where=where))
-    lines = table.setdefault("lines", Items((), where))
-    lines.append(Table({**line, "runs": runs}, where, dict.fromkeys([*line, "runs"], where)))
+    return data["structures"][structure]
+
+
+def _append(lines, line, where):
+    lines.append(Table(line, where, dict.fromkeys(line, where)))
     lines.entries.append(where)
 
 

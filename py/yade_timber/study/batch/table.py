@@ -26,7 +26,7 @@ NO_EARTHQUAKE = "none"
 OWN = {
     "house": (str, "shipped house or house file"),
     "set": (str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"),
-    "braces": (str, "names of braces to add to the house, separated by ;"),
+    "braces": (str, "names of braces and walls to add to the house, separated by ;"),
     "strength": (float, "factor on the strength of all joints (default 1)"),
     "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
     "joint_damping": (float, "damping ratio of all joints (default: the house's own)"),
