@@ -8,6 +8,7 @@ from ..base import colors
 from ..house import weigh
 from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
+from .panels import panels_as_built
 from .raster import Window, even_density, front_of, shade
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
 
@@ -99,7 +100,7 @@ def draw_elevation(ax, view, solids, model, dpi):
     box = box_of(view, solids, [])
     window = Window(view, box, density(ax, box, dpi))
     fit(ax, window, dpi)
-    draw_view(ax, window, Snapshot(solids), front_of(solids, view))
+    draw_view(ax, window, Snapshot(solids, panels=panels_as_built(model)), front_of(solids, view))
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
     levels = (z for storeys in model.storey_levels.values() for pair in storeys.values() for z in pair)

@@ -39,28 +39,58 @@ class Panel:
         return np.array([(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head for u, v in at])
 
 
+@dataclass
+class Sheet:
+    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint."""
+
+    bay: tuple
+    ends: list
+    sides: tuple
+    name: str
+    broken: bool
+
+
 def panels(frames, frame):
     """Panels of all walls in a frame; their corners are the ends of the axes of the bays' columns."""
     joints, states = frames.joints, frames.joint_states(frame)
-    sheets = {}
-    for number, kind in enumerate(joints.kind):
+    sheets = []
+    for k, kind in enumerate(joints.kind):
         if kind == "wall_column":
-            sheets.setdefault((joints.a[number], joints.b[number]), []).append(number)
+            bay = joints.a[k], joints.b[k]
+            ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
+            sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], states[k] != "whole"))
+    return of_sheets(sheets)
+
+
+def panels_as_built(model):
+    """Panels of all walls of a HouseModel."""
+    sheets = []
+    for joint in model.joints:
+        if joint.kind == "wall_column":
+            ends = [axis_ends(vertices, vertices) for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
+            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, joint.broken))
+    return of_sheets(sheets)
+
+
+def of_sheets(sheets):
+    """One Panel for each bay, of all its sheets."""
+    bays = {}
+    for sheet in sheets:
+        bays.setdefault(sheet.bay, []).append(sheet)
     found = []
-    for (low, high), numbers in sheets.items():
-        (foot, head), (other_foot, other_head) = (axis_ends(frames, frame, column) for column in (low, high))
-        broken = [states[number] != "whole" for number in numbers]
+    for layers in bays.values():
+        (foot, head), (other_foot, other_head) = layers[0].ends
+        broken = [sheet.broken for sheet in layers]
         state = "broken" if all(broken) else "partly" if any(broken) else "whole"
-        opening = next((name for name in OPENINGS if f".{name}." in joints.name[numbers[0]]), "")
-        found.append(Panel(np.array([foot, other_foot, other_head, head]), tuple(joints.side[numbers[0]].split("+")), state, opening))
+        opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
+        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].sides, state, opening))
     return found
 
 
-def axis_ends(frames, frame, column):
-    """((3,) foot, (3,) head) of a column's axis in a frame. [m]"""
-    top = frames.corners_at_start(column)[:, 2]
-    corners = frames.corners(frame, column)
-    return corners[top < top.mean()].mean(0), corners[top > top.mean()].mean(0)
+def axis_ends(start, corners):
+    """((3,) foot, (3,) head) of a column's axis. start, corners: its corners (n, 3) before the first step and now [m]."""
+    height = start[:, 2]
+    return corners[height < height.mean()].mean(0), corners[height > height.mean()].mean(0)
 
 
 def draw_panels(ax, view, shown):
