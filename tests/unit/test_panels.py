@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Panels of walls in pictures: corners, states, openings."""
+"""Walls in pictures: corners, states, openings of panels; walls and node numbers in the plan."""
 
 import sys
 from pathlib import Path
@@ -12,6 +12,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+from yade_timber.house import build_house, load_house  # noqa: E402
+from yade_timber.pictures import drawings  # noqa: E402
 from yade_timber.pictures.figures import new_figure  # noqa: E402
 from yade_timber.pictures.panels import draw_panels, panels  # noqa: E402
 from yade_timber.pictures.views import FRONT, SIDE, Snapshot  # noqa: E402
@@ -51,3 +53,15 @@ def test_walls_that_face_the_viewer_are_drawn():
         ax = new_figure(2, 2, 50).add_axes((0, 0, 1, 1))
         draw_panels(ax, view, panels(frames("whole"), 0))
         assert len(ax.patches) == drawn
+
+
+def test_plan_numbers_the_nodes():
+    """tiled_house: 9 nodes along x, 8 along y."""
+    ax = new_figure(4, 4, 50).add_axes((0, 0, 1, 1))
+    drawings.draw_plan(ax, build_house(load_house("tiled_house")))
+    numbers = [text.get_text() for text in ax.texts if text.get_text().isdigit()]
+    assert sorted(map(int, numbers)) == sorted([*range(9), *range(8)])
+
+
+def test_house_sheet_states_the_weight():
+    assert "weighs 266 kN, 2.87 kN per m2 of floor; carried by storey 1 232 kN, storey 2 97 kN" in drawings.describe(build_house(load_house("tiled_house")))
