@@ -129,12 +129,17 @@ def contact_points():
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE. events: those known already, as from a checkpoint."""
+    """Notes the events of the run that is loaded in YADE, and the peak drifts of its structures. known: `progress` of a checkpoint."""
 
-    def __init__(self, model, events=()):
+    def __init__(self, model, known=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
-        self.log = EventLog(self.survey, events)
+        self.log = EventLog(self.survey, known["events"] if known else ())
+        self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
+
+    def progress(self):
+        """What a checkpoint must hold besides the scene: the argument `known`."""
+        return {"events": self.log.records(), "peaks": self.peaks}
 
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
@@ -154,4 +159,6 @@ class Observer:
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):
             self.log.add(monitor.collapseTime, "collapse", "collapse: a floor has come down by half a storey")
-        self.log.observe(time, self.state())
+        state = self.state()
+        self.log.observe(time, state)
+        self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}

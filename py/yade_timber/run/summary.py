@@ -11,6 +11,8 @@ from ..motion import interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
+from ..recording.sentences import largest_drift, sentence
+from ..recording.verdict import judge, leans
 from ..scene import queries
 from ..scene.engines import find_engine
 from . import observer
@@ -34,7 +36,7 @@ def summary(scenario, observed, wall_s):
     tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
-    return {
+    found = {
         "scenario": scenario.name,
         "model": model.name,
         "earthquake": scenario.motion is not None,
@@ -70,6 +72,20 @@ def summary(scenario, observed, wall_s):
         "energy": energy_balance(queries.energy()),
         "versions": versions(),
     }
+    found["structures"] = structures(found, observed, state)
+    return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
+
+
+def structures(found, observed, state):
+    """The part `structures`: facts and verdict of each structure. Drifts of the main one are those of `peak_drift` and `residual_drift`."""
+    damage, main = observed.survey.by_structure(state), observed.survey.structures[0]
+    facts = {name: {"peak_drift": observed.peaks[name], "residual_drift": observed.survey.drift(state, name), **known} for name, known in damage.items()}
+    facts[main] |= {
+        "peak_drift": largest_drift(found)[0],
+        "residual_drift": largest_drift(found, "residual_drift")[0],
+        "collapsed": found["collapsed"],
+    }
+    return {name: {"verdict": judge(known), "leans": leans(known), **known} for name, known in facts.items()}
 
 
 def record(scenario):
