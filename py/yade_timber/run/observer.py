@@ -16,6 +16,10 @@ from ..recording.events import EventLog
 from ..recording.sentences import direction_name, joint_place
 from ..scene.engines import find_engine
 from ..scene.scenario import level_marks
+from .modal import modes_now
+
+SETTLED = 1.0
+"""Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
 
 BREAKS = ("time", "joint", "spring", "cause", "force")
 """Attributes of a JointBreak."""
@@ -129,17 +133,26 @@ def contact_points():
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE, and the peak drifts of its structures. known: `progress` of a checkpoint."""
+    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural modes.
+
+    known: `progress` of a checkpoint
+    """
 
     def __init__(self, model, known=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
         self.log = EventLog(self.survey, known["events"] if known else ())
         self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
+        self.modes = known["modes"] if known else None
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `known`."""
-        return {"events": self.log.records(), "peaks": self.peaks}
+        return {"events": self.log.records(), "peaks": self.peaks, "modes": self.modes}
+
+    @property
+    def main_levels(self):
+        """damage.Level of the main structure, from below."""
+        return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
@@ -161,4 +174,6 @@ class Observer:
             self.log.add(monitor.collapseTime, "collapse", "collapse: a floor has come down by half a storey")
         state = self.state()
         self.log.observe(time, state)
+        if self.modes is None and time > SETTLED - O.dt / 2:
+            self.modes = modes_now(self.main_levels)
         self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}

@@ -104,7 +104,7 @@ class Run:
     def _clear(self, *more):
         """Remove results of an earlier run and the files `more`: they must not be taken for results of this run."""
         try:
-            for name in (summary.SUMMARY, summary.HISTORY, summary.BREAKS, *all_pictures.NAMES, *more):
+            for name in (*summary.NAMES, *all_pictures.NAMES, *more):
                 (self.output.folder / name).unlink(missing_ok=True)
             remove_parts(self.output.folder)
         except OSError as problem:
@@ -225,7 +225,7 @@ class Run:
             if self.recorder:
                 self.recorder.finish(self.frames_path, found)
                 written.append(self.frames_path)
-            return written + summary.write(self.output.folder, found, self.model)
+            return written + summary.write(self.output.folder, found, self.observer)
         except OSError as problem:
             raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv."""
+"""Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv, and the tables of quantities.py."""
 import json
 import math
 
@@ -15,12 +15,14 @@ from ..recording.sentences import largest_drift, sentence
 from ..recording.verdict import judge, leans
 from ..scene import queries
 from ..scene.engines import find_engine
-from . import observer
+from . import observer, quantities
 from .versions import versions
 
 DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield")
 """Terms of the energy balance that are dissipated."""
 SUMMARY, BREAKS = "summary.json", "breaks.csv"
+NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
+"""Files that `write` makes."""
 
 O = yw.Omega()
 
@@ -73,6 +75,7 @@ def summary(scenario, observed, wall_s):
         "versions": versions(),
     }
     found["structures"] = structures(found, observed, state)
+    found["quantities"] = quantities.summarised(model, observed)
     return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
 
 
@@ -142,9 +145,10 @@ def breaks_text(model):
     return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
-def write(folder, found, model):
-    """Write the three files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
-    monitor = find_engine(yw.HouseMonitor)
+def write(folder, found, observed):
+    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
+    monitor, model = find_engine(yw.HouseMonitor), observed.model
+    tables = quantities.write(folder, model, observed)
     contents = {
         HISTORY: History(monitor.columns(), monitor.rows).text(),
         BREAKS: breaks_text(model),
@@ -152,4 +156,4 @@ def write(folder, found, model):
     }
     for name, text in contents.items():
         write_text(folder / name, text)
-    return [folder / name for name in contents]
+    return [*tables, *(folder / name for name in contents)]
