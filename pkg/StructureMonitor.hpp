@@ -19,7 +19,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(StructureMonitor, GlobalEngine,
 		"Samples the momentum of parts of the scene, each a set of bodies, and keeps the largest forces and openings of all joints. It changes no motion.",
 		((Real, interval, 0.01, Attr::triggerPostLoad, "Simulated time between samples of the momenta; 0: every step. [s]"))
-		((Real, jointInterval, 0.001, Attr::triggerPostLoad, "Simulated time between evaluations of the joints; 0: every step. [s]"))
+		((Real, jointInterval, 0.002, Attr::triggerPostLoad, "Simulated time between evaluations of the joints; 0: every step. [s]"))
 		((vector<int>, bodies, , Attr::triggerPostLoad, "Ids of the bodies of all parts. [-]"))
 		((vector<int>, parts, , Attr::triggerPostLoad, "Part of each of these bodies, from 0. [-]"))
 		((vector<Real>, pull, , , "Largest tension of each joint so far, the normal component of the sum of its spring forces. [N]"))
