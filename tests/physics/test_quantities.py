@@ -78,7 +78,7 @@ def test_weight_softens_and_overturns(density):
 
 
 def test_shear_is_the_force_of_the_columns():
-    """Base and storey shear from momenta = forces of contacts and joints in the cut, in every step of a shaken frame with contacts.
+    """Shear from momenta = minus the forces of contacts and joints in the cut, in every step of a shaken frame with contacts.
 
     The acceleration of the ground is constant, so that its mean over a step is its value; the remaining difference is rounding.
     """
@@ -97,7 +97,7 @@ def test_shear_is_the_force_of_the_columns():
     masses = [0, sum(O.bodies[c].state.mass for c in columns), O.bodies[slab].state.mass]
     table = storeys(np.insert(np.reshape(monitor.rows, (-1, 10)), 0, 0, axis=0)[1:], masses, Motion(0.01, 0.0, np.array(motion.acceleration), np.zeros((100, 3))))
     for k, names in enumerate((("base_shear_ew", "base_shear_ns"), ("shear_ew1", "shear_ns1"))):
-        found = np.array([table.column(name) for name in names]).T
+        found = -np.array([table.column(name) for name in names]).T
         scale = np.abs(found).max()
         assert scale > 20 and np.abs(found - np.array(forces)[1:, k]).max() < 1e-6 * scale
 

@@ -14,6 +14,7 @@ from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
 from ..recording.quantities import NAME as STOREYS
 from ..recording.quantities import Storeys
+from ..recording.lines import main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from .curves import DISSIPATED
 from .figures import A4, drawable, heading, heading_height, new_figure, save
@@ -69,16 +70,17 @@ def page(results, dpi):
     text = sentence(results.summary)
     storeys = max(1, results.storeys.count)
     top = 1 - (heading_height(A4[0], text) + 0.25) / A4[1]
-    rows = figure.add_gridspec(4, 6, left=0.09, right=0.975, top=top, bottom=0.075, hspace=0.48, wspace=1.1, height_ratios=(1.15, 1, 1.25, 1))
+    rows = figure.add_gridspec(4, 2, left=0.1, right=0.975, top=top, bottom=0.05, hspace=0.36, wspace=0.36, height_ratios=(1.1, 0.9, 1.25, 0.9))
     loops = rows[0, :].subgridspec(1, 2 * min(storeys, 2), wspace=0.42)
+    lower = rows[2, :].subgridspec(1, 2, wspace=0.2, width_ratios=(1, 1.1))
     for k, (storey, direction) in enumerate((s, d) for s in range(1, min(storeys, 2) + 1) for d in DIRECTIONS):
         draw_loop(figure.add_subplot(loops[k]), results, storey, direction)
-    draw_shears(figure.add_subplot(rows[1, :3]), results)
-    draw_accelerations(figure.add_subplot(rows[1, 3:]), results)
-    draw_joints(figure.add_subplot(rows[2, 2:4]), results)
-    draw_uplift(figure.add_subplot(rows[2, 4:]), results)
-    draw_modes(figure.add_subplot(rows[3, :3]), results)
-    draw_energy(figure.add_subplot(rows[3, 3:]), results)
+    draw_shears(figure.add_subplot(rows[1, 0]), results)
+    draw_accelerations(figure.add_subplot(rows[1, 1]), results)
+    draw_joints(figure.add_subplot(lower[0]), results)
+    draw_uplift(figure.add_subplot(lower[1]), results)
+    draw_modes(figure.add_subplot(rows[3, 0]), results)
+    draw_energy(figure.add_subplot(rows[3, 1]), results)
     heading(figure, f"House {results.summary['model']}. Quantities", text)
     return figure
 
@@ -92,11 +94,14 @@ def style(axis, title, x="", y=""):
 
 
 def draw_loop(axis, results, storey, direction):
-    """Storey shear against storey drift; a collapsing storey is cut at a drift of 1/5."""
+    """Storey shear against storey drift, without impacts beyond twice the sustained shear; a collapsing storey is cut at a drift of 1/5."""
     table, history = results.storeys, results.history
     drift = 100 * np.interp(table.time, history.time, history.drift(storey, direction))
     shear = np.where(np.abs(drift) < 20, table.column(f"shear_{direction}{storey}") / 1e3, np.nan)
     axis.plot(drift, shear, lw=0.5, color=colors.DIRECTIONS[direction])
+    reach = 2 * results.summary["quantities"]["storeys"][f"storey{storey}"]["shear"]["sustained"][direction] / 1e3
+    if reach > 0:
+        axis.set_ylim(-reach, reach)
     style(axis, f"storey {storey}, {direction_name(direction)}", "drift [%]", "shear [kN]")
 
 
@@ -105,10 +110,10 @@ def draw_shears(axis, results):
     table = results.storeys
     for direction in DIRECTIONS:
         axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction], label=direction_name(direction))
-    peaks = results.summary["quantities"]["base_shear"]
+    peaks = results.summary["quantities"]["base_shear"]["sustained"]
     weight = 9.81 * results.summary["quantities"]["mass_kg"] / 1e3
     text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
-    style(axis, f"base shear: {text} at most; weight {weight:.0f} kN", "time [s]", "[kN]")
+    style(axis, f"base shear: {text} sustained; weight {weight:.0f} kN", "time [s]", "[kN]")
     axis.legend(fontsize=7, frameon=False, loc="lower left", ncols=2)
 
 
@@ -119,7 +124,7 @@ def draw_accelerations(axis, results):
     for axis_name in ("ns", "ew", "ud"):
         values = [ground[axis_name] / 100, *(storey["acceleration"][axis_name] for storey in found.values())]
         axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name], label=direction_name(axis_name).replace("ud", "up-down"))
-    axis.set_yticks(range(len(found) + 1), ["ground", *(f"above storey {k}" for k in range(1, len(found) + 1))])
+    axis.set_yticks(range(len(found) + 1), ["ground", *(f"level {k}" for k in range(1, len(found) + 1))])
     axis.set_xlim(0)
     style(axis, "largest accelerations", "[m/s²]")
     axis.legend(fontsize=7, frameon=False, loc="lower right")
@@ -129,11 +134,13 @@ def draw_joints(axis, results):
     """The joints with the largest utilisation."""
     rows = results.joints[:SHOWN_JOINTS]
     axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=[STATES.get(row["state"], colors.GREY) for row in rows], height=0.7)
-    axis.set_yticks(range(len(rows)), [drawable(row["joint"].replace("|", " | "), 46) for row in rows])
+    axis.set_yticks([])
+    for k, row in enumerate(rows):
+        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center", color="white" if float(row["utilisation [-]"]) > 0.6 else "black")
     axis.invert_yaxis()
+    axis.set_xlim(0, max(1.05, axis.get_xlim()[1]))
     axis.axvline(1, color="black", lw=0.7, ls=":")
-    style(axis, "utilisation of the joints [-]")
-    axis.tick_params(axis="y", labelsize=5.5)
+    style(axis, "utilisation of joints [-]; orange: broken, amber: partly")
 
 
 def draw_uplift(axis, results):
@@ -147,38 +154,32 @@ def draw_uplift(axis, results):
             axis.annotate(f"{1000 * uplift:.1f}" if uplift < 0.01 else f"{1000 * uplift:.0f}", (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
     axis.set_aspect("equal")
     axis.margins(0.1)
-    style(axis, "uplift of column feet, storey 1 [mm]", "east [m]", "north [m]")
+    style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")
 
 
 def draw_modes(axis, results):
-    """Periods and shapes of the first modes before (thin) and after (thick) the run."""
-    found = results.summary["quantities"]["modes"]
+    """Periods and shapes of the main modes before (thin) and after (thick) the run."""
     lines = []
     for when, width in (("before", 1), ("after", 2.2)):
         for direction in DIRECTIONS:
-            mode = next((m for m in (found[when] or {"modes": []})["modes"] if m["direction"] == direction), None)
+            mode = main_mode(results.summary, when, direction)
             if mode is None:
                 continue
             shape = [0.0, *(storey[direction] for storey in mode["shape"].values())]
             sign = 1 if shape[-1] >= 0 else -1
             axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width, color=colors.DIRECTIONS[direction])
             lines.append(f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode['mass_share'][direction]:.0f} % of the mass")
-    axis.text(1.03, 0.98, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="top", fontsize=7)
+    axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right", fontsize=7)
+    axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
     levels = len(results.summary["quantities"]["storeys"])
-    axis.set_yticks(range(levels + 1), ["ground", *(f"above storey {k}" for k in range(1, levels + 1))])
-    style(axis, "first natural modes: thin before, thick after the run")
-    axis.set_position([axis.get_position().x0, axis.get_position().y0, 0.2, axis.get_position().height])
-
-
-def period_text(mode):
-    """'0.31 s', or 'unstable'."""
-    return "unstable" if mode["period_s"] is None else f"{mode['period_s']:.2f} s"
+    axis.set_yticks(range(levels + 1), ["ground", *(f"level {k}" for k in range(1, levels + 1))])
+    style(axis, "natural modes: thin before, thick after the run")
 
 
 def draw_energy(axis, results):
     """Dissipated energy by its cause."""
     found = {term: value / 1e3 for term, value in results.summary["energy"]["dissipated"].items() if value}
-    names = [DISSIPATED[term][0].replace("\n", " ") for term in found]
+    names = [DISSIPATED[term][0] for term in found]
     axis.barh(names, list(found.values()), color=[DISSIPATED[term][1] for term in found], height=0.7)
     axis.invert_yaxis()
     style(axis, f"dissipated energy: {sum(found.values()):.1f} kJ of {results.summary['energy']['input'] / 1e3:.1f} kJ", "[kJ]")

@@ -2,8 +2,8 @@
 """Storey shears and floor accelerations of a run, from the momenta of parts of its main structure. Needs no YADE.
 
 Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns, braces and walls of
-storey k. The shear of storey k is the horizontal inertia force of everything above the heads of its columns; the base shear is that of all
-parts. Inertia forces use absolute accelerations, those of the ground included. They are means over a sample interval (0.01 s).
+storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute acceleration, of everything above the heads of its
+columns; the base shear is that of all parts. A positive shear goes with a positive drift. Values are means over a sample interval (0.01 s).
 """
 import numpy as np
 
@@ -11,6 +11,8 @@ from .history import DIRECTIONS
 from .series import Series
 
 NAME = "storeys.csv"
+SUSTAINED = 0.1
+"""Time over which a sustained shear is averaged. [s]"""
 AXES = {"ew": 0, "ns": 1, "ud": 2}
 """Component of a vector (east, north, up)."""
 
@@ -31,7 +33,14 @@ class Storeys(Series):
 
     def peak(self, name):
         """Largest absolute value of a column; 0.0 without samples."""
-        return float(np.abs(self.column(name)).max(initial=0.0))
+        return float(np.nan_to_num(np.abs(self.column(name))).max(initial=0.0))
+
+    def sustained(self, name):
+        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of members last a few ms and hardly count."""
+        values, time = np.nan_to_num(self.column(name)), self.time
+        total, end = np.concatenate([[0.0], np.cumsum(values)]), np.searchsorted(time, time + SUSTAINED)
+        whole = np.flatnonzero(end < len(time))
+        return float(np.abs((total[end[whole]] - total[whole]) / np.maximum(end[whole] - whole, 1)).max(initial=0.0))
 
 
 def storeys(samples, masses, motion=None):
@@ -50,7 +59,7 @@ def storeys(samples, masses, motion=None):
     columns, values = ["time [s]"], [(time[1:] + time[:-1]) / 2]
     for name, first in [("base_shear_{}", 0), *((f"shear_{{}}{k}", 2 * k) for k in range(1, len(masses) // 2 + 1))]:
         columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
-        values += [forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
+        values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
         if first:
             level = forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
             columns += [f"acceleration_{axis}{first // 2} [m/s2]" for axis in ("ns", "ew", "ud")]
