@@ -43,7 +43,7 @@ body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: 
 h1 { font-size: 14pt; margin: 0 0 1mm; } h2 { font-size: 9pt; margin: 1.6mm 0 0.6mm; border-bottom: 0.3mm solid #999; }
 .verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 .row { display: flex; gap: 4mm; } .row > * { flex: 1 1 0; min-width: 0; } .row > .wide { flex: 1.25 1 0; }
-img { max-width: 100%; display: block; } img.shots { margin: 0 auto; max-height: 72mm; }
+img { max-width: 100%; display: block; } img.shots { margin: 0 auto; max-height: 60mm; }
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm; border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
 td.number, th.number { text-align: right; } td { white-space: nowrap; } td.name { white-space: normal; }
 ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; } small { font-size: 6.4pt; }
@@ -109,10 +109,11 @@ def house(frames, found):
     area = floor_area(frames)
     per_area = f", {9.81e-3 * known['mass_kg'] / area:.2f} kN per m² of {area:.0f} m² of floor" if area else ""
     numbers = ", ".join(f"{count} {kind}s" for kind, count in counts.items() if count) + f", {found['joints']['total']} joints"
-    weight = f"Main structure with snow: {9.81e-3 * known['mass_kg']:.0f} kN{per_area}."
+    weight = f"Main structure{' with snow' * found['snow']}: {9.81e-3 * known['mass_kg']:.0f} kN{per_area}."
+    braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; orange: joints broken from the start" * any(frames.joints.damaged)
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
-        f"<p>Plans, north up; blue: braces (thin end: foot). {numbers}. {weight}{periods and f' Natural periods {periods}.'}</p>"
+        f"<p>Plans, north up{braces}. {numbers}. {weight}{periods and f' Natural periods {periods}.'}</p>"
         f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W</th></tr>{rows}</table>"
     )
 

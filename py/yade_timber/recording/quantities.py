@@ -31,6 +31,10 @@ class Storeys(Series):
         """Number of storeys."""
         return sum(name.startswith("shear_ns") for name in self.columns)
 
+    def until(self, time):
+        """The rows up to a time [s]."""
+        return type(self)(self.columns, self.rows[self.time <= time])
+
     def peak(self, name):
         """Largest absolute value of a column; 0.0 without samples."""
         return float(np.nan_to_num(np.abs(self.column(name))).max(initial=0.0))

@@ -40,7 +40,7 @@ def outcome(found):
     """Verdict on the main structure, with its peak storey drift."""
     facts = main_structure(found)
     if found["collapsed"]:
-        tilt, end = found["tilt_time_s"], f"has collapsed at {found['collapse_time_s']:.1f} s"
+        tilt, end = found["tilt_time_s"], f"collapsed at {found['collapse_time_s']:.1f} s"
         return end if tilt is None else f"{end}, after a storey drift of 1/10 {direction_name(found['tilt_direction'])} at {tilt:.1f} s"
     drift, storey, direction = largest_drift(found)
     peak = f"{directed(drift, direction)} in storey {storey[len('storey'):]}" if drift >= SMALL else ratio(drift)
@@ -56,7 +56,7 @@ def residual(found):
     drift, _, direction = largest_drift(found, "residual_drift")
     if not found["collapsed"] and largest_drift(found)[0] >= verdict.DAMAGE.drift:
         parts.append(f"residual drift {directed(drift, direction)}")
-    if found.get("still_moving"):
+    if found.get("still_moving") and not found["collapsed"]:
         amplitude, _, direction = largest_drift(found, "final_amplitude")
         parts.append(f"still moving by ±{directed(amplitude, direction)}")
     return ", ".join(parts)

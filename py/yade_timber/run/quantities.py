@@ -42,7 +42,7 @@ def storeys():
 
 
 def storey_peaks(table):
-    """{'base_shear', 'storeys'} as in the summary. table: Storeys of the run"""
+    """{'mass_kg', 'base_shear', 'storeys'} as in the summary. table: Storeys of the run, up to a collapse"""
     masses, gravity = part_masses(), gravity_now().norm()
     found = {}
     for k in range(1, table.count + 1):
@@ -108,14 +108,15 @@ def summarised(model, observed):
     """The part `quantities` of the summary. observed: Observer of the run"""
     joints, columns = joint_peaks(model), column_feet(model, observed)
     standing = [row for row in columns if row[-1] == "standing"]
-    collapsed = np.isfinite(find_engine(yw.HouseMonitor).collapseTime)
+    collapse = find_engine(yw.HouseMonitor).collapseTime
+    collapsed = np.isfinite(collapse)
     return {
         "modes": {"before": observed.modes, "after": None if collapsed or observed.modes is None else modes_now(observed.main_levels)},
-        **storey_peaks(storeys()),
+        **storey_peaks(storeys().until(collapse) if collapsed else storeys()),
         "largest_utilisation": {"joint": joints[0][0], "value": round(joints[0][4], 4)} if joints else None,
         "largest_pull": _largest(joints, 5, "joint", "force"),
         "largest_shear": _largest(joints, 6, "joint", "force"),
-        "largest_uplift": _largest(standing, 5, "column", "uplift_m"),
+        "largest_uplift": None if collapsed else _largest(standing, 5, "column", "uplift_m"),
     }
 
 
