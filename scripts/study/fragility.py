@@ -24,7 +24,7 @@ SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C"
 CONFIDENCE = 0.95
 LEAST_RUNS = 20
 """Motions at each point below which no curve is fitted."""
-RESAMPLED, RESAMPLING_SEED = 300, 1
+RESAMPLED, RESAMPLING_SEED = 200, 1
 """Number of curves of the parametric bootstrap that gives a band, and its seed."""
 SPREAD = (0.05, 1.0)
 """Limits of the logarithmic standard deviation of a fitted curve: few runs do not distinguish a steep curve from a step."""

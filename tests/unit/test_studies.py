@@ -67,13 +67,13 @@ def test_no_curve_from_few_motions():
 
 
 def test_the_band_covers_the_true_median():
-    """Samples of a curve of median 0.9: the 95 % interval of the median holds it in about 19 of 20, in 16 or more with a probability of 99.7 %."""
+    """Samples of a curve of median 0.9: the 95 % interval of the median holds it in 8 of 10 or more with a probability of 98.8 %."""
     random, scales = np.random.default_rng(3), np.array([0.5, 0.7, 0.9, 1.2, 1.5])
     held = 0
-    for _ in range(20):
+    for _ in range(10):
         collapsed = random.binomial(20, fragility.share_at((0.9, 0.3), scales))
         curve = [{"scale": s, "runs": 20, "collapsed": int(c)} for s, c in zip(scales, collapsed)]
         low, high = fragility.band([median for median, _ in fragility.resampled(curve, fragility.fit(curve))])
         assert low < fragility.fit(curve)[0] < high
         held += low <= 0.9 <= high
-    assert held >= 16
+    assert held >= 8

@@ -22,6 +22,6 @@ def write(folder, results=None):
         written += sheets.write_sheet(folder / view.name, recorded, view)
     if recorded.history and recorded.history.samples:
         written += curves.write(folder / CURVES, recorded)
-    if "quantities" in (recorded.summary or {}) and (path.parent / quantities.JOINTS).exists():
-        written += quantities.write(folder / QUANTITIES, quantities.read(path.parent))
+        if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
+            written += quantities.write(folder / QUANTITIES, quantities.read(path.parent))
     return written + [player.make([(path, recorded)], folder / PLAYER)]

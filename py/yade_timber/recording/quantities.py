@@ -58,7 +58,7 @@ def storeys(samples, masses, motion=None):
     time, steps = samples[:, 0], np.diff(samples[:, 0])
     steps = np.where(steps > 0, steps, np.nan)[:, None]
     ground = np.diff(ground_velocity(motion, time), axis=0) / steps
-    rates = np.diff(samples[:, 1:].reshape(len(samples), -1, 3), axis=0) / steps[:, :, None]
+    rates = np.diff(samples[:, 1:].reshape(len(samples), len(masses), 3), axis=0) / steps[:, :, None]
     forces = rates + masses[:, None] * ground[:, None, :]  # (F, P, 3)
     columns, values = ["time [s]"], [(time[1:] + time[:-1]) / 2]
     for name, first in [("base_shear_{}", 0), *((f"shear_{{}}{k}", 2 * k) for k in range(1, len(masses) // 2 + 1))]:

@@ -45,8 +45,8 @@ def page(title, about, results, house, pictures=()):
 <table><tr>{''.join(f'<th>{_text(head)}</th>' for head in heads)}</tr>
 {rows}
 </table>
-<p class="note">The second number is the median over the motions of the largest storey drift divided by that of the house as it is under the same motion; a collapse
-counts as a drift of {CAP:g}. p: Wilcoxon's signed-rank test, two-sided, corrected by Holm for all {len(results)} candidates; below {SIGNIFICANCE:g} a difference is shown.
+<p class="note">Drift / drift of the house: median over the motions of the largest storey drift divided by that of the house as it is under the same motion;
+a collapse counts as a drift of {CAP:g}. p: Wilcoxon's signed-rank test, two-sided, corrected by Holm for all {len(results)} candidates; below {SIGNIFICANCE:g} a difference is shown.
 A candidate that was dropped was behind after few motions; nothing is shown about it. A dot links to its run.</p>
 <h2>The house as it is</h2><p>{_house(house)}</p>
 {f'<h2>Pictures</h2><ul>{links}</ul>' if links else ''}

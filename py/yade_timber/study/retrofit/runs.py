@@ -50,11 +50,13 @@ class Ranking:
             before = done
 
     def _run(self, pairs):
-        """Run [(Entry, motion)] and store responses; returns the rows of runs.csv."""
+        """Run [(Entry, motion)] and store responses; returns the rows of runs.csv. Raises RunError after a run that was stopped."""
         rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
         run_rows(rows, self.folder, self.scripts, self.jobs)
         found = write_runs(rows, self.folder)
         for (entry, (motion, _)), run in zip(pairs, found):
+            if run["status"] == "unfinished":
+                raise RunError(f"{run['run']} was stopped; the same command continues")
             if run["status"] == "done":
                 entry.runs[motion], entry.responses[motion] = run, response(run)
             elif entry is self.house:
