@@ -36,7 +36,7 @@ def arguments():
     made.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
     made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
     made.add_argument("--kinds", type=lambda text: text.split(","), default=list(KINDS), metavar="KIND,KIND", help=f"of {', '.join(KINDS)} (default: all)")
-    made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain one of these texts")
+    made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
     made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
     made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")
     made.add_argument("--pictures", type=count, metavar="N", help="repeat the house and the best N measures with pictures and report")

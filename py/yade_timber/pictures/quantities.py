@@ -136,7 +136,8 @@ def draw_joints(axis, results):
     axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=[STATES.get(row["state"], colors.GREY) for row in rows], height=0.7)
     axis.set_yticks([])
     for k, row in enumerate(rows):
-        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center", color="white" if float(row["utilisation [-]"]) > 0.6 else "black")
+        ink = "white" if float(row["utilisation [-]"]) > 0.6 else "black"
+        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center", color=ink)
     axis.invert_yaxis()
     axis.set_xlim(0, max(1.05, axis.get_xlim()[1]))
     axis.axvline(1, color="black", lw=0.7, ls=":")
@@ -151,7 +152,8 @@ def draw_uplift(axis, results):
         stands = row["state"] == "standing"
         axis.plot(x, y, "s", ms=3, color=colors.BLUE if stands else colors.GREY)
         if uplift >= VISIBLE_UPLIFT and stands:
-            axis.annotate(f"{1000 * uplift:.1f}" if uplift < 0.01 else f"{1000 * uplift:.0f}", (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
+            number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
+            axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
     axis.set_aspect("equal")
     axis.margins(0.1)
     style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")

@@ -22,7 +22,7 @@ def verdicts(found):
     """'main: unsafe: peak drift 1/13 exceeds the safety limit of 1/30.' for each structure."""
     for name, facts in found["structures"].items():
         limit = verdict.passed(facts["peak_drift"])
-        reason = f"peak drift {ratio(facts['peak_drift'])} reaches the {limit.name} of {ratio(limit.drift)}" if limit else f"peak drift {ratio(facts['peak_drift'])}"
+        reason = f"peak drift {ratio(facts['peak_drift'])}" + (f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else "")
         lost = facts["columns_lost"]
         columns = f"; {lost} column{'s' * (lost != 1)} lost" if lost else ""
         lean = ", leans" if facts["leans"] else ""
@@ -30,12 +30,13 @@ def verdicts(found):
 
 
 def drifts(found):
-    """Peak and residual drift of the main structure."""
+    """Peak and residual drift of the main structure; empty for a collapsed one."""
+    if found["collapsed"]:
+        return ""
     peak, storey, direction = largest_drift(found)
     left, _, side = largest_drift(found, "residual_drift")
     moving = "; still moving at the end" if found["still_moving"] else ""
-    text = "" if found["collapsed"] else f"Largest storey drift {directed(peak, direction)} in storey {storey[len('storey'):]}, residual drift {directed(left, side)}{moving}."
-    return text
+    return f"Largest storey drift {directed(peak, direction)} in storey {storey[len('storey'):]}, residual drift {directed(left, side)}{moving}."
 
 
 def forces(found):

@@ -60,7 +60,8 @@ def storey_peaks(table):
 def _shears(table, name):
     """{'sustained', 'peak'}: largest shears in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
     columns = {axis: name.format(axis) for axis in DIRECTIONS}
-    return {kind: {axis: round(largest(column), 3) for axis, column in columns.items()} for kind, largest in (("sustained", table.sustained), ("peak", table.peak))}
+    measures = {"sustained": table.sustained, "peak": table.peak}
+    return {kind: {axis: round(largest(column), 3) for axis, column in columns.items()} for kind, largest in measures.items()}
 
 
 # --- joints and columns -----------------------------------------------------------------------------------------------
@@ -78,8 +79,10 @@ def joint_peaks(model):
     return sorted(rows, key=lambda row: -row[4])
 
 
-JOINT_HEADER = ("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]", "strength [N]", "strength of", "broken springs [-]",
-                "state")  # fmt: skip
+JOINT_HEADER = (
+    *("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+    *("strength [N]", "strength of", "broken springs [-]", "state"),
+)
 COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]", "state")
 
 

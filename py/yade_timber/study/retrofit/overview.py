@@ -36,8 +36,8 @@ def house_collapses(entry, house):
 def page(title, about, results, house, pictures=()):
     """Text of index.html. about: sentences about the ranking; pictures: [(text, folder)] of runs with pictures."""
     rows = "\n".join(_row(rank, result, house) for rank, result in enumerate(results, 1))
-    links = "".join(f'<li>{_text(text)}: <a href="{_text(folder)}/report.html">report</a>, <a href="{_text(folder)}/player.html">player</a></li>' for text, folder in pictures)
-    heads = ("", "measure", "motions", "drift / drift of the house", "lowest to highest", "collapses (house)", "p", "result", "each motion: 1/3 to 3, log scale")
+    links = "".join(f"<li>{_text(text)}: {_link(f'{folder}/report.html', 'report')}, {_link(f'{folder}/player.html', 'player')}</li>" for text, folder in pictures)
+    heads = ("", "measure", "motions", "drift / drift of the house", "lowest to highest", "collapses (house)", "p", "result", "each motion: 1/3 to 3, log")
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{_text(title)}</title><style>{STYLE}</style></head><body>
 <h1>{_text(title)}</h1>
@@ -46,7 +46,8 @@ def page(title, about, results, house, pictures=()):
 {rows}
 </table>
 <p class="note">Drift / drift of the house: median over the motions of the largest storey drift divided by that of the house as it is under the same motion;
-a collapse counts as a drift of {CAP:g}. p: Wilcoxon's signed-rank test, two-sided, corrected by Holm for all {len(results)} candidates; below {SIGNIFICANCE:g} a difference is shown.
+a collapse counts as a drift of {CAP:g}. p: Wilcoxon's signed-rank test, two-sided, corrected by Holm for all {len(results)} measures; below
+{SIGNIFICANCE:g} a difference is shown.
 A candidate that was dropped was behind after few motions; nothing is shown about it. A dot links to its run.</p>
 <h2>The house as it is</h2><p>{_house(house)}</p>
 {f'<h2>Pictures</h2><ul>{links}</ul>' if links else ''}
@@ -80,12 +81,16 @@ def strip(entry, house):
         x = WIDTH / 2 * (1 + max(-1.0, min(1.0, math.log(factor) / math.log(REACH))))
         fill = "#222" if entry.runs[motion]["collapsed"] else "#0072B2"
         about = f"{motion}: {factor:.2f}"
-        dots.append(f'<a href="{_text(entry.runs[motion]["run"])}/"><circle cx="{x:.1f}" cy="{HEIGHT / 2}" r="4" fill="{fill}" fill-opacity="0.6"><title>{_text(about)}</title></circle></a>')
+        dot = f'<circle cx="{x:.1f}" cy="{HEIGHT / 2}" r="4" fill="{fill}" fill-opacity="0.6"><title>{_text(about)}</title></circle>'
+        dots.append(f'<a href="{_text(entry.runs[motion]["run"])}/">{dot}</a>')
     return f'<svg width="{WIDTH}" height="{HEIGHT}"><line x1="{WIDTH / 2}" x2="{WIDTH / 2}" y1="0" y2="{HEIGHT}" stroke="#999"/>{"".join(dots)}</svg>'
 
 
 def _house(house):
     """Drifts of the house as it is, with links to its runs."""
-    return ", ".join(
-        f'<a href="{_text(run["run"])}/">{_text(motion)}</a>: {"collapses" if run["collapsed"] else ratio(run["peak_drift"])}' for motion, run in house.runs.items()
-    )
+    texts = ((motion, run["run"], "collapses" if run["collapsed"] else ratio(run["peak_drift"])) for motion, run in house.runs.items())
+    return ", ".join(f"{_link(f'{folder}/', motion)}: {result}" for motion, folder, result in texts)
+
+
+def _link(target, text):
+    return f'<a href="{_text(target)}">{_text(text)}</a>'
