@@ -36,7 +36,8 @@ def house_collapses(entry, house):
 def page(title, about, results, house, pictures=()):
     """Text of index.html. about: sentences about the ranking; pictures: [(text, folder)] of runs with pictures."""
     rows = "\n".join(_row(rank, result, house) for rank, result in enumerate(results, 1))
-    links = "".join(f"<li>{_text(text)}: {_link(f'{folder}/report.html', 'report')}, {_link(f'{folder}/player.html', 'player')}</li>" for text, folder in pictures)
+    shown = [(text, _link(f"{folder}/report.html", "report"), _link(f"{folder}/player.html", "player")) for text, folder in pictures]
+    links = "".join(f"<li>{_text(text)}: {report}, {player}</li>" for text, report, player in shown)
     heads = ("", "measure", "motions", "drift / drift of the house", "lowest to highest", "collapses (house)", "p", "result", "each motion: 1/3 to 3, log")
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{_text(title)}</title><style>{STYLE}</style></head><body>
