@@ -133,11 +133,11 @@ def draw_accelerations(axis, results):
 def draw_joints(axis, results):
     """The joints with the largest utilisation."""
     rows = results.joints[:SHOWN_JOINTS]
-    axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=[STATES.get(row["state"], colors.GREY) for row in rows], height=0.7)
+    fills = [STATES.get(row["state"], colors.GREY) for row in rows]
+    axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=fills, height=0.7, alpha=0.5)
     axis.set_yticks([])
     for k, row in enumerate(rows):
-        ink = "white" if float(row["utilisation [-]"]) > 0.6 else "black"
-        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center", color=ink)
+        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center")
     axis.invert_yaxis()
     axis.set_xlim(0, max(1.05, axis.get_xlim()[1]))
     axis.axvline(1, color="black", lw=0.7, ls=":")

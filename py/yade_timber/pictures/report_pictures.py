@@ -17,28 +17,33 @@ DPI = 170
 SHOTS = Format(7.6, 4.9, DPI, 6)
 """Six key times across an A4 page."""
 PERIODS = np.geomspace(0.05, 5.0, 80)
+EDGE = 0.3
+"""Between the outermost columns and the edge of a plan. [m]"""
 THICK = 0.11
 """Columns at least this thick are black in the plan. [m]"""
 
 
 def plans(frames):
-    """Figure with a plan of each storey of the main structure at the start: columns, braces, walls, joints broken from the start."""
+    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start."""
     e = frames.elements
-    main = next((group for group, kind in zip(e.group, e.kind) if kind == "column"), "")
-    storeys = sorted({int(s) for s, kind, group in zip(e.storey, e.kind, e.group) if kind == "column" and group == main})
+    columns = [k for k, kind in enumerate(e.kind) if kind == "column"]
+    storeys = sorted({int(e.storey[k]) for k in columns})
     figure = new_figure(1.75 * max(len(storeys), 1), 1.85, DPI)
     axes = figure.subplots(1, max(len(storeys), 1), squeeze=False)[0]
     figure.subplots_adjust(0.01, 0.01, 0.99, 0.88, 0.06)
     for axis, storey in zip(axes, storeys):
-        draw_plan(axis, frames, storey, main)
+        draw_plan(axis, frames, storey)
+        if columns:
+            low, high = e.position[columns].min(0), e.position[columns].max(0)
+            axis.set(xlim=(low[0] - EDGE, high[0] + EDGE), ylim=(low[1] - EDGE, high[1] + EDGE))
     return figure
 
 
-def draw_plan(axis, frames, storey, structure):
-    """Plan of a storey of a structure, north up."""
+def draw_plan(axis, frames, storey):
+    """Plan of a storey, north up."""
     e = frames.elements
     for k, kind in enumerate(e.kind):
-        if e.storey[k] != storey or e.group[k] != structure or kind not in ("column", "brace", "wall"):
+        if e.storey[k] != storey or kind not in ("column", "brace", "wall"):
             continue
         corners = frames.corners_at_start(k)
         (x0, y0), (x1, y1) = corners[:, :2].min(0), corners[:, :2].max(0)
@@ -50,12 +55,10 @@ def draw_plan(axis, frames, storey, structure):
             axis.add_patch(wedge(corners))
         else:
             axis.add_patch(Polygon(box, closed=True, facecolor=colors.GREEN, edgecolor="none", zorder=1.5))
-    damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (np.array(frames.joints.storey) == str(storey))]
+    damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
     axis.set_title(f"storey {storey}", fontsize=7, pad=2)
     axis.set_aspect("equal")
-    axis.autoscale_view()
-    axis.margins(0.03)
     axis.axis("off")
 
 

@@ -45,7 +45,7 @@ def forces(found):
     weight = 9.81 * known["mass_kg"]
     sustained, peak = known["base_shear"]["sustained"], known["base_shear"]["peak"]
     shears = ", ".join(f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)" for axis, force in sustained.items())
-    return f"Largest base shear, mean over 0.1 s: {shears}; in impacts up to {max(peak.values()) / 1e3:.0f} kN."
+    return f"Largest base shear, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
 
 
 def accelerations(found):
