@@ -7,8 +7,8 @@ from ...base.table import csv_text
 from ...recording.sentences import ratio
 from .race import CAP, SIGNIFICANCE
 
-WIDTH, HEIGHT, REACH = 360, 18, 3.0
-"""Size of a strip of dots [pixel], and the largest ratio that it shows [-]."""
+WIDTH, HEIGHT, RADIUS, REACH = 360, 18, 4, 3.0
+"""Size of a strip of dots and of a dot [pixel], and the largest ratio that it shows [-]."""
 COLORS = {"better": "#009E73", "worse": "#D55E00"}
 STYLE = """
 body { font: 14px/1.4 Arial, Helvetica, sans-serif; max-width: 1150px; margin: 1em auto; padding: 0 1em; color: #111; }
@@ -79,10 +79,10 @@ def strip(entry, house):
     dots = []
     for motion, value in entry.responses.items():
         factor = math.exp(value - house.responses[motion])
-        x = WIDTH / 2 * (1 + max(-1.0, min(1.0, math.log(factor) / math.log(REACH))))
+        x = WIDTH / 2 + (WIDTH / 2 - RADIUS) * (max(-1.0, min(1.0, math.log(factor) / math.log(REACH))))
         fill = "#222" if entry.runs[motion]["collapsed"] else "#0072B2"
         about = f"{motion}: {factor:.2f}"
-        dot = f'<circle cx="{x:.1f}" cy="{HEIGHT / 2}" r="4" fill="{fill}" fill-opacity="0.6"><title>{_text(about)}</title></circle>'
+        dot = f'<circle cx="{x:.1f}" cy="{HEIGHT / 2}" r="{RADIUS}" fill="{fill}" fill-opacity="0.6"><title>{_text(about)}</title></circle>'
         dots.append(f'<a href="{_text(entry.runs[motion]["run"])}/">{dot}</a>')
     return f'<svg width="{WIDTH}" height="{HEIGHT}"><line x1="{WIDTH / 2}" x2="{WIDTH / 2}" y1="0" y2="{HEIGHT}" stroke="#999"/>{"".join(dots)}</svg>'
 
