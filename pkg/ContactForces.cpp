@@ -186,26 +186,38 @@ void ContactForces::action()
 	sums.handOver(*scene);
 }
 
-Real ContactForces::largestEigenvalue() const
+std::vector<timber::SolverBody> ContactForces::placements(const Scene& scene)
 {
-	const Scene& now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
-	std::vector<timber::SolverBody> masses(now.bodies->size());
-	for (const shared_ptr<Body>& b : *now.bodies)
-		if (b) setBody(masses[b->getId()], *b->state);
+	std::vector<timber::SolverBody> found(scene.bodies->size());
+	for (const shared_ptr<Body>& b : *scene.bodies)
+		if (b) setBody(found[b->getId()], *b->state);
+	return found;
+}
+
+std::vector<timber::PointSpring> ContactForces::linearSprings(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+{
 	std::vector<ContactPair> contacts;
-	findPairs(now, contacts);
+	findPairs(scene, contacts);
 	std::sort(contacts.begin(), contacts.end(),
 	        [](const ContactPair& p, const ContactPair& q) { return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2); });
 	std::vector<timber::PointSpring> springs;
 	for (const ContactPair& pair : contacts)
 		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
-			const Real kn = pair.phys->records[k].stiffness;
-			springs.push_back({ pair.id1, pair.id2, at.position - masses[pair.id1].position, at.position - masses[pair.id2].position, at.normal, kn,
-			        pair.phys->shearRatio * kn });
+			const timber::PointRecord& record = pair.phys->records[k];
+			const Real kn = record.stiffness;
+			springs.push_back({ pair.id1, pair.id2, at.position - bodies[pair.id1].position, at.position - bodies[pair.id2].position, at.normal, kn,
+			        pair.phys->shearRatio * kn, record.normalForce * at.normal + record.shearForce });
 		}
-	if (const JointEngine* joints = findEngine<JointEngine>(now)) joints->addSprings(now, springs);
-	return timber::largestEigenvalue(masses, springs);
+	if (const JointEngine* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
+	return springs;
+}
+
+Real ContactForces::largestEigenvalue() const
+{
+	const Scene& now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
+	const std::vector<timber::SolverBody> masses = placements(now);
+	return timber::largestEigenvalue(masses, linearSprings(now, masses));
 }
 
 } // namespace yade

@@ -55,6 +55,10 @@ public:
 	void action() override;
 	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
 	Real largestEigenvalue() const;
+	/// Linearised springs of the present contacts and joints of a scene. bodies: masses and placements, indexed by body id
+	static std::vector<timber::PointSpring> linearSprings(const Scene&, const std::vector<timber::SolverBody>&);
+	/// Masses and placements of a scene's bodies, indexed by body id; zero for those that were erased.
+	static std::vector<timber::SolverBody> placements(const Scene&);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,

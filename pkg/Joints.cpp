@@ -244,13 +244,12 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 {
 	for (const shared_ptr<TimberJoint>& j : joints) {
 		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
-		const timber::JointStiffness k = j->stiffness();
-		const Real tangential = k.shear == 0 ? 0 : math::max(k.normal, k.shear), along = math::max(k.normal, k.shear);
+		const timber::JointStiffness stiffness = j->stiffness();
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
 			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
-			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, along, tangential });
+			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, stiffness.normal, stiffness.shear, -j->forces[k] });
 		}
 	}
 }

@@ -112,7 +112,7 @@ public:
 	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the rate of change of the elastic
 	/// energy. What yielding springs dissipate of it is known after the next step. [W]
 	Real elasticPower(const Scene&) const;
-	/// Adds the linearised unbroken springs, with the larger one of their two stiffnesses in all directions.
+	/// Adds the linearised unbroken springs. Those that yield have their initial stiffness, with which they unload.
 	void addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
 
 	// clang-format off

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <ContactPhysics.hpp>
+#include <ContactForces.hpp>
 #include <PackedScene.hpp>
 
 namespace yade {
@@ -70,6 +70,21 @@ boost::python::tuple packedContacts()
 		}
 	}
 	return boost::python::make_tuple(bytes(pairs), bytes(positions), bytes(forces));
+}
+
+boost::python::tuple packedSprings()
+{
+	const Scene& scene = *Omega::instance().getScene();
+	std::vector<std::int32_t> pairs;
+	std::vector<double> values;
+	for (const timber::PointSpring& p : ContactForces::linearSprings(scene, ContactForces::placements(scene))) {
+		pairs.insert(pairs.end(), { p.bodyA, p.bodyB });
+		for (const Vector3r& v : { p.armA, p.armB, p.normal })
+			values.insert(values.end(), v.data(), v.data() + 3);
+		values.insert(values.end(), { p.normalStiffness, p.shearStiffness });
+		values.insert(values.end(), p.force.data(), p.force.data() + 3);
+	}
+	return boost::python::make_tuple(bytes(pairs), bytes(values));
 }
 
 } // namespace yade

@@ -32,6 +32,7 @@ namespace {
 		{ "ContactForces", 4, true, { "ContactForces" } },
 		{ "an integrator (SymplecticIntegrator)", 5, true, { "SymplecticIntegrator", "NewtonIntegrator" } },
 		{ "HouseMonitor", 6, false, { "HouseMonitor" } },
+		{ "StructureMonitor", 6, false, { "StructureMonitor" } },
 		{ "RestSkipper", 7, false, { "RestSkipper" } },
 	};
 

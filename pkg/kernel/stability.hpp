@@ -11,6 +11,7 @@ struct PointSpring {
 	Vec3 armA, armB; ///< from the centres of mass to the point [m]
 	Vec3 normal; ///< unit
 	double normalStiffness, shearStiffness; ///< [N/m]
+	Vec3 force = Vec3::Zero(); ///< of the spring on body B [N]; `largestEigenvalue` ignores it
 };
 
 /// Largest eigenvalue omega^2 of M^-1 K by power iteration, to 0.1 %. Masses and inertias are those of the bodies. [1/s2]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Events, damage and sentences of invented runs. Needs no YADE."""
+"""Events, damage, verdicts and sentences of invented runs. Needs no YADE."""
 import copy
 
 import frames_sample
@@ -9,6 +9,7 @@ import pytest
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import EventLog
 from yade_timber.recording.sentences import joint_place, sentence
+from yade_timber.recording.verdict import judge, leans, passed
 
 ROOF = list(frames_sample.PARTS).index("roof")
 
@@ -123,8 +124,9 @@ STANDING = {
     "model": "B", "collapsed": False, "collapse_time_s": None, "tilt_time_s": None, "tilt_direction": None, "snow": False, "joints": {"total": 206},
     "broken": {"total": 0, "partly_broken": 0, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 0, "loose": 0},
     "peak_drift": {"storey1": {"ns": 0.001, "ew": 0.002}, "storey2": {"ns": 0.001, "ew": 0.0}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": 1e-5}},
-    "final_amplitude": {"storey1": {"ns": 0.0, "ew": 0.0}}, "still_moving": False, "fallen_structures": [], "leaning_structures": [], "events": [],
+    "final_amplitude": {"storey1": {"ns": 0.0, "ew": 0.0}}, "still_moving": False, "events": [],
 }
+SOUND = {"peak_drift": 0.002, "residual_drift": 0.0, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False}
 
 
 def drifts(peak, residual):
@@ -134,16 +136,22 @@ def drifts(peak, residual):
 @pytest.mark.parametrize(
     "changes, expected, absent",
     [
-        ({}, ["House B stands: ", "peak storey drift 1/500 E-W in storey 1", "0 of 206"], ["residual", "damage", "leans"]),
-        ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"}, ["stands after", "1/8 E-W", "1/30: heavy damage", "residual drift below 1/1000;"], ["leans", "House B stands:"]),
-        (drifts(1 / 13, 0.01), ["stands after", "1/13", "heavy damage", "residual drift 1/100"], ["House B stands:", "leans"]),
-        (drifts(1 / 80, 0.0), ["stands after", "1/120: damage begins"], ["heavy"]),
-        (drifts(0.3, 0.25), ["leans at the end", "1/3 E-W", "residual drift 1/4"], ["stands"]),
-        ({"collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns", "fallen_structures": ["main", "entrance"],
+        ({}, ["House B is undamaged: ", "peak storey drift 1/500 E-W in storey 1, below the damage limit of 1/120", "0 of 206"], ["residual", "leans"]),
+        ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"},
+         ["is unsafe: ", "1/8 E-W", "beyond the tilt of 1/10", "residual drift below 1/1000;"], ["leans", "undamaged"]),
+        (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"], ["leans"]),
+        (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
+        (drifts(0.3, 0.25), ["is unsafe and leans at the end", "1/3 E-W", "residual drift 1/4"], []),
+        ({"broken": {"total": 0, "partly_broken": 2, "damaged_at_start": {"total": 0}}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
+        ({"columns": {"total": 90, "fallen": 1, "loose": 0}, "events": [{"time_s": 20.5, "kind": "columns_lost", "what": "", "number": 1}]},
+         ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
+        ({"collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
           "broken": {"total": 5, "partly_broken": 79, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 42, "loose": 3}},
-         ["collapses at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly", "42 fallen and 3 loose of 90 columns", "entrance fallen"], ["stands", "main"]),
+         ["House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly", "42 fallen and 3 loose of 90 columns"], ["unsafe"]),
         ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}}, ["still moving by ±1/100 E-W"], []),
-        ({"fallen_structures": ["carport"], "leaning_structures": ["entrance"]}, ["carport fallen", "entrance leaning"], []),
+        ({"structures": {"main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND, "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}},
+          "events": [{"time_s": 21.35, "kind": "structure_fallen", "what": "carport has fallen: a level is down by half a storey", "number": 1}]},
+         ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
         ({"snow": True, "snow_mass_kg": 5600.0, "events": [{"time_s": 20.2, "kind": "snow_fallen", "what": "", "number": 1}]}, ["snow 5.6 t, falling from 20.2 s"], []),
         ({"record": {"onset_s": 18.8}, "duration_s": 2.0}, ["before strong shaking sets in (18.8 s)"], []),
     ],
@@ -152,3 +160,30 @@ def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
     text = sentence({**copy.deepcopy(STANDING), **changes})
     assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
+
+
+@pytest.mark.parametrize("changes, state", [
+    ({}, "undamaged"), ({"peak_drift": 1 / 121}, "undamaged"), ({"peak_drift": 1 / 120}, "repairable"), ({"partly_broken": 1}, "repairable"), ({"broken": 1}, "repairable"),
+    ({"peak_drift": 1 / 31}, "repairable"), ({"peak_drift": 1 / 30}, "unsafe"), ({"columns_lost": 1}, "unsafe"), ({"peak_drift": 1.0, "collapsed": True}, "collapsed"),
+])
+def test_verdict(changes, state):
+    """Each limit and each kind of damage decides alone; a limit counts as reached at its value."""
+    assert judge({**SOUND, **changes}) == state
+
+
+def test_only_a_standing_house_leans():
+    """A peak beyond the tilt is no lean; nor is the rest of a collapsed house."""
+    assert [leans({**SOUND, **changes}) for changes in ({"peak_drift": 0.3}, {"residual_drift": 0.11}, {"residual_drift": 0.11, "collapsed": True})] == [False, True, False]
+    assert [limit and limit.name for limit in map(passed, (0.001, 0.01, 0.05, 0.2))] == [None, "damage limit", "safety limit", "tilt"]
+
+
+def test_damage_by_structure():
+    """A joint of the carport counts for the carport alone; columns without joints from the start are not lost."""
+    run = frames_sample.run(until=1.0)
+    run.joints.storey = ["1"] * 7 + ["carport"]
+    broken = np.zeros(8, int)
+    broken[[3, 7]], broken[5] = 4, 1
+    time, state = states(run)[0]
+    found = survey(run).by_structure(State(state.position, state.orientation, broken))
+    assert found == {"main": {"broken": 1, "partly_broken": 1, "columns_lost": 1, "collapsed": False},
+                     "carport": {"broken": 1, "partly_broken": 0, "columns_lost": 0, "collapsed": False}}

@@ -44,6 +44,8 @@ def complete(name):
         return yw.GroundMotionEngine(step=0.01, acceleration=[(0, 0, 0), (1, 0, 0)])
     if name == "HouseMonitor":
         return yw.HouseMonitor(heights=[2.73], bodies=[1, 2], levels=[1, 1])
+    if name == "StructureMonitor":
+        return yw.StructureMonitor(bodies=[1, 2], parts=[0, 1])
     pair = {"mass": 1.0, "friction": 0.5, "shearRatio": 0.4, "overlapLimit": 0.1}
     laws = {"ManifoldPhys": pair, "TimberPhys": {**pair, "modulus": 1e9, "radius": 0.1}, "SnowPhys": {**pair, "stiffness": 1e5}}
     return getattr(yw, name)(**laws.get(name, {}))
@@ -68,6 +70,11 @@ REFUSED = [
     ("HouseMonitor", "levels", [1, -1]),
     ("HouseMonitor", "levels", [1, 1, 1]),
     ("HouseMonitor", "bodies", [1]),
+    ("StructureMonitor", "interval", -0.01),
+    ("StructureMonitor", "jointInterval", NAN),
+    ("StructureMonitor", "parts", [0, -1]),
+    ("StructureMonitor", "parts", [0, 0, 0]),
+    ("StructureMonitor", "bodies", [1]),
     ("HealthCheck", "every", 0),
     ("HealthCheck", "every", 1.5),
     ("HealthCheck", "speedLimit", NAN),

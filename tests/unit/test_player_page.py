@@ -221,7 +221,7 @@ def test_curves_events_and_slider_go_to_a_time(still):
     ask(still, "(e => { e.value = 0.8; e.dispatchEvent(new Event('input')); })(document.getElementById('scrub'))")
     assert ask(still, "player.time") == pytest.approx(0.8)
     assert "of 8 joints broken" in still.find_element(By.CLASS_NAME, "now").text
-    assert "collapses at 2.9 s" in still.find_element(By.CLASS_NAME, "result").text
+    assert "collapsed at 2.9 s" in still.find_element(By.CLASS_NAME, "result").text
 
 
 def test_events_are_marked_on_the_time_line(still, pages):

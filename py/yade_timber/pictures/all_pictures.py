@@ -2,9 +2,9 @@
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
 from ..recording import frames
 
-END, CURVES, PLAYER = "end_state", "history", "player.html"
+END, CURVES, QUANTITIES, PLAYER = "end_state", "history", "quantities", "player.html"
 SHEETS = ("front", "side")
-NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES) for ending in ("png", "pdf")), PLAYER]
+NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
 
 
@@ -13,7 +13,7 @@ def write(folder, results=None):
 
     Raises RunError when the frames cannot be read, OSError when a picture cannot be written.
     """
-    from . import curves, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import curves, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
@@ -22,4 +22,6 @@ def write(folder, results=None):
         written += sheets.write_sheet(folder / view.name, recorded, view)
     if recorded.history and recorded.history.samples:
         written += curves.write(folder / CURVES, recorded)
+        if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
+            written += quantities.write(folder / QUANTITIES, quantities.read(path.parent))
     return written + [player.make([(path, recorded)], folder / PLAYER)]

@@ -12,12 +12,11 @@ from functools import cached_property
 import numpy as np
 
 from .frames import Elements, Joints, rotated
+from .verdict import TILT
 
 SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
 """Inclination beyond which a column has fallen. [rad]"""
-LEANING_DRIFT = 1 / 10
-"""Storey drift beyond which a structure leans. [-]"""
 SNOW_DROP = 1.0
 """Snow has fallen when its centre is lower by this than its place on the roof. [m]"""
 
@@ -55,11 +54,16 @@ class DamageSurvey:
         kinds = [kind for kind, counts in zip(self.joints.kind, np.ones(len(self.joints.kind), bool) if chosen is None else chosen) if counts]
         return {"total": len(kinds), "column_beam": 0, "brace_beam": 0, **Counter(kinds)}
 
+    def _broken_joints(self, state):
+        """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
+        damaged = np.asarray(self.joints.damaged, bool)
+        broken = ~damaged & (state.broken >= self.joints.springs)
+        return broken, ~damaged & ~broken & (state.broken > 0)
+
     def count_broken(self, state, springs):
         """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
-        broken = ~damaged & (state.broken >= self.joints.springs)
-        partly = ~damaged & ~broken & (state.broken > 0)
+        broken, partly = self._broken_joints(state)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         return {
@@ -73,6 +77,11 @@ class DamageSurvey:
             "springs": springs,
             "damaged_at_start": self.count_joints(damaged),
         }
+
+    @cached_property
+    def _structure_of_joints(self):
+        """(J,) name of each joint's structure. The storeys of the main structure are numbered, other structures are not divided."""
+        return np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
 
     # --- columns ------------------------------------------------------------------------------------------------------
 
@@ -101,10 +110,20 @@ class DamageSurvey:
         return {"total": int(present.sum()), "fallen": int(fallen.sum()), "loose": int(loose.sum())}
 
     @cached_property
+    def _loose_at_start(self):
+        """(C,) bool for each column: its joints are all broken before the start."""
+        e, j = self.elements, self.joints
+        return self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
+
+    @property
     def loose_at_start(self):
         """Number of columns whose joints are all broken before the start."""
-        e, j = self.elements, self.joints
-        return int(self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0))).sum())
+        return int(self._loose_at_start.sum())
+
+    def lost_columns(self, state):
+        """(C,) bool for each column: it has fallen, or become loose, since the start."""
+        present = ~np.isnan(state.position[self._columns, 0])
+        return present & (self.fallen_columns(state) | self.loose_columns(state) & ~self._loose_at_start)
 
     # --- structures and snow ------------------------------------------------------------------------------------------
 
@@ -132,9 +151,24 @@ class DamageSurvey:
         return max((float(np.hypot(*(above - below)[:2]) / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
 
     def leaning_structures(self, state):
-        """Names of the structures, the main one excepted, that have not fallen and have a drift above LEANING_DRIFT."""
+        """Names of the structures, the main one excepted, that have not fallen and have a drift above the tilt."""
         fallen = self.fallen_structures(state)
-        return [name for name in self.structures[1:] if name not in fallen and self.drift(state, name) > LEANING_DRIFT]
+        return [name for name in self.structures[1:] if name not in fallen and self.drift(state, name) > TILT.drift]
+
+    def by_structure(self, state):
+        """{structure: {'broken', 'partly_broken', 'columns_lost', 'collapsed'}}: the damage on which a verdict rests."""
+        broken, partly = self._broken_joints(state)
+        lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
+        fallen = self.fallen_structures(state)
+        return {
+            name: {
+                "broken": int(broken[self._structure_of_joints == name].sum()),
+                "partly_broken": int(partly[self._structure_of_joints == name].sum()),
+                "columns_lost": int(lost[groups == name].sum()),
+                "collapsed": name in fallen,
+            }
+            for name in self.structures
+        }
 
     @cached_property
     def _snow(self):

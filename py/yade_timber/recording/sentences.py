@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results as sentences for people. A summary is the content of summary.json. Needs no YADE."""
+from . import verdict
 
-DRIFT_LINES = ((1 / 120, "1/120 damage begins"), (1 / 30, "1/30 heavy damage"), (1 / 10, "1/10 leaning"))
-"""Storey drifts of engineering practice and their meaning. [-]"""
+DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
+"""Limits of storey drifts and their meaning. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
 
@@ -18,46 +19,63 @@ def largest_drift(found, key="peak_drift"):
 
 
 def sentence(found):
-    """One sentence about a summary: outcome, peak and residual drift, other structures, joints, columns, snow."""
+    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow."""
     onset = (found.get("record") or {}).get("onset_s")
     early = f"the run ends before strong shaking sets in ({onset:.1f} s)" if onset and found.get("duration_s", onset) < onset else ""
     parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), early)
     return f"House {found['model']} {'; '.join(filter(None, parts))}"
 
 
+def main_structure(found):
+    """Facts of the main structure, on which its verdict rests: the first entry of `structures`."""
+    known = found.get("structures")
+    if known:
+        return next(iter(known.values()))
+    broken, lost = found["broken"], found.get("columns", {"fallen": 0, "loose": 0})
+    facts = {"peak_drift": largest_drift(found)[0], "residual_drift": largest_drift(found, "residual_drift")[0], "collapsed": found["collapsed"]}
+    return {**facts, "broken": broken["total"], "partly_broken": broken.get("partly_broken", 0), "columns_lost": lost["fallen"] + lost["loose"]}
+
+
 def outcome(found):
-    """Whether the house stands at the end, with its peak storey drift."""
-    drift, storey, direction = largest_drift(found)
+    """Verdict on the main structure, with its peak storey drift."""
+    facts = main_structure(found)
     if found["collapsed"]:
-        tilt, end = found["tilt_time_s"], f"collapses at {found['collapse_time_s']:.1f} s"
+        tilt, end = found["tilt_time_s"], f"collapsed at {found['collapse_time_s']:.1f} s"
         return end if tilt is None else f"{end}, after a storey drift of 1/10 {direction_name(found['tilt_direction'])} at {tilt:.1f} s"
+    drift, storey, direction = largest_drift(found)
     peak = f"{directed(drift, direction)} in storey {storey[len('storey'):]}" if drift >= SMALL else ratio(drift)
-    if largest_drift(found, "residual_drift")[0] >= DRIFT_LINES[-1][0]:
-        return f"leans at the end: peak storey drift {peak}"
-    passed = [line for line, _ in DRIFT_LINES if drift >= line]
-    if not passed:
-        return f"stands: peak storey drift {peak}"
-    level = "1/120: damage begins" if len(passed) == 1 else "1/30: heavy damage"
-    return f"stands after a peak storey drift of {peak} ({level})"
+    limit = verdict.passed(drift)
+    meaning = f"beyond the {limit.name} of {ratio(limit.drift)}" if limit else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
+    lean = " and leans at the end" if verdict.leans(facts) else ""
+    return f"is {verdict.judge(facts)}{lean}: peak storey drift {peak}, {meaning}"
 
 
 def residual(found):
-    """Residual drift after a peak beyond 1/120, amplitude of the motion that remains."""
+    """Residual drift after a peak beyond the damage limit, amplitude of the motion that remains."""
     parts = []
     drift, _, direction = largest_drift(found, "residual_drift")
-    if not found["collapsed"] and largest_drift(found)[0] >= DRIFT_LINES[0][0]:
+    if not found["collapsed"] and largest_drift(found)[0] >= verdict.DAMAGE.drift:
         parts.append(f"residual drift {directed(drift, direction)}")
-    if found.get("still_moving"):
+    if found.get("still_moving") and not found["collapsed"]:
         amplitude, _, direction = largest_drift(found, "final_amplitude")
         parts.append(f"still moving by ±{directed(amplitude, direction)}")
     return ", ".join(parts)
 
 
 def structures(found):
-    """Other structures that have fallen or lean; the main one has fallen when the house has collapsed."""
-    fallen = [name for name in found.get("fallen_structures", []) if not (found["collapsed"] and name == "main")]
-    groups = ((fallen, "fallen"), (found.get("leaning_structures", []), "leaning"))
-    return ", ".join(f"{' and '.join(names)} {state}" for names, state in groups if names)
+    """Verdicts on the structures other than the main one, unless they are undamaged."""
+    known = list(found.get("structures", {}).items())[1:]
+    return ", ".join(filter(None, (structure(name, facts, found) for name, facts in known)))
+
+
+def structure(name, facts, found):
+    """Verdict on a structure other than the main one: 'entrance collapsed at 21.3 s'; empty if it is undamaged."""
+    state = verdict.judge(facts)
+    if state == verdict.COLLAPSED:
+        time = next((event["time_s"] for event in found.get("events", []) if event["kind"] == "structure_fallen" and event["what"].startswith(name)), None)
+        return f"{name} {state}" + ("" if time is None else f" at {time:.1f} s")
+    lean = " and leans" if verdict.leans(facts) else ""
+    return "" if state == verdict.UNDAMAGED else f"{name} {state}{lean} (peak drift {ratio(facts['peak_drift'])})"
 
 
 def joints(found):
@@ -72,10 +90,12 @@ def joints(found):
 
 
 def columns(found):
-    """Fallen and loose columns, if any."""
+    """Fallen and loose columns, if any, and the time of the first loss."""
     counts = found.get("columns", {"total": 0, "fallen": 0, "loose": 0})
     texts = [f"{counts[kind]} {kind}" for kind in ("fallen", "loose") if counts[kind]]
-    return f"{' and '.join(texts)} of {counts['total']} columns" if texts else ""
+    first = next((event["time_s"] for event in found.get("events", []) if event["kind"] == "columns_lost"), None)
+    since = "" if first is None else f", the first at {first:.1f} s"
+    return f"{' and '.join(texts)} of {counts['total']} columns{since}" if texts else ""
 
 
 def snow(found):

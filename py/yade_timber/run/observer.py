@@ -16,6 +16,10 @@ from ..recording.events import EventLog
 from ..recording.sentences import direction_name, joint_place
 from ..scene.engines import find_engine
 from ..scene.scenario import level_marks
+from .modal import modes_now
+
+SETTLED = 1.0
+"""Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
 
 BREAKS = ("time", "joint", "spring", "cause", "force")
 """Attributes of a JointBreak."""
@@ -130,12 +134,26 @@ def contact_points():
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE. events: those known already, as from a checkpoint."""
+    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural modes.
 
-    def __init__(self, model, events=()):
+    known: `progress` of a checkpoint
+    """
+
+    def __init__(self, model, known=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
-        self.log = EventLog(self.survey, events)
+        self.log = EventLog(self.survey, known["events"] if known else ())
+        self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
+        self.modes = known["modes"] if known else None
+
+    def progress(self):
+        """What a checkpoint must hold besides the scene: the argument `known`."""
+        return {"events": self.log.records(), "peaks": self.peaks, "modes": self.modes}
+
+    @property
+    def main_levels(self):
+        """damage.Level of the main structure, from below."""
+        return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
@@ -155,4 +173,8 @@ class Observer:
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):
             self.log.add(monitor.collapseTime, "collapse", "collapse: a floor has come down by half a storey")
-        self.log.observe(time, self.state())
+        state = self.state()
+        self.log.observe(time, state)
+        if self.modes is None and time > SETTLED - O.dt / 2:
+            self.modes = modes_now(self.main_levels)
+        self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}

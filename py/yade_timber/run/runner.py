@@ -62,7 +62,7 @@ class Run:
         if self.only_export:
             return
         self._clear(frames.NAME, checkpoint.NAME)
-        self._observe([])
+        self._observe()
         self.observer.observe(O.time)
         if self.recorder:
             self.recorder.take(O.time)
@@ -90,21 +90,21 @@ class Run:
         if O.iter >= self.steps:
             raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
-        self._observe(saved["events"])
+        self._observe(saved)
         if self.recorder:
             self.recorder.restore(self.frames_path)
 
-    def _observe(self, events):
-        """Attach observer and recorder to the scene. events: those known from a checkpoint."""
+    def _observe(self, known=None):
+        """Attach observer and recorder to the scene. known: `progress` of a checkpoint."""
         self.identity = identity(self.scenario, self.model)
-        self.observer = Observer(self.model, events)
+        self.observer = Observer(self.model, known)
         recorded = self.output.frames
         self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if recorded else None
 
     def _clear(self, *more):
         """Remove results of an earlier run and the files `more`: they must not be taken for results of this run."""
         try:
-            for name in (summary.SUMMARY, summary.HISTORY, summary.BREAKS, *all_pictures.NAMES, *more):
+            for name in (*summary.NAMES, *all_pictures.NAMES, *more):
                 (self.output.folder / name).unlink(missing_ok=True)
             remove_parts(self.output.folder)
         except OSError as problem:
@@ -197,7 +197,7 @@ class Run:
             try:
                 if self.recorder:
                     self.recorder.save(self.frames_path)
-                checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, "events": self.observer.log.records()})
+                checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, **self.observer.progress()})
             except (OSError, RuntimeError) as problem:  # of YADE's writer
                 fault = f"cannot be written ({problem}); the run stops at {O.time:.2f} s, the previous checkpoint is intact"
                 raise RunError(f"{self.checkpoint_path}: {fault}") from None
@@ -225,7 +225,7 @@ class Run:
             if self.recorder:
                 self.recorder.finish(self.frames_path, found)
                 written.append(self.frames_path)
-            return written + summary.write(self.output.folder, found, self.model)
+            return written + summary.write(self.output.folder, found, self.observer)
         except OSError as problem:
             raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv."""
+"""Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv, and the tables of quantities.py."""
 import json
 import math
 
@@ -12,14 +12,18 @@ from ..motion import interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
+from ..recording.sentences import largest_drift, sentence
+from ..recording.verdict import judge, leans
 from ..scene import queries
 from ..scene.engines import find_engine
-from . import observer
+from . import observer, quantities
 from .versions import versions
 
 DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield")
 """Terms of the energy balance that are dissipated."""
 SUMMARY, BREAKS = "summary.json", "breaks.csv"
+NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
+"""Files that `write` makes."""
 
 O = yw.Omega()
 
@@ -35,7 +39,7 @@ def summary(scenario, observed, wall_s):
     tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
-    return {
+    found = {
         "scenario": scenario.name,
         "model": model.name,
         "earthquake": scenario.motion is not None,
@@ -72,6 +76,21 @@ def summary(scenario, observed, wall_s):
         "energy": energy_balance(queries.energy()),
         "versions": versions(),
     }
+    found["structures"] = structures(found, observed, state)
+    found["quantities"] = quantities.summarised(model, observed)
+    return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
+
+
+def structures(found, observed, state):
+    """The part `structures`: facts and verdict of each structure. Drifts of the main one are those of `peak_drift` and `residual_drift`."""
+    damage, main = observed.survey.by_structure(state), observed.survey.structures[0]
+    facts = {name: {"peak_drift": observed.peaks[name], "residual_drift": observed.survey.drift(state, name), **known} for name, known in damage.items()}
+    facts[main] |= {
+        "peak_drift": largest_drift(found)[0],
+        "residual_drift": largest_drift(found, "residual_drift")[0],
+        "collapsed": found["collapsed"],
+    }
+    return {name: {"verdict": judge(known), "leans": leans(known), **known} for name, known in facts.items()}
 
 
 def record(scenario):
@@ -135,9 +154,10 @@ def breaks_text(model):
     return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
-def write(folder, found, model):
-    """Write the three files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
-    monitor = find_engine(yw.HouseMonitor)
+def write(folder, found, observed):
+    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
+    monitor, model = find_engine(yw.HouseMonitor), observed.model
+    tables = quantities.write(folder, model, observed)
     contents = {
         HISTORY: History(monitor.columns(), monitor.rows).text(),
         BREAKS: breaks_text(model),
@@ -145,4 +165,4 @@ def write(folder, found, model):
     }
     for name, text in contents.items():
         write_text(folder / name, text)
-    return [folder / name for name in contents]
+    return [*tables, *(folder / name for name in contents)]

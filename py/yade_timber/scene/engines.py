@@ -68,7 +68,7 @@ def engines(
     gravity        (3,) [m/s2]
     ground_motion  `yade_timber.motion.GroundMotion`, a GroundMotionEngine, or None
     joints         list of TimberJoint; None keeps the joints that are in O.engines already (`connect` adds to them)
-    monitor        HouseMonitor, or None
+    monitor        HouseMonitor, StructureMonitor, a list of them, or None
     vertex_edge    whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them)
     flush_supports whether a vertex exactly over a face's border is supported
     increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
@@ -86,11 +86,17 @@ def engines(
     chain += [yw.ForceResetter(), yw.CollisionTrigger(collider=collider), contacts.loop()]
     chain += external_forces(gravity, ground_motion, joints)
     chain += [contacts.forces(), yw.SymplecticIntegrator()]
-    if monitor is not None:
-        chain.append(arguments.instance("engines: monitor", monitor, yw.HouseMonitor, "a HouseMonitor or None"))
+    chain += monitors(monitor)
     if arguments.count("engines: skip_rest", skip_rest):
         chain.append(yw.RestSkipper(stride=skip_rest))
     return chain
+
+
+def monitors(given):
+    """List of the monitors of a scene. given: as in `engines`"""
+    given = [] if given is None else given if isinstance(given, (list, tuple)) else [given]
+    kinds, form = (yw.HouseMonitor, yw.StructureMonitor), "a HouseMonitor, a StructureMonitor, a list of them, or None"
+    return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in given]
 
 
 def external_forces(gravity, ground_motion, joints):

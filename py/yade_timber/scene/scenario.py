@@ -60,7 +60,8 @@ def build(scenario, stride=yw.RestSkipper().stride):
     if scenario.motion is not None:
         motion = engines.ground_motion_engine(scenario.motion, scale=scenario.scale)
     options = {**law_options(model.law), "skip_rest": stride, **scenario.options}
-    O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=house_monitor(model, ids), **options)
+    monitors = [house_monitor(model, ids), structure_monitor(model, ids)]
+    O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=monitors, **options)
     O.dt = scenario.dt
     check_step(model)
     return model
@@ -132,3 +133,16 @@ def house_monitor(model, ids):
         levels=[level for _, level in marks],
         heights=[head - foot for _, (foot, head) in sorted(storeys.items())],
     )
+
+
+STANDING = ("column", "brace", "wall")
+"""Kinds of elements that stand in a storey; all others belong to the level above or below."""
+
+
+def structure_monitor(model, ids):
+    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k (recording/quantities.py)."""
+    main, storeys = next(iter(model.storey_levels.items()))
+    members = [e for e in model.elements if e.group == main and not e.fixed]
+    top = max(storeys)
+    parts = [2 * min(e.storey, top) - (e.kind in STANDING) for e in members]
+    return yw.StructureMonitor(bodies=[ids[e.name] for e in members], parts=parts)

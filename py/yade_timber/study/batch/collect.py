@@ -7,6 +7,8 @@ from .tasks import task_of
 
 RUNS = "runs.csv"
 RESULTS = {
+    "verdict": "verdict",
+    "sentence": "sentence",
     "collapsed": "collapsed",
     "collapse_time_s": "collapse_time_s",
     "tilt_time_s": "tilt_time_s",

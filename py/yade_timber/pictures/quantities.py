@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One page of engineering quantities of a run, from the files in its folder: storey shears, accelerations, modes, joints, uplift, energy."""
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..base import colors
+from ..base.errors import RunError
+from ..base.input_file import require_regular
+from ..recording.history import DIRECTIONS, History
+from ..recording.history import NAME as HISTORY
+from ..recording.quantities import NAME as STOREYS
+from ..recording.quantities import Storeys
+from ..recording.lines import main_mode, period_text
+from ..recording.sentences import direction_name, sentence
+from .curves import DISSIPATED
+from .figures import A4, drawable, heading, heading_height, new_figure, save
+
+DPI = 150
+SHOWN_JOINTS = 12
+"""Number of joints in the diagram of utilisations."""
+SUMMARY, JOINTS, COLUMNS = "summary.json", "joints.csv", "columns.csv"
+STATES = {"whole": colors.BLUE, "partly": colors.AMBER, "broken": colors.ORANGE, "before": colors.GREY}
+"""Colours of joints by their state at the end."""
+VISIBLE_UPLIFT = 1e-4
+"""Smaller uplifts have no number in the plan. [m]"""
+
+
+@dataclass(frozen=True)
+class Results:
+    """Files of a run's folder. joints, columns: a dictionary for each row, with texts."""
+
+    summary: dict
+    history: History
+    storeys: Storeys
+    joints: list
+    columns: list
+
+
+def read(folder):
+    """Results of a run's folder. Raises RunError when a file is missing or of an earlier version of the package."""
+    folder = Path(folder)
+    require_regular(folder / SUMMARY, remedy="give the folder of a finished run")
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    except ValueError as problem:
+        raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
+    if "quantities" not in summary:
+        raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities; repeat the run")
+    tables = [list(csv.DictReader(_text(folder / name).splitlines())) for name in (JOINTS, COLUMNS)]
+    return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
+
+
+def _text(path):
+    require_regular(path)
+    return path.read_text(encoding="utf-8")
+
+
+def write(stem, results):
+    """Write `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
+    return save(page(results, DPI), stem, ("png", "pdf"), DPI)
+
+
+def page(results, dpi):
+    """Figure with all quantities. results: Results"""
+    figure = new_figure(*A4, dpi)
+    text = sentence(results.summary)
+    storeys = max(1, results.storeys.count)
+    top = 1 - (heading_height(A4[0], text) + 0.25) / A4[1]
+    rows = figure.add_gridspec(4, 2, left=0.1, right=0.975, top=top, bottom=0.05, hspace=0.36, wspace=0.36, height_ratios=(1.1, 0.9, 1.25, 0.9))
+    loops = rows[0, :].subgridspec(1, 2 * min(storeys, 2), wspace=0.42)
+    lower = rows[2, :].subgridspec(1, 2, wspace=0.2, width_ratios=(1, 1.1))
+    for k, (storey, direction) in enumerate((s, d) for s in range(1, min(storeys, 2) + 1) for d in DIRECTIONS):
+        draw_loop(figure.add_subplot(loops[k]), results, storey, direction)
+    draw_shears(figure.add_subplot(rows[1, 0]), results)
+    draw_accelerations(figure.add_subplot(rows[1, 1]), results)
+    draw_joints(figure.add_subplot(lower[0]), results)
+    draw_uplift(figure.add_subplot(lower[1]), results)
+    draw_modes(figure.add_subplot(rows[3, 0]), results)
+    draw_energy(figure.add_subplot(rows[3, 1]), results)
+    heading(figure, f"House {results.summary['model']}. Quantities", text)
+    return figure
+
+
+def style(axis, title, x="", y=""):
+    axis.set_title(title, fontsize=8.5, loc="left")
+    axis.set_xlabel(x, fontsize=7.5, labelpad=1)
+    axis.set_ylabel(y, fontsize=7.5, labelpad=1)
+    axis.tick_params(labelsize=7)
+    axis.grid(alpha=0.25)
+
+
+def draw_loop(axis, results, storey, direction):
+    """Storey shear against storey drift, without impacts beyond twice the sustained shear; a collapsing storey is cut at a drift of 1/5."""
+    table, history = results.storeys, results.history
+    drift = 100 * np.interp(table.time, history.time, history.drift(storey, direction))
+    shear = np.where(np.abs(drift) < 20, table.column(f"shear_{direction}{storey}") / 1e3, np.nan)
+    axis.plot(drift, shear, lw=0.5, color=colors.DIRECTIONS[direction])
+    reach = 2 * results.summary["quantities"]["storeys"][f"storey{storey}"]["shear"]["sustained"][direction] / 1e3
+    if reach > 0:
+        axis.set_ylim(-reach, reach)
+    style(axis, f"storey {storey}, {direction_name(direction)}", "drift [%]", "shear [kN]")
+
+
+def draw_shears(axis, results):
+    """Base shear over time."""
+    table = results.storeys
+    for direction in DIRECTIONS:
+        axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction], label=direction_name(direction))
+    peaks = results.summary["quantities"]["base_shear"]["sustained"]
+    weight = 9.81 * results.summary["quantities"]["mass_kg"] / 1e3
+    text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
+    style(axis, f"base shear: {text} sustained; weight {weight:.0f} kN", "time [s]", "[kN]")
+    axis.legend(fontsize=7, frameon=False, loc="lower left", ncols=2)
+
+
+def draw_accelerations(axis, results):
+    """Largest absolute acceleration of each level, and the PGA at the bottom."""
+    found = results.summary["quantities"]["storeys"]
+    ground = (results.summary.get("record") or {}).get("pga_gal", {"ns": 0.0, "ew": 0.0, "ud": 0.0})
+    for axis_name in ("ns", "ew", "ud"):
+        values = [ground[axis_name] / 100, *(storey["acceleration"][axis_name] for storey in found.values())]
+        axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name], label=direction_name(axis_name).replace("ud", "up-down"))
+    axis.set_yticks(range(len(found) + 1), ["ground", *(f"level {k}" for k in range(1, len(found) + 1))])
+    axis.set_xlim(0)
+    style(axis, "largest accelerations", "[m/s²]")
+    axis.legend(fontsize=7, frameon=False, loc="lower right")
+
+
+def draw_joints(axis, results):
+    """The joints with the largest utilisation."""
+    rows = results.joints[:SHOWN_JOINTS]
+    fills = [STATES.get(row["state"], colors.GREY) for row in rows]
+    axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=fills, height=0.7, alpha=0.5)
+    axis.set_yticks([])
+    for k, row in enumerate(rows):
+        axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center")
+    axis.invert_yaxis()
+    axis.set_xlim(0, max(1.05, axis.get_xlim()[1]))
+    axis.axvline(1, color="black", lw=0.7, ls=":")
+    style(axis, "utilisation of joints [-]; orange: broken, amber: partly")
+
+
+def draw_uplift(axis, results):
+    """Plan of the columns of the first storey with the largest uplift of their feet [mm]; grey: fallen or loose at the end."""
+    rows = [row for row in results.columns if row["storey"] == "1"]
+    for row in rows:
+        x, y, uplift = (float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]"))
+        stands = row["state"] == "standing"
+        axis.plot(x, y, "s", ms=3, color=colors.BLUE if stands else colors.GREY)
+        if uplift >= VISIBLE_UPLIFT and stands:
+            number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
+            axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
+    axis.set_aspect("equal")
+    axis.margins(0.1)
+    style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")
+
+
+def draw_modes(axis, results):
+    """Periods and shapes of the main modes before (thin) and after (thick) the run."""
+    lines = []
+    for when, width in (("before", 1), ("after", 2.2)):
+        for direction in DIRECTIONS:
+            mode = main_mode(results.summary, when, direction)
+            if mode is None:
+                continue
+            shape = [0.0, *(storey[direction] for storey in mode["shape"].values())]
+            sign = 1 if shape[-1] >= 0 else -1
+            axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width, color=colors.DIRECTIONS[direction])
+            lines.append(f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode['mass_share'][direction]:.0f} % of the mass")
+    axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right", fontsize=7)
+    axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
+    levels = len(results.summary["quantities"]["storeys"])
+    axis.set_yticks(range(levels + 1), ["ground", *(f"level {k}" for k in range(1, levels + 1))])
+    style(axis, "natural modes: thin before, thick after the run")
+
+
+def draw_energy(axis, results):
+    """Dissipated energy by its cause."""
+    found = {term: value / 1e3 for term, value in results.summary["energy"]["dissipated"].items() if value}
+    names = [DISSIPATED[term][0] for term in found]
+    axis.barh(names, list(found.values()), color=[DISSIPATED[term][1] for term in found], height=0.7)
+    axis.invert_yaxis()
+    style(axis, f"dissipated energy: {sum(found.values()):.1f} kJ of {results.summary['energy']['input'] / 1e3:.1f} kJ", "[kJ]")

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed. Needs no YADE."""
+import base64
+import html
+import io
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from ..base.atomic_write import write_text, written_whole
+from ..base.errors import RunError
+from ..motion import jma_intensity, pga, pgv
+from ..recording import frames as recording
+from ..recording import verdict
+from ..recording.lines import lines, main_mode, period_text
+from ..recording.sentences import direction_name, sentence
+from . import quantities, report_pictures
+
+PAGE, PDF = "report.html", "report.pdf"
+JOINTS_SHOWN = 8
+"""Rows of the table of joints."""
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PATIENCE = 120.0
+"""Longest wait for the browser. [s]"""
+COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
+CAVEATS = (
+    "Members are rigid: they neither bend nor split; only joints and contacts deform.",
+    "Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice snow adds to the "
+    "earthquake load and houses under snow fare worse. Do not conclude that snow is good for a house.",
+    "Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under several motions.",
+    "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies no house; ask an engineer.",
+)
+"""Limits of the model that a reader of one result must know (docs/limits.md)."""
+LIGHT = 1500.0
+"""Weight per floor area below which a house is lighter than real ones. [N/m2]"""
+STYLE = """
+@page { size: A4; margin: 9mm 10mm; }
+body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; max-width: 190mm; margin: 0 auto; }
+h1 { font-size: 14pt; margin: 0 0 1mm; } h2 { font-size: 9pt; margin: 1.6mm 0 0.6mm; border-bottom: 0.3mm solid #999; }
+.verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+.row { display: flex; gap: 4mm; } .row > * { flex: 1 1 0; min-width: 0; } .row > .wide { flex: 1.25 1 0; }
+img { max-width: 100%; display: block; } img.shots { margin: 0 auto; max-height: 60mm; }
+table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm; border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
+td.number, th.number { text-align: right; } td { white-space: nowrap; } td.name { white-space: normal; }
+ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; } small { font-size: 6.4pt; }
+"""
+
+
+def write(folder):
+    """Write report.html, and report.pdf where a browser is installed, into the folder of a finished run; returns the paths.
+
+    Raises RunError for a folder without complete results, OSError when a file cannot be written.
+    """
+    folder = Path(folder)
+    results = quantities.read(folder)
+    frames = recording.load(folder / recording.NAME, missing="the report needs recorded frames: run without --no-frames")
+    if frames.summary is None:
+        raise RunError(f"{folder / recording.NAME}: of a run that has not ended; continue it with --resume")
+    write_text(folder / PAGE, page(frames, results))
+    return [folder / PAGE, *print_pdf(folder / PAGE, folder / PDF)]
+
+
+def page(frames, results):
+    """Text of the page. results: quantities.Results"""
+    found = results.summary
+    parts = [
+        f"<h1>{text(frames.title)}</h1>",
+        f'<div class="verdict" style="background:{COLORS[found["verdict"]]}">{text(sentence(found))}</div>',
+        f'<div class="row"><section>{house(frames, found)}</section><section class="wide">{motion(frames, found)}</section></div>',
+        f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
+        f'<div class="row"><section>{events(found)}</section><section class="wide">{joints(results)}</section></div>{limits()}',
+        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(frames, found))}</ul>",
+        repeat(found),
+    ]
+    title = text(f"Report: {frames.title}")
+    head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
+    return f"{head}\n<body>\n{chr(10).join(parts)}\n</body></html>\n"
+
+
+def text(value):
+    """A text from data for the page."""
+    return html.escape(str(value))
+
+
+def picture(figure, part=None, name="", about=""):
+    """An <img> with a figure, or with a part of it (Bbox [inch])."""
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
+    return f'<img class="{name}" alt="{text(about)}" src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">'
+
+
+# --- parts of the page ------------------------------------------------------------------------------------------------
+
+
+def house(frames, found):
+    """Plans, and the table of the storeys."""
+    known, kinds = found["quantities"], frames.elements.kind
+    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace", "wall")}
+    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := main_mode(found, "before", axis)))
+    rows = "".join(
+        f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{9.81e-3 * storey['mass_above_kg']:.0f} kN</td>"
+        f"<td class=number>{coefficients(storey)}</td></tr>"
+        for name, storey in known["storeys"].items()
+    )
+    area = floor_area(frames)
+    per_area = f", {9.81e-3 * known['mass_kg'] / area:.2f} kN per m² of {area:.0f} m² of floor" if area else ""
+    numbers = ", ".join(f"{count} {kind}s" for kind, count in counts.items() if count) + f", {found['joints']['total']} joints"
+    weight = f"Main structure{' with snow' * found['snow']}: {9.81e-3 * known['mass_kg']:.0f} kN{per_area}."
+    braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; orange: joints broken from the start" * any(frames.joints.damaged)
+    return (
+        f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
+        f"<p>Plans, north up{braces}. {numbers}. {weight}{periods and f' Natural periods {periods}.'}</p>"
+        f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W</th></tr>{rows}</table>"
+    )
+
+
+def coefficients(storey):
+    """'0.45, 0.39': storey shear coefficients N-S and E-W."""
+    return ", ".join("-" if value is None else f"{value:.2f}" for value in storey["shear_coefficient"].values())
+
+
+def floor_area(frames):
+    """Floor area of all storeys of the main structure within the outline of its columns, an upper bound for other shapes than rectangles. [m2]"""
+    e = frames.elements
+    main = next((group for group, kind in zip(e.group, e.kind) if kind == "column"), None)
+    storeys = {int(e.storey[k]) for k, kind in enumerate(e.kind) if kind == "column" and e.group[k] == main}
+    places = [e.position[k][:2] for k, kind in enumerate(e.kind) if kind == "column" and e.group[k] == main]
+    if not places:
+        return 0.0
+    xs, ys = zip(*places)
+    return float((max(xs) - min(xs)) * (max(ys) - min(ys))) * len(storeys)
+
+
+def motion(frames, found):
+    """The ground motion: record, PGA, intensity, spectrum."""
+    if frames.motion is None:
+        return "<h2>The motion</h2><p>No earthquake.</p>"
+    applied = report_pictures.ground_motion(frames)
+    source = (found.get("record") or {}).get("source", "")
+    intensity = jma_intensity(applied).official if applied.duration >= 0.3 else None
+    peaks = ", ".join(f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
+    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None else f", JMA intensity {intensity:.1f}")
+    scale = f", times {found['record']['scale']:g}" if found["record"]["scale"] != 1 else ""
+    about = f"<p>{text(source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
+    return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
+
+
+def events(found):
+    """The result in ten lines."""
+    return f"<h2>Result</h2><ol>{''.join(f'<li>{text(line)}</li>' for line in lines(found))}</ol>"
+
+
+def limits():
+    """Limits of drift with their sources."""
+    known = "; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS)
+    return f"<p><small>Limits of drift: {text(known)}.</small></p>"
+
+
+def joints(results):
+    """Table of the joints most loaded."""
+    rows = "".join(
+        f"<tr><td class=name>{joint_name(row['joint'])}</td><td class=number>{float(row['utilisation [-]']):.2f}</td>"
+        f"<td class=number>{float(row['pull [N]']) / 1e3:.1f}</td><td class=number>{float(row['shear [N]']) / 1e3:.1f}</td>"
+        f"<td class=number>{1e3 * float(row['opening [m]']):.0f}</td><td>{text(row['state'])}</td></tr>"
+        for row in results.joints[:JOINTS_SHOWN]
+    )
+    heads = ("utilisation", "pull kN", "shear kN", "opening mm")
+    head = f"<tr><th>joint</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}<th>end</th></tr>"
+    return f"<h2>Joints most loaded</h2><table>{head}{rows}</table>"
+
+
+def joint_name(name):
+    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first."""
+    first, _, second = name.partition("|")
+    second = second.removeprefix(f"{first.partition('.')[0]}.")
+    return f"{text(first)} | {text(second)}"
+
+
+def caveats(frames, found):
+    """Limits of the model that matter for this run."""
+    area = floor_area(frames)
+    weight = 9.81 * (found["quantities"]["mass_kg"] - found["snow_mass_kg"]) / area if area else LIGHT
+    light = f"The house without snow weighs {weight / 1e3:.1f} kN per m² of floor. Real houses with tiles, walls and live load weigh 2.5 to 3 kN per m²."
+    return [*([light] if weight < LIGHT else []), *CAVEATS]
+
+
+def repeat(found):
+    """Versions, and the command that repeats the run."""
+    versions, made = found["versions"], found["made_from"]
+    words = [str(word) for word in made["options"]]
+    script = f"scripts/{found['scenario']}.py" if re.fullmatch(r"model[ABC][12]?_(quake|snow)", found["scenario"]) else "scripts/house.py"
+    command = shlex.join(["yade", "-n", "-x", script, *words])
+    about = f"yade-timber {versions['package']}, YADE {versions['yade']}, package {made['package']}, files {made['files']}; time step {found['dt']:g} s."
+    return f"<h2>How to repeat it</h2><p>{text(about)} <code>{text(command)}</code></p>"
+
+
+# --- PDF --------------------------------------------------------------------------------------------------------------
+
+
+def print_pdf(source, path):
+    """Print a page as PDF with Chromium; returns [path], or [] without a browser or when it fails."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None:
+        return []
+    sandbox = [] if os.geteuid() else ["--no-sandbox"]  # Chromium has none for root; the page is our own
+    try:
+        with written_whole(path) as part, tempfile.TemporaryDirectory() as profile:
+            options = ["--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer", f"--print-to-pdf={part}"]
+            subprocess.run([browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True, timeout=PATIENCE)
+    except subprocess.SubprocessError:
+        return []
+    return [path]

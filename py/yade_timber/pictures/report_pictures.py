@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures of the report: plans of the house, the motion with its spectrum, key times of the run. Needs no YADE."""
+import numpy as np
+from matplotlib.patches import Polygon
+from matplotlib.transforms import Bbox
+
+from ..base import colors
+from ..motion import GAL, GroundMotion, response_spectrum
+from ..recording.history import DIRECTIONS
+from ..recording.lines import main_mode
+from ..recording.sentences import direction_name, largest_drift
+from .figures import heading_height, new_figure
+from .sheets import Format, result, sheet
+from .views import FRONT, SIDE
+
+DPI = 170
+SHOTS = Format(7.6, 4.9, DPI, 6)
+"""Six key times across an A4 page."""
+PERIODS = np.geomspace(0.05, 5.0, 80)
+EDGE = 0.3
+"""Between the outermost columns and the edge of a plan. [m]"""
+THICK = 0.11
+"""Columns at least this thick are black in the plan. [m]"""
+
+
+def plans(frames):
+    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start."""
+    e = frames.elements
+    columns = [k for k, kind in enumerate(e.kind) if kind == "column"]
+    storeys = sorted({int(e.storey[k]) for k in columns})
+    figure = new_figure(1.75 * max(len(storeys), 1), 1.85, DPI)
+    axes = figure.subplots(1, max(len(storeys), 1), squeeze=False)[0]
+    figure.subplots_adjust(0.01, 0.01, 0.99, 0.88, 0.06)
+    for axis, storey in zip(axes, storeys):
+        draw_plan(axis, frames, storey)
+        if columns:
+            low, high = e.position[columns].min(0), e.position[columns].max(0)
+            axis.set(xlim=(low[0] - EDGE, high[0] + EDGE), ylim=(low[1] - EDGE, high[1] + EDGE))
+    return figure
+
+
+def draw_plan(axis, frames, storey):
+    """Plan of a storey, north up."""
+    e = frames.elements
+    for k, kind in enumerate(e.kind):
+        if e.storey[k] != storey or kind not in ("column", "brace", "wall"):
+            continue
+        corners = frames.corners_at_start(k)
+        (x0, y0), (x1, y1) = corners[:, :2].min(0), corners[:, :2].max(0)
+        box = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+        if kind == "column":
+            thick = max(x1 - x0, y1 - y0) >= THICK
+            axis.add_patch(Polygon(box, closed=True, facecolor="black" if thick else "white", edgecolor="black", lw=0.5, zorder=3))
+        elif kind == "brace":
+            axis.add_patch(wedge(corners))
+        else:
+            axis.add_patch(Polygon(box, closed=True, facecolor=colors.GREEN, edgecolor="none", zorder=1.5))
+    damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
+    axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
+    axis.set_title(f"storey {storey}", fontsize=7, pad=2)
+    axis.set_aspect("equal")
+    axis.axis("off")
+
+
+def wedge(corners):
+    """A brace seen from above: thin at the foot, thick at the head. corners (n, 3) [m]"""
+    z = corners[:, 2]
+    middle = (z.min() + z.max()) / 2
+    foot, head = corners[z < middle, :2].mean(0), corners[z >= middle, :2].mean(0)
+    along = (head - foot) / max(np.linalg.norm(head - foot), 1e-9)
+    aside = 0.11 * np.array([-along[1], along[0]])
+    return Polygon([foot, head + aside, head - aside], closed=True, facecolor=colors.BLUE, edgecolor="none", zorder=2)
+
+
+def ground_motion(frames):
+    """GroundMotion of the run as applied, from its recorded motion."""
+    return GroundMotion(frames.motion.dt, np.asarray(frames.motion.acceleration))
+
+
+def motion(frames):
+    """Figure with the horizontal accelerations, and the 5 % pseudo-acceleration spectra with lines at the house's natural periods."""
+    figure = new_figure(3.9, 1.85, DPI)
+    left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))
+    figure.subplots_adjust(left=0.11, right=0.985, top=0.9, bottom=0.2, wspace=0.34)
+    recorded = frames.motion
+    shown = recorded.time <= frames.time[-1]
+    for direction, column in (("ew", 0), ("ns", 1)):
+        values = np.asarray(recorded.acceleration)[:, column]
+        left.plot(recorded.time[shown], values[shown] / GAL, color=colors.DIRECTIONS[direction], lw=0.4, label=direction_name(direction))
+        spectrum = response_spectrum(values, recorded.dt, PERIODS)
+        right.semilogx(PERIODS, spectrum.psv * 0.01 * 2 * np.pi / PERIODS, color=colors.DIRECTIONS[direction], lw=1)
+    draw_periods(right, frames.summary or {})
+    style(left, "ground acceleration [gal]", "time [s]")
+    style(right, "5 % spectrum [m/s²]", "period [s]")
+    right.set_xticks([0.1, 0.5, 1, 5], ["0.1", "0.5", "1", "5"])
+    left.legend(fontsize=6, frameon=False, loc="upper left", handlelength=1)
+    return figure
+
+
+def draw_periods(axis, summary):
+    """Lines at the natural periods before the run."""
+    for direction in DIRECTIONS:
+        mode = main_mode(summary, "before", direction)
+        if mode and mode["period_s"]:
+            axis.axvline(mode["period_s"], color=colors.DIRECTIONS[direction], lw=0.8, ls=":")
+
+
+def style(axis, title, x):
+    axis.set_title(title, fontsize=7, loc="left", pad=2)
+    axis.set_xlabel(x, fontsize=6.5, labelpad=0)
+    axis.tick_params(labelsize=6, pad=1.5, length=2)
+    axis.grid(alpha=0.25)
+
+
+def shots(frames):
+    """(figure with up to six key times, in the view in which the house moves most; its part without the heading, a Bbox [inch])."""
+    _, _, direction = largest_drift(frames.summary)
+    figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
+    width, height = figure.get_size_inches()
+    return figure, Bbox([[0, 0], [width, height - heading_height(width, result(frames)) - 0.12]])

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Storey shears and floor accelerations of a run, from the momenta of parts of its main structure. Needs no YADE.
+
+Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns, braces and walls of
+storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute acceleration, of everything above the heads of its
+columns; the base shear is that of all parts. A positive shear goes with a positive drift. Values are means over a sample interval (0.01 s).
+"""
+import numpy as np
+
+from .history import DIRECTIONS
+from .series import Series
+
+NAME = "storeys.csv"
+SUSTAINED = 0.1
+"""Time over which a sustained shear is averaged. [s]"""
+AXES = {"ew": 0, "ns": 1, "ud": 2}
+"""Component of a vector (east, north, up)."""
+
+
+class Storeys(Series):
+    """The table storeys.csv.
+
+    time [s]; base_shear_ns, base_shear_ew [N]; for each storey k from 1: shear_nsk, shear_ewk [N] and the absolute acceleration of the level
+    above it, acceleration_nsk, acceleration_ewk, acceleration_udk [m/s2].
+    """
+
+    __slots__ = ()
+
+    @property
+    def count(self):
+        """Number of storeys."""
+        return sum(name.startswith("shear_ns") for name in self.columns)
+
+    def until(self, time):
+        """The rows up to a time [s]."""
+        return type(self)(self.columns, self.rows[self.time <= time])
+
+    def peak(self, name):
+        """Largest absolute value of a column; 0.0 without samples."""
+        return float(np.nan_to_num(np.abs(self.column(name))).max(initial=0.0))
+
+    def sustained(self, name):
+        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of members last a few ms and hardly count."""
+        values, time = np.nan_to_num(self.column(name)), self.time
+        total, end = np.concatenate([[0.0], np.cumsum(values)]), np.searchsorted(time, time + SUSTAINED)
+        whole = np.flatnonzero(end < len(time))
+        return float(np.abs((total[end[whole]] - total[whole]) / np.maximum(end[whole] - whole, 1)).max(initial=0.0))
+
+
+def storeys(samples, masses, motion=None):
+    """Storeys of a run.
+
+    samples  (F + 1, 1 + 3 P): time [s], momenta of the P parts relative to the ground, east, north, up [kg m/s]
+    masses   (P,) [kg]
+    motion   frames.Motion of the ground as applied, or None
+    """
+    samples, masses = np.asarray(samples, float), np.asarray(masses, float)
+    time, steps = samples[:, 0], np.diff(samples[:, 0])
+    steps = np.where(steps > 0, steps, np.nan)[:, None]
+    ground = np.diff(ground_velocity(motion, time), axis=0) / steps
+    rates = np.diff(samples[:, 1:].reshape(len(samples), len(masses), 3), axis=0) / steps[:, :, None]
+    forces = rates + masses[:, None] * ground[:, None, :]  # (F, P, 3)
+    columns, values = ["time [s]"], [(time[1:] + time[:-1]) / 2]
+    for name, first in [("base_shear_{}", 0), *((f"shear_{{}}{k}", 2 * k) for k in range(1, len(masses) // 2 + 1))]:
+        columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
+        values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
+        if first:
+            level = forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
+            columns += [f"acceleration_{axis}{first // 2} [m/s2]" for axis in ("ns", "ew", "ud")]
+            values += [level[:, AXES[axis]] for axis in ("ns", "ew", "ud")]
+    return Storeys(tuple(columns), np.column_stack(values))
+
+
+def ground_velocity(motion, time):
+    """(F, 3) velocity of the ground at times (F,) [m/s], by exact integration of the piecewise linear acceleration; zero without a motion."""
+    if motion is None:
+        return np.zeros((len(time), 3))
+    a, dt = motion.acceleration, motion.dt
+    velocity = np.concatenate([np.zeros((1, 3)), np.cumsum((a[1:] + a[:-1]) / 2, axis=0) * dt])
+    place = np.clip((np.asarray(time) - motion.start) / dt, 0, len(a) - 1)
+    k = np.minimum(place.astype(int), max(len(a) - 2, 0))
+    rest = (place - k)[:, None]
+    following = a[np.minimum(k + 1, len(a) - 1)]
+    return velocity[k] + dt * rest * (a[k] + rest / 2 * (following - a[k]))

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Natural modes of the house that is loaded in YADE, as in the summary."""
+import numpy as np
+import yade.wrapper as yw
+
+from ..recording.history import DIRECTIONS
+from ..recording.quantities import AXES
+from ..scene.modes import natural_modes
+
+O = yw.Omega()
+
+
+def modes_now(levels):
+    """The scene's modes as in the summary: `time_s`, `modes`, each with `period_s` (None: unstable), `direction`, `mass_share`, `shape`.
+
+    levels: damage.Level of the main structure, from below. shape: mean displacement of each level, largest component 1.
+    """
+    mass = sum(b.state.mass for b in O.bodies if b is not None and not b.state.blockedDOFs)
+    found = []
+    for mode in natural_modes():
+        share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
+        shape = np.array([mode.shape[level.marks, :3].mean(0) for level in levels])
+        largest = max(shape[:, :2].flat, key=abs, default=1.0)
+        shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS} for k, row in enumerate(shape, 1)}
+        period = round(mode.period, 4) if mode.omega2 > 0 else None
+        found.append({"period_s": period, "direction": max(share, key=share.get), "mass_share": share, "shape": shape})
+    return {"time_s": round(O.time, 6), "modes": found}

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Quantities of the run that is loaded in YADE: storey shears, accelerations, peaks of joints and column feet.
+
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the StructureMonitor.
+"""
+import numpy as np
+import yade.wrapper as yw
+
+from ..base.atomic_write import write_text
+from ..base.table import csv_text
+from ..recording import quantities
+from ..recording.history import DIRECTIONS
+from ..scene.engines import find_engine, gravity_now
+from . import observer
+from .modal import modes_now
+
+JOINTS, COLUMNS = "joints.csv", "columns.csv"
+NAMES = (quantities.NAME, JOINTS, COLUMNS)
+"""Files that `write` makes."""
+AXES = quantities.AXES
+
+O = yw.Omega()
+
+
+# --- storeys ----------------------------------------------------------------------------------------------------------
+
+
+def part_masses():
+    """(P,) masses of the StructureMonitor's parts. [kg]"""
+    monitor = find_engine(yw.StructureMonitor)
+    masses = np.zeros(max(monitor.parts, default=-1) + 1)
+    for body, part in zip(monitor.bodies, monitor.parts):
+        masses[part] += O.bodies[body].state.mass if O.bodies[body] is not None else 0.0
+    return masses
+
+
+def storeys():
+    """recording.quantities.Storeys of the run."""
+    masses = part_masses()
+    samples = np.array(find_engine(yw.StructureMonitor).rows).reshape(-1, 1 + 3 * len(masses))
+    return quantities.storeys(samples, masses, observer.describe_motion())
+
+
+def storey_peaks(table):
+    """{'mass_kg', 'base_shear', 'storeys'} as in the summary. table: Storeys of the run, up to a collapse"""
+    masses, gravity = part_masses(), gravity_now().norm()
+    found = {}
+    for k in range(1, table.count + 1):
+        above = float(masses[2 * k:].sum())
+        shear = _shears(table, f"shear_{{}}{k}")
+        found[f"storey{k}"] = {
+            "mass_above_kg": round(above, 3),
+            "shear": shear,
+            "shear_coefficient": {axis: round(value / (above * gravity), 4) if above * gravity else None for axis, value in shear["sustained"].items()},
+            "acceleration": {axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
+        }
+    return {"mass_kg": round(float(masses.sum()), 3), "base_shear": _shears(table, "base_shear_{}"), "storeys": found}
+
+
+def _shears(table, name):
+    """{'sustained', 'peak'}: largest shears in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
+    columns = {axis: name.format(axis) for axis in DIRECTIONS}
+    measures = {"sustained": table.sustained, "peak": table.peak}
+    return {kind: {axis: round(largest(column), 3) for axis, column in columns.items()} for kind, largest in measures.items()}
+
+
+# --- joints and columns -----------------------------------------------------------------------------------------------
+
+
+def joint_peaks(model):
+    """Rows of joints.csv, the largest utilisation first."""
+    monitor, (_, broken) = find_engine(yw.StructureMonitor), observer.joint_loads()
+    peaks = list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening)) or [(0.0,) * 4] * len(model.joints)
+    rows = []
+    for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
+        state = "before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs else "whole"
+        place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
+        rows.append((joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength), joint.per, int(springs), state))
+    return sorted(rows, key=lambda row: -row[4])
+
+
+JOINT_HEADER = (
+    *("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+    *("strength [N]", "strength of", "broken springs [-]", "state"),
+)
+COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]", "state")
+
+
+def column_feet(model, observed):
+    """Rows of columns.csv, the largest uplift first. observed: Observer of the run"""
+    monitor, state = find_engine(yw.StructureMonitor), observed.state()
+    feet = {}
+    for joint, *peak in zip(model.joints, monitor.opening, monitor.pull, monitor.load):
+        if joint.end == "bottom" and model.element(joint.a).kind == "column":
+            feet[joint.a] = np.maximum(feet.get(joint.a, 0.0), peak)
+    survey = observed.survey
+    columns = model.of_kind("column")
+    states = zip(columns, survey.fallen_columns(state), survey.loose_columns(state))
+    rows = []
+    for element, fallen, loose in states:
+        uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
+        x, y, _ = map(float, element.solid.centroid)
+        rows.append((element.name, element.group, element.storey, x, y, uplift, pull, load, "fallen" if fallen else "loose" if loose else "standing"))
+    return sorted(rows, key=lambda row: -row[5])
+
+
+# --- summary and files ------------------------------------------------------------------------------------------------
+
+
+def summarised(model, observed):
+    """The part `quantities` of the summary. observed: Observer of the run"""
+    joints, columns = joint_peaks(model), column_feet(model, observed)
+    standing = [row for row in columns if row[-1] == "standing"]
+    collapse = find_engine(yw.HouseMonitor).collapseTime
+    collapsed = np.isfinite(collapse)
+    return {
+        "modes": {"before": observed.modes, "after": None if collapsed or observed.modes is None else modes_now(observed.main_levels)},
+        **storey_peaks(storeys().until(collapse) if collapsed else storeys()),
+        "largest_utilisation": {"joint": joints[0][0], "value": round(joints[0][4], 4)} if joints else None,
+        "largest_pull": _largest(joints, 5, "joint", "force"),
+        "largest_shear": _largest(joints, 6, "joint", "force"),
+        "largest_uplift": None if collapsed else _largest(standing, 5, "column", "uplift_m"),
+    }
+
+
+def _largest(rows, column, noun, value):
+    """{noun: name, value: number} of the row with the largest number in a column, None without rows."""
+    row = max(rows, key=lambda row: row[column], default=None)
+    return row and {noun: row[0], value: round(float(row[column]), 6)}
+
+
+def write(folder, model, observed):
+    """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
+    storeys().write(folder / quantities.NAME)
+    write_text(folder / JOINTS, csv_text(JOINT_HEADER, joint_peaks(model)))
+    write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, column_feet(model, observed)))
+    return [folder / name for name in NAMES]

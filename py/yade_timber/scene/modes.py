@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Natural modes of the scene that is loaded in YADE: small vibrations about its present state, undamped, contacts sticking.
+
+K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point and joint spring, and
+the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A negative omega^2 is an instability.
+Contacts that do not touch have no stiffness: the scene should have settled. Yielding joints have the stiffness with which they unload.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+import yade.wrapper as yw
+from scipy import sparse
+from scipy.sparse.linalg import ArpackError, eigsh
+
+from .. import _plugin
+
+SHIFT = -1.0
+"""Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
+SEARCHED = 40
+"""Number of modes that are computed. [-]"""
+O = yw.Omega()
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Linearised springs, P of them. body (P, 2) ids; arm (P, 2, 3) from the bodies' centres [m]; normal (P, 3); stiffness (P, 2) normal and
+    tangential [N/m]; force (P, 3) on the second body [N]. World frame."""
+
+    body: np.ndarray
+    arm: np.ndarray
+    normal: np.ndarray
+    stiffness: np.ndarray
+    force: np.ndarray
+
+
+@dataclass(frozen=True)
+class Mode:
+    """omega2: squared angular frequency [1/s2]; shape (N, 6): displacement [-] and rotation [1/m] of each body, zero for fixed ones;
+    mass (3,): effective modal mass east, north, up [kg]."""
+
+    omega2: float
+    shape: np.ndarray
+    mass: np.ndarray
+
+    @property
+    def period(self):
+        """[s]; infinite for an unstable or free mode."""
+        return 2 * np.pi / np.sqrt(self.omega2) if self.omega2 > 0 else np.inf
+
+
+def springs():
+    """Springs of the scene as it is now."""
+    pairs, values = _plugin.packed_springs()
+    values = np.frombuffer(values, "f8").reshape(-1, 14)
+    arm = values[:, :6].reshape(-1, 2, 3)
+    return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], values[:, 9:11], values[:, 11:])
+
+
+def natural_modes(share=0.05):
+    """Modes whose effective mass east or north is at least `share` of the free bodies' mass, the longest period first; unstable ones come first.
+
+    Only the SEARCHED lowest modes are looked at. Empty without springs.
+    """
+    free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs]
+    mass, found = sum(b.state.mass for b in free), springs()
+    if not len(found.body) or not free:
+        return []
+    heavy = [mode for mode in _lowest(found, free) if max(mode.mass[:2]) >= share * mass]
+    return sorted(heavy, key=lambda mode: mode.omega2)
+
+
+def _lowest(found, free):
+    """Modes of the lowest omega^2. free: bodies that are not fixed."""
+    rows = {b.id: k for k, b in enumerate(free)}
+    K, M = stiffness_matrix(found, rows, len(free)), mass_matrix(free)
+    count = min(SEARCHED, 6 * len(free) - 1)
+    try:
+        omega2, vectors = eigsh(K, k=count, M=M, sigma=SHIFT, which="LM")
+    except (ArpackError, RuntimeError):  # no convergence, or a singular factor
+        return
+    ground = np.tile(np.eye(6)[:, :3], (len(free), 1))  # unit translations
+    ids = [b.id for b in free]
+    for value, vector in zip(omega2, vectors.T):  # vectors are normalised: x' M x = 1
+        shape = np.zeros((len(O.bodies), 6))
+        shape[ids] = vector.reshape(-1, 6)
+        yield Mode(float(value), shape, (vector @ (M @ ground)) ** 2)
+
+
+def mass_matrix(free):
+    """(6n, 6n) sparse block-diagonal matrix of masses [kg] and of inertias in the world frame [kg m2]."""
+    blocks = []
+    for b in free:
+        axes = np.array(b.state.ori.toRotationMatrix())
+        blocks += [b.state.mass * np.eye(3), axes @ np.diag(b.state.inertia) @ axes.T]
+    return sparse.block_diag(blocks, "csc")
+
+
+def stiffness_matrix(found, rows, count):
+    """(6 count, 6 count) sparse symmetric matrix of Springs. rows: {body id: number of the free body}"""
+    normal = found.normal[:, :, None] * found.normal[:, None, :]
+    kn, ks = found.stiffness[:, 0, None, None], found.stiffness[:, 1, None, None]
+    tangent = kn * normal + ks * (np.eye(3) - normal)
+    ends = [np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(found.arm[:, e])], axis=2) for e in (0, 1)]  # displacement = end @ x
+    number = np.array([[rows.get(body, -1) for body in pair] for pair in found.body.tolist()])
+    blocks, places = [], []
+    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        sign = 1 if i == j else -1
+        blocks.append(sign * ends[i].transpose(0, 2, 1) @ tangent @ ends[j])
+        places.append(number[:, [i, j]])
+    for e, sign in ((0, -1), (1, 1)):
+        blocks.append(_geometric(found.arm[:, e], sign * found.force))
+        places.append(number[:, [e, e]])
+    return _assembled(np.concatenate(blocks), np.concatenate(places), count)
+
+
+def _geometric(arm, force):
+    """(P, 6, 6) stiffness of constant forces that act at points of bodies: minus the change of the torque r x f with a rotation of the body.
+
+    Summed over a body in equilibrium it is symmetric; the symmetric part is taken.
+    """
+    block = np.zeros((len(arm), 6, 6))
+    outer, along = arm[:, :, None] * force[:, None, :], np.einsum("pi,pi->p", arm, force)
+    block[:, 3:, 3:] = along[:, None, None] * np.eye(3) - (outer + outer.transpose(0, 2, 1)) / 2
+    return block
+
+
+def _assembled(blocks, places, count):
+    """Sparse matrix of (P, 6, 6) blocks at block places (P, 2), without those of fixed bodies (-1)."""
+    free = (places >= 0).all(1)
+    blocks, places = blocks[free], places[free]
+    inner = np.arange(6)
+    row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
+    column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
+    return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
+
+
+def cross_matrix(v):
+    """(P, 3, 3) matrices of the cross products v x."""
+    zero = np.zeros(len(v))
+    x, y, z = v.T
+    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)

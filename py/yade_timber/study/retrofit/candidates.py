@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Strengthening measures of a house: a brace in a free bay, double fittings in a group of joints, snow cleared from the roofs."""
+import math
+from dataclasses import dataclass
+
+from ...house import brace_parts, build_house, free_bays, load_house
+
+KINDS = ("brace", "fitting", "snow")
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """name: of its runs; text: for people; cells: columns of a batch table that differ from the house as it is."""
+
+    name: str
+    text: str
+    cells: tuple = ()
+
+    @property
+    def changes(self):
+        """{column: text}"""
+        return dict(self.cells)
+
+
+AS_IT_IS = Candidate("as_it_is", "house as it is")
+
+
+def candidates(house, snow, kinds=KINDS, texts=("",)):
+    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]. Raises HouseError."""
+    description = load_house(house)
+    model = build_house(description, check=False)
+    found = []
+    if "brace" in kinds:
+        found += [Candidate(name, brace_text(model, name), (("braces", name),)) for name in free_bays(description)]
+    if "fitting" in kinds:
+        found += fittings(description, model)
+    if "snow" in kinds and snow > 0:
+        found.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
+    return [candidate for candidate in found if any(text in candidate.name for text in texts)]
+
+
+def fittings(description, model):
+    """Double fittings in each group of joints that occurs and can break."""
+    groups, types = description.data["joints"], description.data["joint_types"]
+    kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
+    return [
+        Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", f"joints.{name}.number={2 * group.get('number', 1):g}"),))
+        for name, group in groups.items()
+        if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])
+    ]
+
+
+def brace_text(model, name):
+    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall."""
+    structure, storey, along, *_ = brace_parts(name)
+    xs, ys = bay_ends(model, name)
+    at, centre = (ys[0], sum(xs) / 2) if along == "x" else (xs[0], sum(ys) / 2)
+    lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
+    low, high = ("south", "north") if along == "x" else ("west", "east")
+    side = low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
+    return f"brace: {structure}, storey {storey}, {side} wall, {centre:.1f} m {'east' if along == 'x' else 'north'}"
+
+
+def bay_ends(model, name):
+    """((x, x), (y, y)) [m] of the centres of the columns of a bay 'main.brace1.EW.y0.3-4'."""
+    structure, storey, along, at, *ends = brace_parts(name)
+    nodes = [(node, at) if along == "x" else (at, node) for node in ends]
+    centres = [model.element(f"{structure}.column{storey}.x{x:g}y{y:g}").solid.centroid for x, y in nodes]
+    return [centre[0] for centre in centres], [centre[1] for centre in centres]

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Ground motions of a ranking, as columns of a batch table: synthetic ones of several seeds, or the records of a folder, scaled to a target."""
+import re
+import warnings
+from pathlib import Path
+
+from ...base.errors import RunError
+from ...base.time_step import DEFAULT_DT
+from ...motion import MotionRequest, RecordError, onset, significant_duration
+
+START, END = 14.0, 34.0
+"""Part of a synthetic motion that is run: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
+LEAD, TAIL = 4.0, 10.0
+"""Part of a record that is run: from LEAD before its strong shaking to TAIL after the end of its significant duration. [s]"""
+RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
+
+
+def seeds(count, target=None):
+    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}, None: as they are"""
+    window = {"start": f"{START:g}", "end": f"{END:g}"}
+    return [(f"seed{seed}", {"seed": str(seed), **window, **_text(target)}) for seed in range(1, count + 1)]
+
+
+def records(folder, target=None, units=None):
+    """[(name, {column: text})] of the records in a folder, each cut to its strong shaking. units: where the files state none.
+
+    Raises RunError, RecordError.
+    """
+    folder = Path(folder).resolve()
+    if not folder.is_dir():
+        raise RunError(f"{folder}: no such folder of records")
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in RECORD_FILES)
+    found = {}
+    for path in files:
+        name, record = _record_of(path)
+        found.setdefault(name, record)
+    if not found:
+        raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
+    stated = {"units": units} if units else {}
+    return [(name, {"record": record, **stated, **window(record, units), **_text(target)}) for name, record in found.items()]
+
+
+def _record_of(path):
+    """(name, record as the option --record takes it) to which a file belongs: a prefix of three files, or the file itself."""
+    for pattern in (r"\.(EW|NS|UD)2?", r"[-_.]?(UP|UD|000|090|EW|NS|E|N|Z)\.AT2", r"[-_.](ew|ns|ud)\.(csv|acc)"):
+        prefix = re.sub(f"{pattern}$", "", path.name, flags=re.I)
+        if prefix != path.name:
+            return prefix, str(path.with_name(prefix))
+    return path.stem, str(path)
+
+
+def window(record, units=None):
+    """{'start', 'end'} of the part of a record that is run. Raises RecordError."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        motion = MotionRequest(record=record, units=units).motion(DEFAULT_DT)
+    begin = onset(motion)
+    if begin is None:
+        raise RecordError(f"{record}: no shaking")
+    return {"start": f"{max(0.0, begin - LEAD):.2f}", "end": f"{min(motion.duration, begin + significant_duration(motion) + TAIL):.2f}"}
+
+
+def _text(target):
+    return {column: f"{value:g}" for column, value in (target or {}).items()}

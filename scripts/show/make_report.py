@@ -1,0 +1,27 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Make the one-page report of finished runs: report.html, and report.pdf where Chromium is installed. Needs no YADE.
+
+    make_report.py results/modelC2_snow [...]
+"""
+from show_common import Parser, errors_in_a_line, path
+
+from yade_timber.pictures import report
+
+
+def arguments():
+    parser = Parser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=path, nargs="+", help="folder of a run's results (with frames.h5 and summary.json)")
+    return parser.parse_args()
+
+
+def main():
+    for folder in arguments().folder:
+        with errors_in_a_line(folder):
+            written = report.write(folder)
+        missing = "" if len(written) == 2 else f" (no {report.PDF}: it needs chromium)"
+        print(f"written: {', '.join(map(str, written))}{missing}")
+
+
+if __name__ == "__main__":
+    main()

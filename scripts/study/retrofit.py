@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow cleared.
+
+    scripts/study/retrofit.py HOUSE [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
+
+Each measure is compared with the house as it is under the same motions (paired Wilcoxon test, Holm's correction). Candidates that are behind
+after 4, 8, ... motions are dropped. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the
+first run. Stop it at any time: the same command continues.
+"""
+
+from pathlib import Path
+
+from study_common import SCRIPTS, house_name
+
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.pictures import all_pictures, report
+from yade_timber.study.driver import Task, run_missing
+from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
+from yade_timber.study.retrofit import motions, overview, race
+from yade_timber.study.retrofit.candidates import KINDS, candidates
+from yade_timber.study.retrofit.runs import Ranking
+
+
+def arguments():
+    made = Parser(__doc__)
+    add_driver_options(made, "results/study_retrofit")
+    made.add_argument("house", type=house_name, metavar="HOUSE", help="shipped house or house file")
+    made.add_argument("--motions", type=count, default=16, metavar="N", help="number of synthetic motions (default %(default)s)")
+    made.add_argument("--records", type=Path, metavar="FOLDER", help="folder of recorded motions, instead of synthetic ones")
+    made.add_argument("--units", metavar="UNIT", help="unit of records that state none: gal, m/s2 or g")
+    made.add_argument("--pga", type=positive, metavar="GAL", help="scale each motion to this PGA [gal]")
+    made.add_argument("--intensity", type=positive, metavar="I", help="scale each motion to this JMA intensity")
+    made.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
+    made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
+    made.add_argument("--kinds", type=lambda text: text.split(","), default=list(KINDS), metavar="KIND,KIND", help=f"of {', '.join(KINDS)} (default: all)")
+    made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
+    made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
+    made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")
+    made.add_argument("--pictures", type=count, metavar="N", help="repeat the house and the best N measures with pictures and report")
+    made.add_argument("--dry-run", action="store_true", help="check all rows, print the number of runs, and end")
+    return made.parse_args()
+
+
+def ranking_of(options):
+    """The Ranking that the options ask for. Raises RunError, BatchError, RecordError, HouseError."""
+    unknown = set(options.kinds) - set(KINDS)
+    if unknown:
+        raise RunError(f"--kinds {', '.join(sorted(unknown))}: must be of {', '.join(KINDS)}")
+    target = {key: getattr(options, key) for key in ("pga", "intensity", "scale") if getattr(options, key) is not None}
+    if len(target) > 1:
+        raise RunError(f"--{' and --'.join(target)} exclude each other; give one of them")
+    shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(options.motions, target)
+    if options.end is not None and not options.records:
+        shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
+    found = candidates(options.house, options.snow, options.kinds, options.only)
+    if not found:
+        raise RunError(f"{options.house}: no measure of these kinds and names")
+    needed = race.needed_motions(len(found))
+    if len(shaking) < needed:
+        remedy = f"give at least {needed} motions, or fewer measures with --kinds or --only"
+        raise RunError(f"{len(shaking)} motions cannot show a difference for {len(found)} measures; {remedy}")
+    same = {"house": options.house, "snow": f"{options.snow:g}", "until_collapse": "yes", **({"dt": f"{options.dt:g}"} if options.dt else {})}
+    return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
+
+
+def pictures(ranking, results, number):
+    """Repeat the house as it is and the best measures with frames, under the motion worst for the house; returns [(text, folder)]."""
+    worst = max(ranking.house.responses, key=ranking.house.responses.get)
+    chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.responses)]
+    tasks = []
+    for entry in chosen:
+        task = ranking.task(entry, worst)
+        tasks.append(Task(task.script, ranking.folder / "pictures" / entry.candidate.name, task.options))
+    done = run_missing(tasks, SCRIPTS, ranking.jobs)
+    for task in (task for task in tasks if done[task]):
+        all_pictures.write(task.folder)
+        report.write(task.folder)
+    return [(f"{entry.candidate.text}, {worst}", task.folder.relative_to(ranking.folder)) for entry, task in zip(chosen, tasks) if done[task]]
+
+
+def write(ranking, options, shown=()):
+    """Write overview and table; returns the results."""
+    results = race.ranking(ranking.entries, ranking.house.responses)
+    scaled = "".join(f", {key} {getattr(options, key):g}" for key in ("pga", "intensity", "scale") if getattr(options, key) is not None)
+    source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
+    snow = f", {options.snow:g} m of snow" if options.snow else ""
+    runs = [run for entry in (ranking.house, *ranking.entries) for run in entry.runs.values()]
+    about = [
+        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures.",
+        f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
+        summary(results),
+    ]
+    write_text(ranking.folder / "retrofit.csv", overview.table_text(results, ranking.house))
+    write_text(ranking.folder / "index.html", overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown))
+    return results
+
+
+def summary(results):
+    """What the ranking shows, in one sentence."""
+    better = [result for result in results if result.words == "better"]
+    if not better:
+        return f"No measure is shown to be better than the house as it is: {race.NO_DIFFERENCE}."
+    named = "; ".join(f"{result.entry.candidate.text} (drift times {result.ratio:.2f})" for result in better)
+    return f"Shown to be better than the house as it is: {named}."
+
+
+def main():
+    options = arguments()
+    ranking = ranking_of(options)
+    ranking.check()
+    runs = race.cost(len(ranking.motions), len(ranking.candidates))
+    print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs")
+    if options.dry_run:
+        return 0
+    ranking.run()
+    results = write(ranking, options)
+    if options.pictures:
+        write(ranking, options, pictures(ranking, results, options.pictures))
+    print(summary(results))
+    print(f"written: {ranking.folder / 'index.html'}, {ranking.folder / 'retrofit.csv'}")
+    return int(any(entry.failed for entry in ranking.entries))
+
+
+if __name__ == "__main__":
+    run_script(main)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Quantities, their page and the report of a short run; resumed runs; the lines of invented results."""
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from yade_timber.base.errors import RunError
+from yade_timber.pictures import quantities, report
+from yade_timber.recording.lines import MOST, lines, main_mode
+from yade_timber.recording.quantities import SUSTAINED, Storeys, ground_velocity, storeys
+from yade_timber.recording.frames import Motion
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def command(out, *options):
+    words = ["yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out, "--no-views", "--quiet", *options]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A run of 1.3 s that ends in strong shaking."""
+    out = tmp_path_factory.mktemp("run")
+    command(out, "--duration", "1.3")
+    return out
+
+
+def test_files_and_summary(folder):
+    """Tables are complete and sorted; the summary's peaks are those of the tables."""
+    found = quantities.read(folder)
+    known, joints, columns = found.summary["quantities"], found.joints, found.columns
+    load, uplift = ([float(row[name]) for row in rows] for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
+    assert load == sorted(load, reverse=True) and uplift == sorted(uplift, reverse=True)
+    assert len(joints) == found.summary["joints"]["total"] and len(columns) == found.summary["columns"]["total"]
+    assert known["largest_utilisation"]["value"] == pytest.approx(load[0], abs=1e-4)
+    assert known["largest_pull"]["force"] == pytest.approx(max(float(row["pull [N]"]) for row in joints))
+    for axis in ("ns", "ew"):
+        assert known["base_shear"]["peak"][axis] == pytest.approx(found.storeys.peak(f"base_shear_{axis}"), abs=1e-3)
+    assert known["storeys"]["storey1"]["mass_above_kg"] > known["storeys"]["storey2"]["mass_above_kg"] > 1000
+
+
+def test_shear_is_a_spring_force(folder):
+    """Storey shear and drift have the same sign, and while the house stays elastic they are nearly proportional."""
+    found = quantities.read(folder)
+    drift = np.interp(found.storeys.time, found.history.time, found.history.drift(2, "ns"))
+    assert np.corrcoef(drift, found.storeys.column("shear_ns2"))[0, 1] > 0.5
+
+
+def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
+    """Momenta, joint peaks and the first modes are in the checkpoint: the files keep every bit."""
+    command(tmp_path, "--duration", "1.2")
+    command(tmp_path, "--duration", "1.3", "--resume")
+    for name in ("storeys.csv", "joints.csv", "columns.csv"):
+        assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
+    straight, resumed = (json.loads((path / "summary.json").read_text()) for path in (folder, tmp_path))
+    assert resumed["quantities"] == straight["quantities"] and resumed["structures"] == straight["structures"]
+
+
+def test_page_and_report(folder, tmp_path):
+    for name in ("frames.h5", "summary.json", "history.csv", "storeys.csv", "joints.csv", "columns.csv"):
+        shutil.copy(folder / name, tmp_path / name)
+    assert [path.suffix for path in quantities.write(tmp_path / "quantities", quantities.read(tmp_path))] == [".png", ".pdf"]
+    written = report.write(tmp_path)
+    page = (tmp_path / report.PAGE).read_text()
+    assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
+    found = json.loads((tmp_path / "summary.json").read_text())
+    for part in (found["sentence"], "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), "scripts/modelB1_quake.py", "--dt 5e-4"):
+        assert report.text(part) in page, part
+    if shutil.which("chromium"):
+        assert written[1].name == report.PDF and len(re.findall(rb"/Type\s*/Page\b(?!s)", written[1].read_bytes())) == 1, "one page"
+
+
+def test_report_of_other_folders(folder, tmp_path):
+    """A folder without results, results of an earlier version, results without frames: one line."""
+    with pytest.raises(RunError, match="no such file; give the folder of a finished run"):
+        report.write(tmp_path)
+    for name in ("history.csv", "storeys.csv", "joints.csv", "columns.csv", "summary.json"):
+        shutil.copy(folder / name, tmp_path / name)
+    with pytest.raises(RunError, match="without --no-frames"):
+        report.write(tmp_path)
+    found = json.loads((tmp_path / "summary.json").read_text())
+    del found["quantities"]
+    (tmp_path / "summary.json").write_text(json.dumps(found))
+    with pytest.raises(RunError, match="earlier version"):
+        report.write(tmp_path)
+
+
+def test_hostile_names_are_text(folder):
+    """Names from files cannot put markup into the page."""
+    found = quantities.read(folder)
+    rows = [{**row, "joint": "<script>alert(1)</script>|b"} for row in found.joints]
+    assert "<script" not in report.joints(quantities.Results(found.summary, found.history, found.storeys, rows, found.columns))
+
+
+# --- lines ------------------------------------------------------------------------------------------------------------
+
+
+def test_ten_lines(folder):
+    """Ten at most, whatever happens; events take places from the last of the others."""
+    found = json.loads((folder / "summary.json").read_text())
+    assert len(lines(found)) <= MOST and lines(found)[0].startswith("Main: ")
+    found["events"] = [{"time_s": 2.0 + k, "kind": "snow_fallen", "what": f"event {k}", "number": 1} for k in range(5)]
+    found["events"].append({"time_s": 9.0, "kind": "collapse", "what": "collapse", "number": 1})
+    made = lines(found)
+    assert len(made) == MOST and made[-3:] == ["2.00 s: event 0.", "3.00 s: event 1.", "9.00 s: collapse."]
+
+
+def test_main_mode_moves_most_of_the_mass():
+    modes = [{"direction": "ns", "mass_share": {"ns": share, "ew": 0.0}, "period_s": share} for share in (0.1, 0.7, 0.3)]
+    found = {"quantities": {"modes": {"before": {"modes": modes}, "after": None}}}
+    assert main_mode(found, "before", "ns")["period_s"] == 0.7
+    assert main_mode(found, "before", "ew") is None and main_mode(found, "after", "ns") is None and main_mode({}, "before", "ns") is None
+
+
+# --- storeys ----------------------------------------------------------------------------------------------------------
+
+
+def test_storeys_of_known_momenta():
+    """Two storeys whose levels have accelerations of 2 and 3 m/s2 east on a ground of 1 m/s2: forces by hand."""
+    time, masses = np.arange(0, 0.5, 0.01), [0.0, 10.0, 100.0, 20.0, 200.0]
+    rates = np.array([0.0, 5.0, 200.0, 15.0, 600.0])  # momentum per second of each part
+    samples = np.column_stack([time, *(column for rate in rates for column in (rate * time, 0 * time, 0 * time))])
+    found = storeys(samples, masses, Motion(0.01, 0.0, np.tile([1.0, 0.0, 0.0], (60, 1)), np.zeros((60, 3))))
+    assert found.column("base_shear_ew") == pytest.approx(-(rates.sum() + sum(masses)))
+    assert found.column("shear_ew1") == pytest.approx(-(200 + 15 + 600 + 320)) and found.column("shear_ew2") == pytest.approx(-(600 + 200))
+    assert found.column("acceleration_ew1") == pytest.approx(2 + 1) and found.column("acceleration_ew2") == pytest.approx(3 + 1)
+    assert found.sustained("shear_ew2") == pytest.approx(800) and found.until(0.2).samples == 20
+
+
+def test_sustained_shear_of_an_impact():
+    """An impact of one sample counts with its share of the time."""
+    time = np.arange(100) * 0.01
+    values = np.where(np.arange(100) == 50, 1000.0, 10.0)
+    table = Storeys(["time [s]", "x [N]"], np.column_stack([time, values]))
+    assert table.peak("x") == 1000 and table.sustained("x") == pytest.approx(10 + 990 * 0.01 / SUSTAINED, rel=1e-6)
+
+
+def test_ground_velocity():
+    """Exact for the straight lines between samples, also between and beyond them."""
+    acceleration = np.array([[0.0, 1, 0], [2.0, 1, 0], [2.0, 1, 0], [0.0, 1, 0]])
+    found = ground_velocity(Motion(0.5, 1.0, acceleration, 0 * acceleration), [0.0, 1.0, 1.25, 1.5, 2.5, 9.0])
+    assert found[:, 0] == pytest.approx([0, 0, 0.125, 0.5, 2.0, 2.0]) and found[:, 1] == pytest.approx([0, 0, 0.25, 0.5, 1.5, 1.5])
+    assert not ground_velocity(None, [0.0, 1.0]).any()

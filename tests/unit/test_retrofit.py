@@ -1,0 +1,197 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Ranking of strengthening measures: candidates, motions, tests against known samples, rounds with stubbed runs, overview."""
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from yade_timber.base.errors import RunError
+from yade_timber.study.retrofit import candidates as measures
+from yade_timber.study.retrofit import motions, overview, race
+from yade_timber.study.retrofit import runs as rounds
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts" / "study"))
+
+
+# --- candidates and motions -------------------------------------------------------------------------------------------
+
+
+def test_candidates_of_a_house():
+    """Free bays, groups of joints that can break, and snow only where it lies."""
+    found = measures.candidates("B", 1.0)
+    names = [candidate.name for candidate in found]
+    assert "main.brace1.EW.y0.3-4" in names and len(names) == len(set(names))
+    assert [name for name in names if name.startswith("double")] == ["double_column_ends", "double_brace_ends", "double_brace_sides"]
+    assert found[names.index("double_column_ends")].changes == {"set": "joints.column_ends.number=4"}  # the shipped house has two fittings at each end
+    assert names[-1] == "snow_cleared" and found[-1].changes == {"snow": "0"}
+    assert "snow_cleared" not in [candidate.name for candidate in measures.candidates("B", 0.0)]
+    assert [candidate.name for candidate in measures.candidates("B", 1.0, ("brace",), ("EW.y0.3-4",))] == ["main.brace1.EW.y0.3-4", "main.brace2.EW.y0.3-4"]
+
+
+@pytest.mark.parametrize("name, text", [
+    ("main.brace1.EW.y0.3-4", "brace: main, storey 1, south wall, 3.2 m east"), ("main.brace1.NS.x8.4-5", "brace: main, storey 1, east wall, 4.1 m north"),
+    ("main.brace2.NS.x4.1-3", "brace: main, storey 2, inner N-S wall, 1.8 m north"),
+])
+def test_bays_as_text(name, text):
+    model = measures.build_house(measures.load_house("B"), check=False)
+    assert measures.brace_text(model, name) == text
+
+
+def test_seeds_and_target():
+    found = motions.seeds(3, {"pga": 400.0})
+    assert [name for name, _ in found] == ["seed1", "seed2", "seed3"]
+    assert found[1][1] == {"seed": "2", "start": "14", "end": "34", "pga": "400"}
+
+
+def write_record(path, shaking=2.0):
+    """A CSV record of 30 s that shakes for 10 to 20 s, in all components. shaking [m/s2]"""
+    time = np.arange(0, 30, 0.01)
+    values = shaking * np.sin(2 * np.pi * 2 * time) * ((time > 10) & (time < 20))
+    path.write_text("time,ns,ew,ud\n" + "\n".join(f"{t:.2f},{v:.5f},{v:.5f},{v:.5f}" for t, v in zip(time, values)))
+
+
+def test_records_of_a_folder(tmp_path):
+    """Each file or set of three files is a motion, cut from 4 s before its strong shaking to 10 s after it."""
+    for name in ("first.csv", "second.csv"):
+        write_record(tmp_path / name)
+    (tmp_path / "README.md").write_text("no record")
+    found = motions.records(tmp_path, {"scale": 2.0}, "m/s2")
+    assert [name for name, _ in found] == ["first", "second"] and found[0][1]["scale"] == "2"
+    start, end = (float(found[0][1][key]) for key in ("start", "end"))
+    assert start == pytest.approx(6.5, abs=0.2) and end == pytest.approx(29.5, abs=0.6)  # 5 % and 95 % of 10 s of shaking
+    with pytest.raises(RunError, match="no records"):
+        motions.records(ROOT / "docs")
+
+
+# --- statistics -------------------------------------------------------------------------------------------------------
+
+
+def test_signed_rank_of_a_published_sample():
+    """Nine pairs of Hollander and Wolfe, Nonparametric Statistical Methods, example 3.1 (depression scores): two-sided exact p = 0.0391."""
+    before = [1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30]
+    after = [0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29]
+    assert race.signed_rank(np.subtract(after, before)) == pytest.approx(0.0391, abs=5e-5)
+    assert race.signed_rank([-1.0 - 0.1 * k for k in range(10)]) == pytest.approx(2 / 2**10)
+    assert race.signed_rank([0.0] * 12) == 1.0
+
+
+def test_holm():
+    """Holm (1979): 0.01, 0.02, 0.04 become 0.03, 0.04, 0.04; with two further tests that are not shown 0.05, 0.08, 0.12."""
+    assert race.holm([0.02, 0.01, 0.04], 3) == pytest.approx([0.04, 0.03, 0.04])
+    assert race.holm([0.02, 0.01, 0.04], 5) == pytest.approx([0.08, 0.05, 0.12])
+
+
+@pytest.mark.parametrize("count, needed", [(1, 10), (25, 10), (26, 11), (81, 12)])
+def test_needed_motions(count, needed):
+    """2 count / 2^n <= 0.05, and never fewer than ten."""
+    assert race.needed_motions(count) == needed
+    assert needed == 10 or 2 * count / 2**needed <= 0.05 < 2 * count / 2 ** (needed - 1)
+
+
+def test_rounds():
+    assert race.rounds(16, 81) == [(4, 81), (8, 41), (16, 21)] and race.cost(16, 81) == 16 + 4 * 81 + 4 * 41 + 8 * 21
+    assert race.rounds(10, 3) == [(10, 3)] and race.cost(10, 3) == 40
+    assert race.rounds(12, 6) == [(4, 6), (8, 4), (12, 4)]
+
+
+def run(drift, collapsed=False):
+    return {"peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}", "error": None}
+
+
+def test_a_collapse_counts_as_the_largest_drift():
+    assert race.response(run(0.02, True)) == race.response(run(3.0)) == math.log(race.CAP)
+    assert race.response(run(0.0)) == math.log(race.FLOOR)
+
+
+def entry(name, factors):
+    """An Entry whose drifts are those of the house times factors; the house drifts by 0.01 everywhere."""
+    found = {f"seed{k}": run(0.01 * factor) for k, factor in enumerate(factors)}
+    return race.Entry(measures.Candidate(name, name), {motion: race.response(one) for motion, one in found.items()}, found)
+
+
+def test_words_of_a_ranking():
+    """Equal signs under 12 motions are a difference, a scatter about 1 is none; a dropped candidate is never called better."""
+    scatter = [0.7, 1.5, 0.9, 1.2, 0.8, 1.3, 0.6, 1.4, 1.1, 0.95, 0.85, 1.25]
+    lower = [0.5 + 0.01 * k for k in range(12)]
+    house, good, none = entry("house", [1.0] * 12), entry("good", lower), entry("none", scatter)
+    bad, dropped = entry("bad", [1 / factor for factor in lower]), entry("dropped", lower[:4])
+    dropped.dropped = 4
+    found = race.ranking([none, dropped, bad, good], house.responses)
+    assert [(result.entry.candidate.name, result.words) for result in found] == [
+        ("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"), ("dropped", f"{race.NO_DIFFERENCE}: dropped after 4 motions")]  # fmt: skip
+    assert found[0].ratio == pytest.approx(math.sqrt(0.55 * 0.56)) and (found[0].low, found[0].high) == pytest.approx((0.5, 0.61))
+    assert found[0].p == pytest.approx(4 * 2 / 2**12) and found[3].p is None
+
+
+def test_false_discoveries_are_rare():
+    """200 rankings of 20 measures without any effect, lognormal scatter of a factor 1.5: at most 5 % find one, here 10 expected, 19 at 99.8 %."""
+    random, wrong = np.random.default_rng(5), 0
+    for _ in range(200):
+        base = random.normal(0, 0.4, 12)
+        entries = [race.Entry(measures.Candidate(str(k), ""), {}, {}) for k in range(20)]
+        scatter = random.normal(0, 0.4, (20, 12))
+        racing, before = entries, 0
+        for done, count in race.rounds(12, 20):
+            racing = race.halve(racing, dict(enumerate(base)), count) if before else racing
+            for one in racing:
+                one.responses |= {k: base[k] + scatter[int(one.candidate.name), k] for k in range(before, done)}
+            before = done
+        wrong += any(result.p is not None and result.p < race.SIGNIFICANCE for result in race.ranking(entries, dict(enumerate(base))))
+    assert wrong <= 19
+
+
+# --- rounds with stubbed runs -----------------------------------------------------------------------------------------
+
+
+def ranking(folder, monkeypatch, effects, failing=()):
+    """A Ranking of house B with braces, whose runs are replaced by drifts of 0.01 times an effect; returns it and the list of runs made."""
+    made = []
+
+    def run_rows(rows, *_):
+        made.extend(row.name for row in rows if row.name not in made)
+
+    def write_runs(rows, _):
+        found = []
+        for row in rows:
+            factor = effects.get(row.cells.get("braces"), 1.0) * (1 + 0.01 * int(row.cells["seed"]))
+            failed = row.cells.get("braces") in failing and row.cells["seed"] == "2"
+            found.append({**run(0.01 * factor), "run": row.name, **({"status": "failed", "error": "too large a step"} if failed else {})})
+        return found
+
+    monkeypatch.setattr(rounds, "run_rows", run_rows)
+    monkeypatch.setattr(rounds, "write_runs", write_runs)
+    found = measures.candidates("B", 0.0, ("brace",), ("brace1.EW",))[:12]
+    return rounds.Ranking(folder, found, motions.seeds(12), {"house": "B", "snow": "0"}, ROOT / "scripts"), made
+
+
+def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
+    """12 measures: 4 motions for all, 8 for six, 12 for four; a measure with a failed run is named and left out of later rounds."""
+    names = [candidate.name for candidate in measures.candidates("B", 0.0, ("brace",), ("brace1.EW",))[:12]]
+    effects = {name: 0.5 + 0.1 * k for k, name in enumerate(names)}
+    lines = []
+    race_of, made = ranking(tmp_path, monkeypatch, effects, failing=[names[1]])
+    race_of.run(lines.append)
+    assert [len(one.responses) for one in race_of.entries] == [12, 3, 12, 12, 12, 8, 8, 4, 4, 4, 4, 4] and len(made) == 12 + 4 * 12 + 4 * 6 + 4 * 4
+    results = race.ranking(race_of.entries, race_of.house.responses)
+    assert results[0].entry.candidate.name == names[0] and results[0].words == "better" and results[0].ratio == pytest.approx(0.5)
+    assert results[-1].words == "a run failed: too large a step" and len(lines) == 3 and "runs left, about" in lines[0]
+    page = overview.page("Title", ["About <b>"], results, race_of.house)
+    assert page.count("<circle") == sum(len(one.responses) for one in race_of.entries) and "About &lt;b&gt;" in page
+    assert overview.table_text(results, race_of.house).splitlines()[1].startswith(f"1,{names[0]},")
+
+
+def test_a_failed_house_ends_the_ranking(tmp_path, monkeypatch):
+    race_of, _ = ranking(tmp_path, monkeypatch, {}, failing=[None])
+    with pytest.raises(RunError, match="the house as it is failed under seed2: too large a step"):
+        race_of.run(lambda line: None)
+
+
+def test_bad_measures_are_found_before_the_first_run(tmp_path):
+    """A measure that cannot be built is refused with its place, without a run."""
+    wrong = measures.Candidate("wrong", "wrong", (("braces", "main.brace1.EW.y0.3-40"),))
+    race_of = rounds.Ranking(tmp_path, [wrong], motions.seeds(10), {"house": "B", "snow": "0"}, ROOT / "scripts")
+    with pytest.raises(RunError, match="table.csv:12"):
+        race_of.check()
