@@ -27,6 +27,9 @@ class Element:
     group: str = ""         # structure, e.g. 'main', 'entrance'
     source: str = ""        # file:line of its description
 
+    def __repr__(self):
+        return f"<Element {self.name}: {self.kind}, {len(self.vertices)} corners>"
+
     @cached_property
     def solid(self):
         try:
@@ -73,6 +76,9 @@ class JointSpec:
     group: str = ""
     broken: bool = False  # damaged before the run starts
 
+    def __repr__(self):
+        return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
+
     @property
     def name(self):
         return f"{self.a}|{self.b}"
@@ -96,6 +102,9 @@ class HouseModel:
     law: dict                # 'joint_reading', 'vertex_edge_contacts', 'flush_supports', 'hertz'
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
+
+    def __repr__(self):
+        return f"<HouseModel {self.name}: {len(self.elements)} elements, {len(self.joints)} joints, {self.snow_depth:g} m of snow>"
 
     @cached_property
     def by_name(self):

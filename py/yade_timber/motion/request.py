@@ -67,9 +67,9 @@ class MotionRequest:
         if self.end is not None and self.end <= (self.start or 0.0):
             raise RecordError(f"{name.format('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
-    def motion(self, dt):
-        """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`. Raises RecordError."""
-        motion = self._source()
+    def motion(self, dt, given=None):
+        """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`; given: GroundMotion in place of a record. Raises RecordError."""
+        motion = self._source() if given is None else turned(given, self.azimuth or 0.0)
         if self.start is not None or self.end is not None:
             motion = trim(motion, self.start or 0.0, self.end)
         if self.detrend is not None:
