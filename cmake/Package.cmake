@@ -3,7 +3,7 @@
 
 install(PROGRAMS scripts/yade-timber DESTINATION bin)
 install(DIRECTORY scripts/ DESTINATION share/yade-timber/scripts USE_SOURCE_PERMISSIONS
-  PATTERN __pycache__ EXCLUDE PATTERN setup EXCLUDE PATTERN package EXCLUDE PATTERN format EXCLUDE PATTERN build_docs EXCLUDE PATTERN yade-timber EXCLUDE PATTERN bench EXCLUDE)
+  PATTERN __pycache__ EXCLUDE PATTERN setup EXCLUDE PATTERN package EXCLUDE PATTERN format EXCLUDE PATTERN build_docs EXCLUDE PATTERN yade-timber EXCLUDE PATTERN bench EXCLUDE PATTERN own_law EXCLUDE)
 
 install(FILES LICENSE DESTINATION share/doc/yade-timber RENAME copyright)
 

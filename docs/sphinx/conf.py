@@ -20,6 +20,7 @@ default_role = "py:obj"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 autodoc_typehints = "none"
+autodoc_mock_imports = ["vtkmodules"]  # a recommended package
 numpydoc_show_class_members = False
 myst_heading_anchors = 4
 myst_all_links_external = False
