@@ -68,10 +68,16 @@ def test_wrong_options_are_refused_in_a_line(error, words, options):
 
 
 def test_interrupted_run_continues():
-    """Ctrl-C after a second of wall time; the handlers are the session's own again."""
+    """Ctrl-C after some steps; the handlers are the session's own again."""
+    def interrupt():
+        while O.iter < 100:
+            time.sleep(0.01)
+        kill(getpid(), signal.SIGINT)
+
     before = signal.getsignal(signal.SIGINT)
     options = {**SHORT, "duration": 40, "every_step": True, "out": "stopped"}
-    threading.Thread(target=lambda: (time.sleep(1), kill(getpid(), signal.SIGINT))).start()
+    O.reset()
+    threading.Thread(target=interrupt).start()
     with pytest.raises(KeyboardInterrupt, match="resume=True"):
         yt.run("A", **options)
     assert signal.getsignal(signal.SIGINT) is before
