@@ -25,7 +25,10 @@ def own_folder(tmp_path, monkeypatch):
 
 def test_runs_one_after_the_other_have_folders_of_their_own():
     house = yt.house("A")
-    first, second = yt.run(house, motion="shipped", **SHORT), yt.run(house, motion="shipped", snow=0.5, **SHORT)
+    first = yt.run(house, motion="shipped", **SHORT)
+    with pytest.raises(RunError):
+        yt.run(house, dt=1)  # takes no folder
+    second = yt.run(house, motion="shipped", snow=0.5, **SHORT)
     assert (first.folder.name, second.folder.name) == ("A", "A_2")
     assert first.summary["snow_mass_kg"] == 0 < second.summary["snow_mass_kg"]
     assert first.drift != second.drift

@@ -14,7 +14,7 @@ from .result import RunResult
 
 RESULTS = Path("results")
 _used = set()
-"""Default folders of the runs of this session."""
+"""Folders of the runs of this session."""
 
 
 def run(house, motion=None, snow=None, duration=None, out=None, **options):
@@ -71,6 +71,7 @@ def _complete(argv, motion):
     from ..run.runner import Interrupted
 
     scenario, output = cli.read_house(argv, motion)
+    _used.add(output.folder.resolve())
     try:
         with _restored_handlers():
             session.complete(scenario, output)
@@ -97,7 +98,6 @@ def _default_folder(house):
     name, number = Path(house.given).stem, 1
     while (folder := RESULTS / (name if number == 1 else f"{name}_{number}")).resolve() in _used:
         number += 1
-    _used.add(folder.resolve())
     return folder
 
 
