@@ -18,9 +18,9 @@ CHECK = """
 #include <kernel/pad_law.hpp>
 int main()
 {
-	const timber::PadLaw law { 1e6, 0.01 };
-	for (double n = 1e-6; n < 0.1; n *= 10)
-		std::printf("%.17g %.17g %.17g %.17g\\n", n, law.force(n), law.energy(n), law.overlapOf(law.energy(n)));
+    const timber::PadLaw law { 1e6, 0.01 };
+    for (double n = 1e-6; n < 0.1; n *= 10)
+        std::printf("%.17g %.17g %.17g %.17g\\n", n, law.force(n), law.energy(n), law.overlapOf(law.energy(n)));
 }
 """
 
