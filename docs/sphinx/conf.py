@@ -16,6 +16,7 @@ extensions = ["sphinx.ext.autodoc", "numpydoc", "myst_parser"]
 exclude_patterns = ["docs/sphinx", "py", "scripts"]
 html_theme = "sphinx_rtd_theme"
 html_show_sourcelink = False
+html_static_path, html_css_files = ["static"], ["pages.css"]
 default_role = "py:obj"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
