@@ -3,7 +3,7 @@
 
 install(PROGRAMS scripts/yade-timber DESTINATION bin)
 install(DIRECTORY scripts/ DESTINATION share/yade-timber/scripts USE_SOURCE_PERMISSIONS
-  PATTERN __pycache__ EXCLUDE PATTERN setup EXCLUDE PATTERN package EXCLUDE PATTERN format EXCLUDE PATTERN yade-timber EXCLUDE PATTERN bench EXCLUDE)
+  PATTERN __pycache__ EXCLUDE PATTERN setup EXCLUDE PATTERN package EXCLUDE PATTERN format EXCLUDE PATTERN build_docs EXCLUDE PATTERN yade-timber EXCLUDE PATTERN bench EXCLUDE PATTERN own_law EXCLUDE)
 
 install(FILES LICENSE DESTINATION share/doc/yade-timber RENAME copyright)
 
@@ -22,6 +22,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # The module fits one build of YADE; all libraries that it links to come with it.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "yade (= ${yade_package_version}), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-yaml, python3-tqdm")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9") # yade-timber vtk
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 include(CPack)

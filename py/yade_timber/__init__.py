@@ -1,10 +1,30 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Timber-frame houses as rounded convex polyhedra in YADE.
 
-Inside a YADE session the import loads the compiled classes and re-exports them; elsewhere the parts that need no YADE
-(ground motion, house description) still import.
+    import yade_timber as yt
+    run = yt.run(yt.house("C2"), motion="shipped", snow=1.0)
+    run.drift, run.broken, run.player()
+
+Inside a YADE session the import loads the compiled classes and re-exports them. Elsewhere `house`, `motion`, `load_run` and all parts that need
+no YADE still import.
 """
 from . import host as _host
+from . import house, motion, run
+from .api.house import House
+from .api.motion import ground_motion as _ground_motion
+from .api.result import RunResult, load_run
+from .api.run import run as _run
+from .base.callable_package import make_callable as _make_callable
+
+__version__ = "0.1.0"
+
+for _package, _function in ((house, House), (motion, _ground_motion), (run, _run)):
+    _make_callable(_package, _function)
+
+__all__ = ["House", "RunResult", "house", "load_run", "motion", "run"]
+IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "polyhedron", "set_velocity", "snow", "stable_dt",
+           "timber")
+"""Functions that need a YADE session."""
 
 if _host.running():
     import yade.wrapper as _wrapper
@@ -23,3 +43,12 @@ if _host.running():
     from .scene.export import export_scene  # noqa: E402,F401
     from .scene.joints import SlipLaw, connect  # noqa: E402,F401
     from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401
+
+    __all__ += [*IN_YADE, *_class_names]
+
+
+def __getattr__(name):
+    """A useful message for the names that need a YADE session."""
+    if name in IN_YADE:
+        raise AttributeError(f"yade_timber.{name} needs YADE: import yade_timber in a YADE session, or start the script with `yade -n -x script.py`")
+    raise AttributeError(f"module 'yade_timber' has no attribute '{name}'")

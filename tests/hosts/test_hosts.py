@@ -21,3 +21,9 @@ def test_readme_commands_and_package(suite):
 def test_a_suite_is_required():
     done = subprocess.run([CHECK], capture_output=True, text=True)
     assert done.returncode == 1 and "usage" in done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("mmdebstrap"), reason="needs root and mmdebstrap")
+def test_an_unknown_part_is_refused(tmp_path):
+    done = subprocess.run([CHECK, "trixie", tmp_path, "everything"], capture_output=True, text=True)
+    assert done.returncode == 1 and "unknown part 'everything'" in done.stderr

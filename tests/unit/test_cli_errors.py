@@ -193,7 +193,7 @@ def test_defaults():
 
 
 def test_record_warnings_are_one_line(monkeypatch, capsys, record):
-    def noisy(_request, _dt):
+    def noisy(_request, _dt, _given):
         import warnings
 
         warnings.warn("samples: 50, header says 60")

@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The command yade-timber: it starts the scripts, from a clone and from an installed tree."""
+import re
 import runpy
 import subprocess
 import sys
@@ -34,6 +35,10 @@ def test_arguments_reach_the_script(tmp_path):
 
 def test_run_starts_yade_with_the_script():
     assert KNOWN["command"]("run", ["C2", "--snow", "1"]) == ["yade", "-n", "-x", str(COMMAND.parent / "house.py"), "C2", "--snow", "1"]
+
+
+def test_version():
+    assert re.fullmatch(r"yade-timber \d+\.\d+\.\d+\n", run("--version").stdout)
 
 
 def test_unknown_command():

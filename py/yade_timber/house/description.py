@@ -23,6 +23,9 @@ class Description:
     path: Path
     data: Table
 
+    def __repr__(self):
+        return f"<Description {self.name}: {self.path}>"
+
 
 def load_house(name_or_path):
     """Path of a YAML file or name of a shipped house (see shipped_houses) -> Description; raises HouseError (one line, file:line)."""

@@ -27,6 +27,9 @@ class Element:
     group: str = ""         # structure, e.g. 'main', 'entrance'
     source: str = ""        # file:line of its description
 
+    def __repr__(self):
+        return f"<Element {self.name}: {self.kind}, {len(self.vertices)} corners>"
+
     @cached_property
     def solid(self):
         try:
@@ -78,6 +81,9 @@ class JointSpec:
     broken: bool = False  # damaged before the run starts
     label: str = ""      # name of a joint that is not named after its members: of a wall
 
+    def __repr__(self):
+        return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
+
     @property
     def name(self):
         return self.label or f"{self.a}|{self.b}"
@@ -102,6 +108,9 @@ class HouseModel:
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}
+
+    def __repr__(self):
+        return f"<HouseModel {self.name}: {len(self.elements)} elements, {len(self.joints)} joints, {self.snow_depth:g} m of snow>"
 
     @cached_property
     def by_name(self):

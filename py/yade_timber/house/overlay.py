@@ -25,11 +25,23 @@ MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
 def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):
     """The merged and changed tables of a house file, checked against the schema, as dicts and lists.
 
-    settings  'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3': keys of the house file, list items from 1
-    braces    names of braces and walls to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3), 'main.wall1.EW.y0.3-4.plywood'
-    strength  factor on the strength of all joint types
-    where     function of 'set', 'braces' or 'strength' that gives the source of this change for messages
-    Raises HouseError.
+    Parameters
+    ----------
+    name_or_path : str or Path
+        Shipped house or house file.
+    settings : sequence of str
+        Keys of the house file, list items from 1: 'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3'.
+    braces : sequence of str
+        Names of braces and walls to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3),
+        'main.wall1.EW.y0.3-4.plywood'.
+    strength : float
+        Factor on the strength of all joint types. [-]
+    where : callable
+        Function of 'set', 'braces' or 'strength' that gives the source of this change for messages.
+
+    Raises
+    ------
+    HouseError
     """
     path = house_path(name_or_path)
     data = load_table(path)

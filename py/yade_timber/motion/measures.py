@@ -60,9 +60,18 @@ def pgd(motion, component="h", corner=VELOCITY_CORNER):
 
 
 def velocity(motion, corner=VELOCITY_CORNER):
-    """Ground velocity from rest: trapezoidal integral of the acceleration. (n, 3) [m/s]
+    """Ground velocity from rest: trapezoidal integral of the acceleration.
 
-    corner  zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none
+    Parameters
+    ----------
+    motion : GroundMotion
+    corner : float or None
+        Zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none.
+
+    Returns
+    -------
+    (n, 3) array
+        [m/s]
     """
     return _integral(motion, corner, 1)
 
@@ -89,9 +98,14 @@ def _integral(motion, corner, times):
 class JmaIntensity:
     """JMA instrumental intensity.
 
-    raw       I = 2 log10(a0) + 0.94, not rounded; -inf for a motion of zeros
-    official  raw rounded to two decimals, then cut to one
-    a0        filtered vector acceleration that is reached or exceeded for 0.3 s in total. [gal]
+    Parameters
+    ----------
+    raw : float
+        I = 2 log10(a0) + 0.94, not rounded; -inf for a motion of zeros.
+    official : float
+        The same rounded to two decimals, then cut to one.
+    a0 : float
+        Filtered vector acceleration that is reached or exceeded for 0.3 s in total. [gal]
     """
 
     raw: float
@@ -136,12 +150,18 @@ def jma_intensity(motion):
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Response spectrum of linear oscillators; all arrays (m,).
+    """Response spectrum of linear oscillators.
 
-    periods  [s]
-    sa       largest absolute acceleration of the mass [gal]
-    psv      pseudo-velocity, 2 pi / T times sd [cm/s]
-    sd       largest displacement relative to the ground [cm]
+    Parameters
+    ----------
+    periods : (m,) array
+        [s]
+    sa : (m,) array
+        Largest absolute acceleration of the mass. [gal]
+    psv : (m,) array
+        Pseudo-velocity, 2 pi / T times sd. [cm/s]
+    sd : (m,) array
+        Largest displacement relative to the ground. [cm]
     """
 
     periods: np.ndarray
@@ -151,11 +171,25 @@ class Spectrum:
 
 
 def response_spectrum(acceleration, dt, periods, damping=0.05):
-    """Response spectrum of (n,) or (n, k) ground acceleration [m/s2].
+    """Response spectrum of a ground acceleration.
 
-    With several columns the result is the length of the vector of the columns' responses (the resultant).
-    dt [s], periods [s] > 0, damping in parts of critical, 0 <= damping < 1. Exact for ground acceleration that is
-    linear between its samples (Nigam and Jennings 1969), half a period of free vibration after its end included.
+    Exact for ground acceleration that is linear between its samples (Nigam and Jennings 1969), half a period of free vibration after its end
+    included.
+
+    Parameters
+    ----------
+    acceleration : (n,) or (n, k) array_like
+        [m/s2]; with several columns the result is the length of the vector of the columns' responses (the resultant).
+    dt : float
+        [s]
+    periods : (m,) array_like
+        > 0 [s]
+    damping : float
+        Share of critical damping, 0 <= damping < 1. [-]
+
+    Returns
+    -------
+    Spectrum
     """
     periods = np.atleast_1d(np.asarray(periods, dtype=float))
     if not (np.isfinite(periods).all() and (periods > 0.0).all() and 0.0 <= damping < 1.0):

@@ -90,13 +90,24 @@ def scaled_to_intensity(motion, intensity):
 
 
 def resample(motion, dt, method="bandlimited"):
-    """Samples at another time step. Returns (motion, error).
+    """Samples at another time step.
 
-    bandlimited  Fourier interpolation of the record, padded with zeros; for a larger step it also removes
-                 frequencies above the new Nyquist frequency. dt / old dt must be a ratio of whole numbers.
-    linear       straight lines between the samples, as in the ground-motion engine
-    error        largest difference from the band-limited interpolation of the original at the new times, in parts of
-                 the record's PGA (0 for an upsampling by `bandlimited`)
+    Parameters
+    ----------
+    motion : GroundMotion
+    dt : float
+        New time step. [s]
+    method : {"bandlimited", "linear"}
+        ``bandlimited``: Fourier interpolation of the record, padded with zeros; for a larger step it also removes frequencies above the new
+        Nyquist frequency; dt / old dt must be a ratio of whole numbers. ``linear``: straight lines between the samples, as in the
+        ground-motion engine.
+
+    Returns
+    -------
+    motion : GroundMotion
+    error : float
+        Largest difference from the band-limited interpolation of the original at the new times, in parts of the record's PGA
+        (0 for an upsampling by ``bandlimited``).
     """
     if method not in ("bandlimited", "linear"):
         raise RecordError(f"resampling method '{method}'; admissible: bandlimited, linear")

@@ -48,15 +48,30 @@ def default_motion():
 def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=False):
     """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files.
 
-    record     a file, three files separated by commas, or the common prefix of three files
-    component  direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; replaces
-               the directions in the files, needed only where a file does not state its own
-    units      unit of the numbers (gal, m/s2, g) where the file does not state it; a contradiction is refused
-    angle      azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's
-               +y to the record's north. With 90 the record's north component shakes the house along +x.
-    trim_to_shortest  cut components of different length at the shortest one instead of refusing them
-    Returns GroundMotion; a component that no file gives is zero, and its `source` says so.
-    Raises RecordError: missing, truncated, unknown format, not a number, no unit, components of different records.
+    Parameters
+    ----------
+    record : str or Path
+        A file, three files separated by commas, or the common prefix of three files.
+    component : str, optional
+        Direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; replaces the directions in the files,
+        needed only where a file does not state its own.
+    units : str, optional
+        Unit of the numbers (gal, m/s2, g) where the file does not state it; a contradiction is refused.
+    angle : float
+        Azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's +y to the record's north.
+        With 90 the record's north component shakes the house along +x.
+    trim_to_shortest : bool
+        Cut components of different length at the shortest one instead of refusing them.
+
+    Returns
+    -------
+    GroundMotion
+        A component that no file gives is zero, and its `source` says so.
+
+    Raises
+    ------
+    RecordError
+        Missing, truncated, unknown format, not a number, no unit, components of different records.
     """
     paths = find_files(record)
     channels = [channel for path in paths for channel in parse(path, read_lines(path), units, component is not None)]

@@ -49,13 +49,25 @@ class RecordWarning(UserWarning):
 class GroundMotion:
     """Ground acceleration sampled at equal steps.
 
-    dt            time step [s]
-    acceleration  (n, 3) [m/s2], columns ew, ns, ud: positive towards east, north and up
-    name          short name
-    source        files or generator, mapping of the components, processing
-    begins        date and time of the first sample, where the record states it (K-NET, JMA: Japan Standard Time)
-    parts         of a sequence: its motions (sequence.Part); else empty
-    Raises RecordError for dt <= 0, a wrong shape or a value that is not finite.
+    Parameters
+    ----------
+    dt : float
+        Time step. [s]
+    acceleration : (n, 3) array_like
+        [m/s2], columns ew, ns, ud: positive towards east, north and up.
+    name : str
+        Short name.
+    source : str
+        Files or generator, mapping of the components, processing.
+    begins : datetime, optional
+        Date and time of the first sample, where the record states it (K-NET, JMA: Japan Standard Time).
+    parts : tuple of Part
+        Of a sequence: its motions; else empty.
+
+    Raises
+    ------
+    RecordError
+        For dt <= 0, a wrong shape or a value that is not finite.
     """
 
     dt: float

@@ -10,8 +10,9 @@ from pathlib import Path
 from ..base.errors import RunError
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import load_house, shipped_houses
-from ..motion import add_motion_options, motion_request
+from ..motion import GroundMotion, add_motion_options, motion_request
 from ..scene.scenario import Scenario
+from .identity import of_arrays
 
 SNOW_DEPTH = 1.0
 """Snow on the roof of the snow runs. [m] (paper, section 3.4)"""
@@ -102,12 +103,15 @@ def read(house, earthquake, snow, argv):
     return _run(given, argv[1:], Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
 
 
-def read_house(argv):
-    """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError."""
+def read_house(argv, motion=None):
+    """Command line (as sys.argv) of scripts/house.py -> (Scenario, Output). Raises RunError, RecordError, HouseError.
+
+    motion: GroundMotion that takes the place of a record
+    """
     given = house_parser().parse_args(_joined(argv[1:]))
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
-    shaken = given.quake or given.record is not None or given.seed is not None
-    return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE"))
+    shaken = motion is not None or given.quake or given.record is not None or given.seed is not None
+    return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
 
 
 @dataclass(frozen=True)
@@ -119,6 +123,7 @@ class Request:
     earthquake: bool
     snow_depth: float  # [m]
     remedy: str
+    motion: GroundMotion = None  # in place of a record
 
 
 def _run(given, arguments, request):
@@ -140,7 +145,7 @@ def _run(given, arguments, request):
         export=_path("--export", given.export),
         quiet=given.quiet,
         checkpoint_interval=given.checkpoint,
-        options=decisive(arguments),
+        options=decisive(arguments) + (() if request.motion is None else (f"motion {of_arrays([request.motion.acceleration])}",)),
     )
 
 
@@ -191,7 +196,7 @@ def _motion(shaking, request, dt):
         return None
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")
-        motion = shaking.motion(dt)
+        motion = shaking.motion(dt, request.motion)
     for note in notes:
         print(f"note: {note.message}", file=sys.stderr)
     return motion

@@ -6,7 +6,8 @@ the prompt. The other modules are imported inside `launch`, so that Ctrl-C durin
 """
 import signal
 import sys
-from contextlib import contextmanager
+
+from ..base.interrupt import deferred_interrupt
 
 
 def main(house, earthquake=False, snow=False, argv=None):
@@ -28,17 +29,17 @@ def launch(read, argv=None):
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
     try:
-        with _deferred_interrupt():
+        with deferred_interrupt():
             from ..base.errors import InputError
-            from . import cli
+            from . import cli, session
             from .runner import Interrupted
     except KeyboardInterrupt:
         leave("stopped by SIGINT before the run", 128 + signal.SIGINT)
     output = None
     try:
-        with _deferred_interrupt():
+        with deferred_interrupt():
             scenario, output = read(cli, sys.argv if argv is None else argv)
-        return _run(scenario, output)
+        return _run(session, scenario, output)
     except InputError as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
@@ -49,51 +50,15 @@ def launch(read, argv=None):
         leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 
-def _run(scenario, output):
+def _run(session, scenario, output):
     """Run to the end, or start a live run; returns the Run."""
-    from contextlib import ExitStack
-
     import yade.runtime
-    import yade.wrapper as yw
 
-    from .. import host
-    from ..base.errors import RunError
-    from ..base.lock import locked
-    from .cli import prepare_folder
-    from .live import LiveRun
-    from .runner import Run
-
-    if yade.runtime.opts.exitAfter:
-        host.close_servers()
-    stays = not yade.runtime.opts.exitAfter and sys.stdin.isatty()
-    if stays and yw.Omega().running:  # a live run: the new one takes its place
-        yw.Omega().pause()
-        yw.Omega().wait()
-    prepare_folder(output.folder)
-    with ExitStack() as folder_lock:
-        if not folder_lock.enter_context(locked(output.folder)):
-            raise RunError(f"{output.folder}: another process computes a run there; wait for it, or choose another folder with --out")
-        with _deferred_interrupt():
-            run = (LiveRun if stays else Run)(scenario, output)
-        if not stays:
-            run.complete()
-            return run
-        run.start(folder_lock.pop_all())
+    if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
+        return session.complete(scenario, output)
+    run = session.start(scenario, output)
     print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {run.output.folder} at the end")
     return run
-
-
-@contextmanager
-def _deferred_interrupt():
-    """Ctrl-C takes effect at the end of the block: KeyboardInterrupt in the middle of an import may crash compiled modules."""
-    received = []
-    before = signal.signal(signal.SIGINT, lambda *_: received.append(True))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-    if received:
-        raise KeyboardInterrupt
 
 
 def leave(line, status):

@@ -10,9 +10,28 @@ _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 
 def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density, friction=_TIMBER.friction, label=""):
-    """Material of timber elements: Young's modulus [Pa], Poisson's ratio [-], density [kg/m3], friction coefficient [-].
+    """Material of timber elements.
 
-    A pair of materials has the smaller of its two friction coefficients. Raises ValueError outside the physical range.
+    Parameters
+    ----------
+    young : float
+        Young's modulus. [Pa]
+    poisson : float
+        Poisson's ratio. [-]
+    density : float
+        [kg/m3]
+    friction : float
+        Friction coefficient [-]; a pair of materials has the smaller of its two coefficients.
+    label : str
+
+    Returns
+    -------
+    TimberMat
+
+    Raises
+    ------
+    ValueError
+        Outside the physical range.
     """
     return yw.TimberMat(
         young=arguments.number("timber: young", young, "Pa"),
@@ -24,7 +43,22 @@ def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density
 
 
 def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, friction=_SNOW.friction, label=""):
-    """Material of snow elements: density [kg/m3], contact stiffness per mass [N/m/kg] (paper, Table 1), friction [-]."""
+    """Material of snow elements.
+
+    Parameters
+    ----------
+    density : float
+        [kg/m3]
+    stiffness_per_kg : float
+        Contact stiffness per mass of the lighter element [N/m/kg] (paper, Table 1).
+    friction : float
+        Friction coefficient. [-]
+    label : str
+
+    Returns
+    -------
+    SnowMat
+    """
     return yw.SnowMat(
         density=arguments.number("snow: density", density, "kg/m3"),
         stiffnessPerMass=arguments.number("snow: stiffness_per_kg", stiffness_per_kg, "N/m/kg"),
@@ -40,15 +74,33 @@ def to_digits(corners):
 
 
 def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind="", color=None):
-    """Body of any convex shape; append it to `O.bodies`.
+    """Body of any convex shape; append it to ``O.bodies``.
 
-    vertices  (n, 3) corners in the world frame [m]
-    material  from `timber()` or `snow()`; default timber
-    fixed     whether it never moves
-    radius    rounding radius [m]; None: 10 % of the shortest edge (paper, section 2.2)
-    color     (3,) RGB, 0 to 1; None: YADE's default
-    Raises ValueError when the vertices are no corners of a convex polyhedron or the radius leaves no core, TypeError for a
-    material of another kind.
+    Parameters
+    ----------
+    vertices : (n, 3) array_like
+        Corners in the world frame. [m]
+    material : TimberMat or SnowMat, optional
+        From `timber` or `snow`; by default timber.
+    fixed : bool
+        Whether it never moves.
+    radius : float, optional
+        Rounding radius [m]; by default 10 % of the shortest edge (paper, section 2.2).
+    name, kind : str
+        For pictures and tables.
+    color : (3,) array_like, optional
+        RGB, 0 to 1; by default YADE's.
+
+    Returns
+    -------
+    Body
+
+    Raises
+    ------
+    ValueError
+        When the vertices are no corners of a convex polyhedron, or the radius leaves no core.
+    TypeError
+        For a material of another kind.
     """
     material = timber() if material is None else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
     fixed = arguments.flag("fixed", fixed)
@@ -91,9 +143,27 @@ def scale_mass(body, factor):
 
 
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):
-    """Rectangular parallelepiped: extents (3,) full edge lengths [m], centre (3,) [m], orientation a Quaternion or None.
+    """Rectangular parallelepiped; append it to ``O.bodies``.
 
-    The other arguments are those of `polyhedron`. Raises ValueError for extents that are not all finite and > 0.
+    Parameters
+    ----------
+    extents : (3,) array_like
+        Full edge lengths. [m]
+    centre : (3,) array_like
+        World frame. [m]
+    orientation : Quaternion, optional
+        From the body's to the world's axes.
+    material, fixed, radius, name, kind, color
+        As in `polyhedron`.
+
+    Returns
+    -------
+    Body
+
+    Raises
+    ------
+    ValueError
+        For extents that are not all finite and > 0.
     """
     form = "three finite lengths > 0 [m]"
     extents = arguments.numbers_of_shape("extents", extents, (3,), form)
@@ -108,7 +178,16 @@ def box(extents, centre, orientation=None, material=None, fixed=False, radius=No
 
 
 def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
-    """Give a body a velocity (3,) [m/s] and an angular velocity (3,) [rad/s], world frame, and the angular momentum that the integrator needs."""
+    """Give a body a velocity, and the angular momentum that the integrator needs.
+
+    Parameters
+    ----------
+    body : Body
+    velocity : (3,) array_like
+        World frame. [m/s]
+    angular_velocity : (3,) array_like
+        World frame. [rad/s]
+    """
     arguments.instance("body", body, yw.Body, "a Body")
     body.state.vel = arguments.vector("velocity", velocity, "m/s")
     body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")

@@ -63,21 +63,40 @@ def engines(
     health_check=100,
     skip_rest=0,
 ):
-    """List for `O.engines` with the engines that the scene needs.
+    """List for ``O.engines`` with the engines that the scene needs.
 
-    gravity        (3,) [m/s2]
-    ground_motion  `yade_timber.motion.GroundMotion`, a GroundMotionEngine, or None
-    joints         list of TimberJoint; None keeps the joints that are in O.engines already (`connect` adds to them)
-    monitor        HouseMonitor, StructureMonitor, a list of them, or None
-    vertex_edge    whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them)
-    flush_supports whether a vertex exactly over a face's border is supported
-    increment      normal force from increments (Eq. 38) instead of the closed form (Eq. 37)
-    damping_ratio  share of critical damping [-]; below 1, contacts that last fewer than some ten steps may gain energy (docs/theory.md, section 5)
-    sweeps         most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper
-    tolerance      largest change of an island's contact impulses in the last sweep, relative to their root mean square [-]
-    track_energy   whether `energy()` is available
-    health_check   steps between checks for finite numbers; 0: no check of scene and engines at all
-    skip_rest      number of steps of which one is computed while scene and ground are at rest (RestSkipper.stride); 0: all are computed
+    Parameters
+    ----------
+    gravity : (3,) array_like
+        [m/s2]
+    ground_motion : GroundMotion or GroundMotionEngine, optional
+        By default none.
+    joints : list of TimberJoint, optional
+        By default the joints that are in ``O.engines`` already (`connect` adds to them).
+    monitor : HouseMonitor, StructureMonitor or list of them, optional
+        By default none.
+    vertex_edge : bool
+        Whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them).
+    flush_supports : bool
+        Whether a vertex exactly over a face's border is supported.
+    increment : bool
+        Normal force from increments (Eq. 38) instead of the closed form (Eq. 37).
+    damping_ratio : float
+        Share of critical damping [-]; below 1, contacts that last fewer than some ten steps may gain energy (docs/theory.md, section 5).
+    sweeps : int
+        Most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper.
+    tolerance : float
+        Largest change of an island's contact impulses in the last sweep, relative to their root mean square. [-]
+    track_energy : bool
+        Whether `energy` is available.
+    health_check : int
+        Steps between checks for finite numbers; 0: no check of scene and engines at all.
+    skip_rest : int
+        Number of steps of which one is computed while scene and ground are at rest (``RestSkipper.stride``); 0: all are computed.
+
+    Returns
+    -------
+    list of Engine
     """
     contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance, track_energy)
     chain = [yw.HealthCheck(every=health_check)] if arguments.count("engines: health_check", health_check) else []

@@ -15,12 +15,29 @@ O = yw.Omega()
 def export_scene(path):
     """Write the loaded scene to a JSON file: elements, materials with friction per pair, joints, gravity.
 
-    elements   id, name, kind, vertices (n, 3) world [m], faces (vertex indices, outward), density: mass over volume [kg/m3], radius [m], fixed, material
-    materials  name -> law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]; friction: [name, name, coefficient]
-    joints     elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness [kn, ks] [N/m], strength [N]
-               (null: unbreakable), reading 'spring' | 'joint', damping_ratio [-], broken (one flag per spring), kind, name, slip (null: brittle;
-               else the parameters and the history of each spring); none of a removed body
-    Raises ValueError for a body that is no RoundedPolyhedron; OSError when the file cannot be written.
+    Parameters
+    ----------
+    path : str or Path
+        File to write.
+
+    Raises
+    ------
+    ValueError
+        For a body that is no RoundedPolyhedron.
+    OSError
+        When the file cannot be written.
+
+    Notes
+    -----
+    ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density: mass over
+    volume [kg/m3], radius [m], fixed,
+    material.
+
+    ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name, coefficient.
+
+    ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks) [N/m], strength [N]
+    (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], broken (one flag per spring), kind, name, slip (null: brittle; else the
+    parameters and the history of each spring); none of a removed body.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):

@@ -39,9 +39,14 @@ class JointValues:
 class SlipLaw:
     """Yielding springs for `connect`: elastic to the strength, then plastic, with slip in cycles (docs/theory.md, section 4).
 
-    softening_stretch  stretch beyond which the strength falls [m], > strength / stiffness
-    ultimate_stretch   stretch at which the strength is zero and the spring breaks [m]
-    friction_share     share of stiffness and strength that dissipates energy in every cycle [-], 0 to 1; the rest slips
+    Parameters
+    ----------
+    softening_stretch : float
+        Stretch beyond which the strength falls [m], > strength / stiffness.
+    ultimate_stretch : float
+        Stretch at which the strength is zero and the spring breaks. [m]
+    friction_share : float
+        Share of stiffness and strength that dissipates energy in every cycle [-], 0 to 1; the rest slips.
     """
 
     softening_stretch: float
@@ -50,14 +55,38 @@ class SlipLaw:
 
 
 def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name="", damping_ratio=0.0, slip=None):
-    """Join two bodies with springs at `points`; returns the TimberJoint, whose `.springs` give force, stretch and break.
+    """Join two bodies with springs.
 
-    points     (n, 3) world frame [m]: the springs are unstretched in the present placement
-    normal     (3,) from body 1 to body 2; None: from centroid to centroid. It matters only for unequal stiffnesses
-    stiffness  (kn, ks) [N/m], strength P_max [N]: of each spring or of the whole joint, as `per` says
-    damping_ratio  of the vibration modes of the two bodies against each other, between 0 and 1 [-]
-    slip       a SlipLaw: springs yield at the strength; needs kn = ks. None: they break at the strength
-    Raises ValueError for unknown bodies, no points, stiffness or strength that is not > 0, an unknown `per`, a damping ratio or SlipLaw out of range.
+    Parameters
+    ----------
+    id1, id2 : int
+        Ids of the bodies.
+    points : (n, 3) array_like
+        Places of the springs, world frame [m]; the springs are unstretched in the present placement.
+    normal : (3,) array_like, optional
+        From body 1 to body 2; by default from centroid to centroid. It matters only for unequal stiffnesses.
+    stiffness : (float, float)
+        Normal and tangential stiffness. [N/m]
+    strength : float
+        Largest force P_max. [N]
+    per : {"spring", "joint"}
+        Whether stiffness and strength are those of each spring or of the whole joint.
+    kind, name : str
+        For pictures and tables.
+    damping_ratio : float
+        Of the vibration modes of the two bodies against each other, 0 to 1. [-]
+    slip : SlipLaw, optional
+        Springs yield at the strength; needs equal stiffnesses. By default they break at the strength.
+
+    Returns
+    -------
+    TimberJoint
+        Its ``springs`` give force, stretch and break.
+
+    Raises
+    ------
+    ValueError
+        For unknown bodies, no points, and values out of range.
     """
     require_bodies("connect", id1, id2)
     if id1 == id2:

@@ -12,10 +12,23 @@ O = yw.Omega()
 
 
 def contacts(id1, id2):
-    """Contact points between two bodies: list of dictionaries, world frame.
+    """Contact points between two bodies, with the forces of the last step.
 
-    position [m], normal (from id1 to id2), overlap [m], normal_force [N] (elastic and dashpot, >= 0), shear_force (3,) on
-    id2 [N]. Empty when they do not touch. Forces are those of the last step. Raises ValueError for an id that no body ever had.
+    Parameters
+    ----------
+    id1, id2 : int
+        Ids of the bodies.
+
+    Returns
+    -------
+    list of dict
+        For each point, world frame: ``position`` [m], ``normal`` (from body 1 to body 2) [-], ``overlap`` [m], ``normal_force`` (elastic and
+        dashpot, >= 0) [N], ``shear_force`` (3,) on body 2 [N]. Empty when the bodies do not touch.
+
+    Raises
+    ------
+    ValueError
+        For an id that no body ever had.
     """
     require_ids("contacts", id1, id2)
     interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
@@ -40,28 +53,55 @@ def contacts(id1, id2):
 
 
 def energy():
-    """Terms of the energy balance of the scene now. [J]
+    """Terms of the energy balance of the scene now.
 
-    kinetic; gravity (potential, from the reference placement); elastic_contacts, elastic_joints; ground_motion
-    (work done by it); dissipated: dashpot_normal, dashpot_shear, friction, broken_springs, lost_contacts (points that
-    vanished under load), joint_dashpot, joint_yield. kinetic + gravity + elastic + dissipated - ground_motion is constant.
+    Returns
+    -------
+    dict
+        Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts``, ``elastic_joints``;
+        ``ground_motion`` (work done by it); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``, ``broken_springs``,
+        ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
+        The sum of all terms but ``ground_motion``, minus ``ground_motion``, is constant.
     """
     return dict(yw.HouseMonitor().energy())
 
 
 def energy_residual(terms):
-    """Residual of the balance of `energy()` [J]; zero at the start of a scene at rest."""
+    """Residual of the energy balance; zero at the start of a scene at rest.
+
+    Parameters
+    ----------
+    terms : dict
+        From `energy`.
+
+    Returns
+    -------
+    float
+        [J]
+    """
     arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
     return sum(value for name, value in terms.items() if name != "ground_motion") - terms.get("ground_motion", 0.0)
 
 
 def stable_dt(safety=0.5):
-    """Largest stable time step of the elastic contacts and joints as they are now, times `safety`. [s]
+    """Largest stable time step of the elastic contacts and joints as they are now.
 
+    Parameters
+    ----------
+    safety : float
+        Factor on the result. [-]
+
+    Returns
+    -------
+    float
+        [s]; infinite when nothing touches.
+
+    Notes
+    -----
     2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
     M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0)
     and for joints, whose dashpots are implicit and do not change it; implicit contacts (the default) are stable beyond it. Contacts that do
-    not touch yet do not count: call it after a few steps, or leave a safety for impacts. Infinite when nothing touches.
+    not touch yet do not count: call it after a few steps, or leave a safety for impacts.
     """
     arguments.positive("stable_dt: safety", safety)
     solver = find_engine(yw.ContactForces)

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The results of a finished run as an object. Needs no YADE."""
+import csv
+import json
+from functools import cached_property
+from pathlib import Path
+
+from ..base.errors import RunError
+from ..base.input_file import require_regular
+from ..recording import frames
+from ..recording.history import NAME as HISTORY
+from ..recording.history import History
+from ..recording.sentences import largest_drift, sentence
+
+SUMMARY, BREAKS = "summary.json", "breaks.csv"
+
+
+class RunResult:
+    """Results of a run, from the files in its folder.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of the results, with ``summary.json``.
+
+    Raises
+    ------
+    RunError
+        One line, when the folder holds no finished run.
+
+    Examples
+    --------
+    >>> run = yt.load_run("results/modelC2_snow")
+    >>> run.drift, run.broken, run.collapsed
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        path = self.folder / SUMMARY
+        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its end")
+        try:
+            self.summary = json.loads(path.read_text(encoding="utf-8"))
+            self.sentence = sentence(self.summary)
+        except (OSError, ValueError, LookupError, TypeError, AttributeError) as problem:
+            raise RunError(f"{path}: cannot be read as the summary of a run: {problem}") from None
+
+    def __repr__(self):
+        return f"<Run {self.folder}: {self.sentence}>"
+
+    # --- numbers ------------------------------------------------------------------------------------------------------
+
+    @property
+    def drift(self):
+        """Largest storey drift of any storey and direction during the run. [-]"""
+        return largest_drift(self.summary)[0]
+
+    @property
+    def residual_drift(self):
+        """Largest storey drift that remains at the end, mean of the last oscillations. [-]"""
+        return largest_drift(self.summary, "residual_drift")[0]
+
+    @property
+    def drifts(self):
+        """Peak drift of each storey and direction: ``run.drifts["storey1"]["ns"]``. [-]"""
+        return self.summary["peak_drift"]
+
+    @property
+    def broken(self):
+        """Number of joints that broke during the run."""
+        return self.summary["broken"]["total"]
+
+    @property
+    def collapsed(self):
+        """Whether a floor of the main structure has come down by half a storey."""
+        return self.summary["collapsed"]
+
+    @property
+    def collapse_time(self):
+        """Time of the collapse [s], or None."""
+        return self.summary["collapse_time_s"]
+
+    @property
+    def energy(self):
+        """Energy balance at the end: input, kinetic, elastic, dissipated, residual. [J]"""
+        return self.summary["energy"]
+
+    @property
+    def events(self):
+        """Events in the order of time: dictionaries with ``time_s`` [s], ``kind``, ``what``, ``number``."""
+        return self.summary["events"]
+
+    # --- tables -------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def history(self):
+        """Time histories (`History`): ``history.time`` (F,) [s], ``history.drift(1, "ns")`` (F,) [-], ``history.energy("kinetic")`` (F,) [J]."""
+        return History.read(self.folder / HISTORY)
+
+    @cached_property
+    def breaks(self):
+        """Each spring that broke, in order: dictionaries with the columns of ``breaks.csv`` as keys and texts as values."""
+        path = self.folder / BREAKS
+        require_regular(path)
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    @cached_property
+    def frames(self):
+        """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20 times per simulated second."""
+        return frames.load(self.folder / frames.NAME)
+
+    # --- pictures -----------------------------------------------------------------------------------------------------
+
+    def player(self, other=None, path=None):
+        """Make the page that plays the run in 3D in any browser.
+
+        Parameters
+        ----------
+        other : RunResult, optional
+            A second run, shown beside this one in step.
+        path : str or Path, optional
+            Page to write; by default ``player.html``, or ``compare_with_NAME.html``, in the folder of this run.
+
+        Returns
+        -------
+        Path
+        """
+        from ..pictures import player
+        from ..pictures.all_pictures import PLAYER
+
+        runs = [run for run in (self, other) if run is not None]
+        name = PLAYER if other is None else f"compare_with_{other.folder.resolve().name}.html"
+        page = Path(path) if path is not None else self.folder / name
+        try:
+            return player.make([(run.folder / frames.NAME, run.frames) for run in runs], page)
+        except OSError as problem:
+            raise RunError(f"{page}: cannot be written: {problem.strerror}") from None
+
+    def pictures(self, folder=None):
+        """Make all pictures of the run and the player.
+
+        Parameters
+        ----------
+        folder : str or Path, optional
+            Folder to write to; by default the folder of the run.
+
+        Returns
+        -------
+        list of Path
+        """
+        from ..pictures import all_pictures
+
+        folder = self.folder if folder is None else Path(folder)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            return all_pictures.write(folder, self.folder)
+        except OSError as problem:
+            raise RunError(f"{folder}: the pictures cannot be written: {problem.strerror}") from None
+
+
+def load_run(folder):
+    """Results of a finished run. Needs no YADE.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of the results of a script, a batch or `run`.
+
+    Returns
+    -------
+    RunResult
+
+    Raises
+    ------
+    RunError
+        One line, when the folder holds no finished run.
+    """
+    return RunResult(folder)

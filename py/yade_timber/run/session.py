@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a folder."""
+from contextlib import ExitStack
+
+import yade.runtime
+import yade.wrapper as yw
+
+from .. import host
+from ..base.errors import RunError
+from ..base.interrupt import deferred_interrupt
+from ..base.lock import locked
+from .cli import prepare_folder
+from .live import LiveRun
+from .runner import Run
+
+
+def complete(scenario, output):
+    """Run a scenario to its end and write its results; returns the Run. Raises InputError, runner.Interrupted."""
+    with ExitStack() as stack:
+        run = _built(Run, scenario, output, stack)
+        run.complete()
+    return run
+
+
+def start(scenario, output):
+    """Start a scenario in the background; returns the LiveRun. Raises InputError."""
+    with ExitStack() as stack:
+        run = _built(LiveRun, scenario, output, stack)
+        run.start(stack.pop_all())
+    return run
+
+
+def _built(kind, scenario, output, stack):
+    """A Run or LiveRun with its scene in YADE. stack: ExitStack that gets the lock of the folder."""
+    if yade.runtime.opts.exitAfter:
+        host.close_servers()
+    elif yw.Omega().running:  # a live run: the new one takes its place
+        yw.Omega().pause()
+        yw.Omega().wait()
+    prepare_folder(output.folder)
+    if not stack.enter_context(locked(output.folder)):
+        raise RunError(f"{output.folder}: another process computes a run there; wait for it, or choose another folder with --out")
+    with deferred_interrupt():
+        return kind(scenario, output)

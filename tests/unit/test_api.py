@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`yt.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an object."""
+import signal
+import subprocess
+import sys
+import threading
+import time
+from os import kill, getpid
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yade_timber as yt
+from yade import O
+from yade_timber.base.errors import RunError
+
+HOUSE_SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "house.py"
+SHORT = {"duration": 0.3, "dt": 2e-4, "quiet": True, "no_frames": True}
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def test_runs_one_after_the_other_have_folders_of_their_own():
+    house = yt.house("A")
+    first = yt.run(house, motion="shipped", **SHORT)
+    with pytest.raises(RunError):
+        yt.run(house, dt=1)  # takes no folder
+    second = yt.run(house, motion="shipped", snow=0.5, **SHORT)
+    assert (first.folder.name, second.folder.name) == ("A", "A_2")
+    assert first.summary["snow_mass_kg"] == 0 < second.summary["snow_mass_kg"]
+    assert first.drift != second.drift
+
+
+def test_the_script_gives_the_same_result():
+    """Bit for bit, also after another run in the session, and with the motion as an object."""
+    options = ["--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out", "script"]
+    subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True, stdin=subprocess.DEVNULL)
+    yt.run("B", **{**SHORT, "duration": 0.01})
+    for motion in ("shipped", yt.motion("shipped")):
+        run = yt.run("A", motion=motion, scale=2, **SHORT)
+        assert np.array_equal(run.history.rows, yt.load_run("script").history.rows)
+
+
+def test_numbers_of_a_run():
+    run = yt.run("A", motion="shipped", **SHORT)
+    assert run.drift == max(value for storey in run.drifts.values() for value in storey.values() if value is not None)
+    assert (run.broken, run.collapsed, run.collapse_time, run.events, run.breaks) == (0, False, None, [], [])
+    assert run.energy["input"] == pytest.approx(run.summary["energy"]["input"])
+    assert run.history.time[-1] == pytest.approx(0.3, abs=0.011)  # one sample in 0.01 s
+    assert run.sentence in repr(run) and len(repr(run)) < 400
+
+
+@pytest.mark.parametrize(
+    "error, words, options",
+    [
+        (TypeError, "did you mean 'duration'", {"durration": 1}),
+        (TypeError, "motion 3: must be", {"motion": 3}),
+        (RunError, "no earthquake; give motion=", {"scale": 2}),
+        (RunError, "--dt 1: the time step must be between", {"dt": 1}),
+        (RunError, "a path must not be empty", {"out": ""}),
+        (ValueError, "no such file", {"motion": "nowhere"}),
+    ],
+)
+def test_wrong_options_are_refused_in_a_line(error, words, options):
+    with pytest.raises(error) as refusal:
+        yt.run("A", **options)
+    assert words in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+def test_interrupted_run_continues():
+    """Ctrl-C after some steps; the handlers are the session's own again."""
+    def interrupt():
+        while O.iter < 100:
+            time.sleep(0.01)
+        kill(getpid(), signal.SIGINT)
+
+    before = signal.getsignal(signal.SIGINT)
+    options = {**SHORT, "duration": 40, "every_step": True, "out": "stopped"}
+    O.reset()
+    threading.Thread(target=interrupt).start()
+    with pytest.raises(KeyboardInterrupt, match="resume=True"):
+        yt.run("A", **options)
+    assert signal.getsignal(signal.SIGINT) is before
+    reached = O.time
+    assert 0 < reached < 40
+    assert yt.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary["duration_s"] == pytest.approx(reached + 0.1, abs=2e-4)
+
+
+def test_player_and_pictures():
+    run = yt.run("A", motion="shipped", **{**SHORT, "no_frames": False})
+    other = yt.run("B", motion="shipped", **{**SHORT, "no_frames": False})
+    assert run.player() == run.folder / "player.html" and run.player().stat().st_size > 1e5
+    assert run.player(other) == run.folder / "compare_with_B.html"
+    assert len(run.frames.time) == 7 and len(repr(run.frames)) < 300
+    assert (run.folder / "front.png") in run.pictures()
+
+
+def test_names_outside_yade():
+    """A plain Python has houses, motions and finished runs, and says what it lacks."""
+    code = "import yade_timber as yt\nfor name in ('box', 'nothing'):\n    try:\n        getattr(yt, name)\n    except AttributeError as problem:\n        print(problem)\nyt.run('A')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "yade_timber.box needs YADE" in done.stdout and "no attribute 'nothing'" in done.stdout
+    assert done.stderr.splitlines()[-1].endswith("or call it in a YADE session") and done.returncode == 1
+
+
+def test_every_name_is_there():
+    assert [name for name in yt.__all__ if not hasattr(yt, name)] == []

@@ -1,0 +1,96 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Houses, motions and finished runs as objects, without YADE: calls, refusals, short representations."""
+import importlib
+import inspect
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+
+import yade_timber as yt  # noqa: E402
+import frames_sample  # noqa: E402
+from yade_timber.base.errors import InputError  # noqa: E402
+from yade_timber.house import build_house, load_house  # noqa: E402
+
+
+def test_packages_are_called_and_still_packages():
+    assert yt.house("A").name == "A" and yt.house.load_house is load_house
+    assert importlib.import_module("yade_timber.run.identity").__name__ == "yade_timber.run.identity"
+    assert list(inspect.signature(yt.run).parameters) == ["house", "motion", "snow", "duration", "out", "options"]
+    assert "Parameters" in yt.run.__doc__ and "Parameters" in yt.house.__doc__
+
+
+def test_house_of_a_name_a_file_and_a_house(tmp_path):
+    shutil.copy(yt.house("storehouse").path, tmp_path / "mine.yaml")
+    for given in ("C2", yt.house("C2")):
+        assert yt.house(given).counts()["joints"] == 382
+    assert yt.house(tmp_path / "mine.yaml").counts() == yt.house("storehouse").counts()
+    assert yt.house("A").counts(snow=1.0)["mass_snow"] > 0 == yt.house("A").counts(snow=0)["mass_snow"]
+
+
+def test_variant_of_a_house(tmp_path):
+    house = yt.house("B")
+    more = house.variant(tmp_path / "more.yaml", braces=house.free_bays[:2], strength=1.5)
+    assert more.name == "more" and more.counts()["braces"] == house.counts()["braces"] + 2
+    strongest = [max(joint.strength for joint in h.model().joints if joint.kind == "column_beam") for h in (house, more)]
+    assert strongest[1] == 1.5 * strongest[0]
+
+
+def test_drawing(tmp_path):
+    assert (tmp_path / "b.png") in yt.house("B").draw(tmp_path / "b.png")
+
+
+def test_motions():
+    motion = yt.motion("shipped", scale=0.5)
+    assert motion.pga_gal["ns"] == pytest.approx(0.5 * yt.motion().pga_gal["ns"])
+    assert yt.motion(motion, azimuth=90).pga_gal["ew"] == pytest.approx(motion.pga_gal["ns"])
+    assert yt.motion(motion, pga=300).pga_gal["ew"] == pytest.approx(300)  # the smaller of the horizontal peaks is 300 gal at level
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: yt.house("D"), "unknown house 'D'"),
+        (lambda: yt.house(3), "unknown house '3'"),
+        (lambda: yt.house("B").variant("/nowhere/x.yaml"), "cannot be written"),
+        (lambda: yt.house("B").variant("x.yaml", settings=["snow=1=2"]), "snow"),
+        (lambda: yt.house("B").draw("/nowhere/x.png"), "cannot be written"),
+        (lambda: yt.motion("nowhere"), "no such file"),
+        (lambda: yt.motion(scale=-1), "motion: scale -1"),
+        (lambda: yt.motion(scale="2"), "must be of type float"),
+        (lambda: yt.motion(scales=2), "did you mean 'scale'"),
+        (lambda: yt.motion(7), "motion 7: must be"),
+        (lambda: yt.motion(yt.motion(), seed=3), "leave one of them out"),
+        (lambda: yt.load_run("/nowhere"), "no finished run"),
+    ],
+)
+def test_refusals_are_one_line(call, words):
+    with pytest.raises((InputError, TypeError)) as refusal:
+        call()
+    assert words in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+def test_damaged_summary(tmp_path):
+    for text in ("", "[]", "{}", '{"model": 3}'):
+        (tmp_path / "summary.json").write_text(text)
+        with pytest.raises(InputError, match="cannot be read as the summary"):
+            yt.load_run(tmp_path)
+
+
+def test_representations_are_short():
+    model = build_house(load_house("C2"))
+    frames = frames_sample.run()
+    shown = (yt.house("C2"), yt.motion(), load_house("C2"), model, model.elements[0], model.joints[0], frames, frames.elements, frames.joints, frames.history)
+    assert [type(value).__name__ for value in shown if len(repr(value)) > 300] == []
+
+
+def test_version():
+    """The same in the change list, the citation and the package; CMake reads it from the package."""
+    assert re.search(r"^version: (.*)$", (ROOT / "CITATION.cff").read_text(), re.M)[1] == yt.__version__
+    assert f"## {yt.__version__}" in (ROOT / "CHANGELOG.md").read_text()
