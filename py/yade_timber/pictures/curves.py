@@ -37,7 +37,7 @@ DISSIPATED = {
 
 def write(stem, frames):
     """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(frames, DPI), stem, ("png", "pdf"), DPI)
+    return save(page(frames, DPI), stem, ("png", "pdf"))
 
 
 def page(frames, dpi):

@@ -81,7 +81,7 @@ def layout(form, count, box, result):
 
 def write_sheet(stem, frames, view):
     """Write `stem`.png and `stem`.pdf: the key times in one view. Returns the paths. Raises OSError."""
-    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"), PRINT.dpi)
+    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"))
 
 
 def sheet(frames, view, form):
@@ -91,13 +91,13 @@ def sheet(frames, view, form):
     shots = [snapshot(frames, time.frame) for time in times]
     box = box_of(view, start, [shot.solids for shot in shots])
     plan = layout(form, len(shots), box, result(frames))
-    front, covered = front_of(start, view), silhouette(start, view, box)
+    front, outlines = front_of(start, view), silhouette(start, view)
     figure = new_figure(plan.width, plan.height, form.dpi)
     for time, shot, corner in zip(times, shots, plan.corners()):
         ax = add_panel(figure, corner, plan.panel, form.dpi)
         draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
         if time.frame:
-            draw_silhouette(ax, covered, box, PANEL_MARK)
+            draw_silhouette(ax, outlines, PANEL_MARK)
         caption = f"{frames.time[time.frame]:.2f} s{': ' if time.reason else ''}{time.reason}"
         ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3)
         draw_ends(ax, view, 7)
@@ -114,7 +114,7 @@ def result(frames):
 
 def write_end(stem, frames):
     """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
-    return save(both_views(frames, -1, END_DPI), stem, ("png",), END_DPI)
+    return save(both_views(frames, -1, END_DPI), stem, ("png",))
 
 
 def both_views(frames, frame, dpi):
@@ -133,7 +133,7 @@ def both_views(frames, frame, dpi):
     for view, box, size in zip(VIEWS, boxes, sizes):
         ax = add_panel(figure, (left, END_AXES), size, dpi)
         draw_view(ax, Window(view, box, density), shot, front_of(start, view))
-        draw_silhouette(ax, silhouette(start, view, box), box)
+        draw_silhouette(ax, silhouette(start, view))
         ax.set_title(view.title, fontsize=12)
         draw_ends(ax, view, 10)
         scale_bar(ax, box, 10)
