@@ -4,6 +4,8 @@ import multiprocessing
 import os
 import signal
 import threading
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
 from ..recording import frames
@@ -31,17 +33,23 @@ def write(folder, results=None):
     if recorded.history and recorded.history.samples:
         tasks.append(partial(curves.write, folder / CURVES, recorded))
     tasks += [partial(sheets.write_end, folder / END, recorded), lambda: [player.make([(path, recorded)], folder / PLAYER)]]
-    return [path for paths in _results(tasks) for path in paths]
+    return sorted((path for paths in _results(tasks) for path in paths), key=lambda path: NAMES.index(path.name))
 
 
 def _results(tasks):
-    """Results of functions, called in copies of this process where that is safe: it has one Python thread (a live session has more)."""
+    """Results of functions, called in copies of this process where that is safe: it has one Python thread (a live session has more) and no OpenGL."""
+    from . import renderer
+
     processes = min(PROCESSES, len(os.sched_getaffinity(0)))
-    if processes == 1 or threading.active_count() > 1:
+    if processes == 1 or threading.active_count() > 1 or renderer.used():
         return [task() for task in tasks]
     _Copy.tasks = tasks
-    with multiprocessing.get_context("fork").Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
-        return pool.map(_Copy.result, range(len(tasks)), chunksize=1)
+    ignored = (signal.signal, (signal.SIGINT, signal.SIG_IGN))  # the copies end with this process
+    try:
+        with ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), *ignored) as pool:
+            return list(pool.map(_Copy.result, range(len(tasks))))
+    except BrokenProcessPool:  # a copy was killed, as by lack of memory
+        return [task() for task in tasks]
 
 
 class _Copy:
