@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, raster, sheets, snapshot, views
+from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, snapshot, views
 from yade_timber.pictures.raster import Window
 from yade_timber.pictures.views import FRONT, SIDE, Solid
 from yade_timber.recording import frames as recorded
@@ -117,11 +117,11 @@ def test_drawable_keeps_plain_text():
 def test_history_begins_shortly_before_the_shaking():
     """Onset at 1.2 s. A drift or a break before it is shown from 0."""
     made = frames()
-    assert curves.first_shown(made) == pytest.approx(1.2 - curves.LEAD)
+    assert key_times.first_shown(made) == pytest.approx(1.2 - key_times.LEAD)
     made.breaks["time"][0] = 0.1
-    assert curves.first_shown(made) == 0
+    assert key_times.first_shown(made) == 0
     made = frames(shaken=False)
-    assert curves.first_shown(made) == 0
+    assert key_times.first_shown(made) == 0
 
 
 def test_labels_of_drift_levels_do_not_overlap():

@@ -25,10 +25,11 @@ def write(folder, results=None):
     """
     from matplotlib.backends import backend_pdf  # noqa: F401  (before this process is copied)
 
-    from . import curves, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import curves, figures, player, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
+    figures.drawable(recorded.title)  # a missing letter is reported here, once
     tasks = [partial(sheets.write_sheet, folder / view.name, recorded, view) for view in views.VIEWS]
     if recorded.history and recorded.history.samples:
         tasks.append(partial(curves.write, folder / CURVES, recorded))

@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
 import re
-from functools import cache
 from textwrap import fill
 
 import matplotlib
 import numpy as np
-from matplotlib import font_manager
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ft2font import FT2Font
 from PIL import Image
 
 from ..base.atomic_write import written_whole
+from . import fonts
 
 A4 = (8.27, 11.69)
 """Short and long side. [inch]"""
@@ -28,8 +26,6 @@ TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 LONGEST_TEXT = 300
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
-SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
-"""TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
 
 PNG_LEVEL = 3
 """Of zlib: a tenth larger than at its default level, in two thirds of the time."""
@@ -72,17 +68,10 @@ def drawable(text, most=LONGEST_TEXT):
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
-    letters = _letters()
     line = " ".join(str(text)[: 4 * most].split())
-    line = "".join(letter if ord(letter) in letters else REPLACEMENT for letter in line)
+    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in line)
     line = line if len(line) <= most else line[: most - 1] + "…"
     return line.replace("$", r"\$")
-
-
-@cache
-def _letters():
-    """Code points that the default font has."""
-    return frozenset(FT2Font(font_manager.findfont(font_manager.FontProperties(family=matplotlib.rcParams["font.family"]))).get_charmap())
 
 
 def heading(figure, title, subtitle=""):
@@ -109,8 +98,9 @@ def _wrapped(subtitle, width):
 def save(figure, stem, endings):
     """Write a figure as files STEM.ENDING, PNG with its own resolution; returns their paths. Raises OSError."""
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
+    fonts.apply(figure)
     for path in paths:
-        with written_whole(path) as part, matplotlib.rc_context(SETTINGS):
+        with written_whole(path) as part, matplotlib.rc_context(fonts.SETTINGS):
             if path.suffix == ".png":
                 image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
             else:

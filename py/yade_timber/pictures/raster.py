@@ -86,7 +86,7 @@ def _drawn(solids, window, front, sky, samples=SAMPLES):
     put(program("EDGE"), **shared, eye=(*view.toward, 0), ink=(EDGE_COLOR,) * 3 + (1,), size=window.size, width=EDGE_WIDTH)
     drawn = canvas(*window.size, samples)
     drawn.begin(sky)
-    context().enable_only(context().DEPTH_TEST)
+    context().enable_only(context().DEPTH_TEST | context().BLEND)
     bodies.render()
     drawn.resolve()
     bodies.release()

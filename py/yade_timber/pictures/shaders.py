@@ -62,14 +62,16 @@ uniform vec2 size;    // of the picture [pixel]
 uniform float width;  // of a line [pixel]
 in float vFar[];
 out float vHaze;
+out float vAside;  // distance from the middle of the line [pixel]
 void main() {
   vec4 a = gl_in[0].gl_Position, b = gl_in[1].gl_Position;
   if (a.w <= 0.0 || b.w <= 0.0) return;  // behind the viewer
   vec2 along = (b.xy / b.w - a.xy / a.w) * size;
-  vec2 across = vec2(-along.y, along.x) / max(length(along), 1e-4) * width / size;
+  vec2 across = vec2(-along.y, along.x) / max(length(along), 1e-4) * (width + 1.0) / size;
   for (int k = 0; k < 4; k++) {
     vec4 end = k < 2 ? a : b;
     vHaze = vFar[k / 2];
+    vAside = (k % 2 == 0 ? 0.5 : -0.5) * (width + 1.0);
     gl_Position = vec4(end.xy + (k % 2 == 0 ? across : -across) * end.w, end.zw);
     EmitVertex();
   }
@@ -79,9 +81,14 @@ void main() {
 EDGE_FRAGMENT = """#version 330
 uniform vec4 ink;  // colour and opacity
 uniform vec3 haze;
+uniform float width;
 in float vHaze;
+in float vAside;
 out vec4 picture;
-void main() { picture = vec4(mix(ink.rgb, haze, vHaze), ink.a); }"""
+void main() {
+  float soft = clamp(0.5 * width + 0.5 - abs(vAside), 0.0, 1.0);
+  picture = vec4(mix(ink.rgb, haze, vHaze), ink.a * soft);
+}"""
 
 SHADOW_VERTEX = """#version 330
 uniform mat4 sun;
@@ -139,7 +146,7 @@ uniform vec3 horizon;
 uniform vec3 zenith;
 in float height;
 out vec4 picture;
-void main() { picture = vec4(mix(horizon, zenith, smoothstep(0.35, 1.0, height)), 1.0); }"""
+void main() { picture = vec4(mix(horizon, zenith, smoothstep(0.5, 1.0, height)), 1.0); }"""
 
 MARK_VERTEX = """#version 330
 uniform mat4 camera;
