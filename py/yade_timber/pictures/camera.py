@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Perspective cameras around a house, the same as in the player (player/src/view.js). World frame: x east, y north, z up [m]."""
+"""Perspective cameras around a house, as in the player (player/src/view.js). World frame: x east, y north, z up [m]."""
 from dataclasses import dataclass
 
 import numpy as np
 
 FIELD = 32.0
 """Vertical angle of view. [degree]"""
-SPARE = 1.12
-"""Size of the picture by the size of the house. [-]"""
+SPARE = 1.3
+"""Size of the picture by the size of the house: captions need room above and below. [-]"""
 NEAR = 6.0
 """Distance from the house up to which wreckage stays in the picture. [m]"""
 CAMERAS = {"front": (0.0, 5.0), "side": (90.0, 5.0), "space": (38.0, 20.0)}
@@ -24,8 +24,8 @@ class Camera:
     scale: float
 
 
-def look(name, points, aspect, lift=0.0):
-    """Camera NAME at the smallest distance that shows all points (P, 3). aspect: width by height; lift: of the house above the middle, by the distance [-]"""
+def look(name, points, aspect):
+    """Camera NAME at the smallest distance that shows all points (P, 3). aspect: width by height"""
     azimuth, elevation = np.radians(CAMERAS[name])
     toward = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     right = np.array([-toward[1], toward[0], 0]) / np.hypot(*toward[:2])
@@ -39,7 +39,6 @@ def look(name, points, aspect, lift=0.0):
         for axis in (right, up):
             seen = (offset @ axis) / (away - offset @ toward)
             target = target + away * (seen.min() + seen.max()) / 2 * axis
-    target = target - lift * away * up
     eye = target + away * toward
     return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, away), 0.5 / tangent)
 

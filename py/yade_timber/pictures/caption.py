@@ -14,6 +14,10 @@ NORMAL = 720
 """Height of a picture for which the sizes below hold. [pixel]"""
 TITLE, TEXT, SMALL = 26, 23, 14
 """Font sizes. [pixel]"""
+SMALLEST = 9
+"""Font size below which a text is cut instead. [pixel]"""
+LABELLED = 0.75
+"""Scale below which the curve has no label. [-]"""
 PAD = 18
 TRACE = 46
 """Height of the curve of the ground acceleration at the bottom. [pixel]"""
@@ -66,28 +70,30 @@ class Caption:
     def _font(self, size, text, bold=False):
         key = size, fonts.best_file(text, bold)
         if key not in self.fonts:
-            self.fonts[key] = ImageFont.truetype(key[1], max(8, round(size * self.scale)))
+            self.fonts[key] = ImageFont.truetype(key[1], max(SMALLEST, round(size * self.scale)))
         return self.fonts[key]
 
-    def _fitting(self, size, text, bold=False):
-        """Font of at most this size in which a text fits the width."""
-        room = self.size[0] - 2 * PAD * self.scale
+    def _write(self, pen, top, text, size, ink, bold=False):
+        """Write a line, made smaller and at last cut to fit the width. top: of the line [pixel]"""
+        left = PAD * self.scale
+        room = self.size[0] - 2 * left
         font = self._font(size, text, bold)
-        wide = font.getlength(text)
-        return font if wide <= room else self._font(size * room / wide, text, bold)
+        font = self._font(min(size, size * room / max(font.getlength(text), 1)), text, bold)
+        while font.getlength(text) > room and len(text) > 2:
+            text = text[:-2] + "…"
+        pen.text((left, top), text, ink + (255,), font)
 
     def _head(self, title, view, origin):
         """Title, and origin of the run, at the top."""
         sheet, pen = self._sheet((TITLE + SMALL + 1.6 * PAD) * self.scale)
-        pad = PAD * self.scale
-        pen.text((pad, 0.5 * pad), title, INK + (255,), self._fitting(TITLE, title, True))
-        line = f"{view[0].upper()}{view[1:]}. {origin}"
-        pen.text((pad, 0.75 * pad + TITLE * self.scale), line, SOFT + (255,), self._fitting(SMALL, line))
+        gap = 0.5 * PAD * self.scale
+        self._write(pen, gap, title, TITLE, INK, bold=True)
+        self._write(pen, 1.5 * gap + TITLE * self.scale, f"{view[0].upper()}{view[1:]}. {origin}", SMALL, SOFT)
         return np.asarray(sheet)
 
     def _foot(self, text):
         sheet, pen = self._sheet((TEXT + 0.9 * PAD) * self.scale)
-        pen.text((PAD * self.scale, 0.3 * PAD * self.scale), text, INK + (255,), self._fitting(TEXT, text))
+        self._write(pen, 0.3 * PAD * self.scale, text, TEXT, INK)
         return np.asarray(sheet)
 
     def _trace(self):
@@ -101,8 +107,10 @@ class Caption:
             values = np.interp(np.linspace(*self.span, 2 * width), motion.time, motion.acceleration[:, column], 0, 0)
             points = np.column_stack([np.arange(2 * width) / 2, height * (0.5 - 0.48 * values / most)])
             pen.line([tuple(point) for point in points], tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)
+        if self.scale < LABELLED:
+            return np.asarray(sheet)
         label = f"ground acceleration, up to {most:.1f} m/s²: N-S blue, E-W orange"
-        pen.text((PAD * self.scale, 1), label, SOFT + (255,), self._font(SMALL * 0.85, label))
+        self._write(pen, 1, label, 0.85 * SMALL, SOFT)
         return np.asarray(sheet)
 
     def _sheet(self, height):

@@ -19,8 +19,6 @@ from .key_times import first_shown
 from .stage import Stage
 
 ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4")
-LIFT = 0.02
-"""Of the house above the middle of the picture, by the distance of the camera: the caption is below it. [-]"""
 LONGEST = 36000
 """Largest number of pictures in a film. [-]"""
 
@@ -71,7 +69,7 @@ class Pictures:
         self.form, width = form, form.width // len(runs)
         starts = [corners(run) for run in runs]
         shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
-        seen = camera.look(view, shown, width / form.height, LIFT)
+        seen = camera.look(view, shown, width / form.height)
         light = camera.sun(np.concatenate(starts))
         self.stages = [Stage(run, (width, form.height), seen, light) for run in runs]
         self.captions = [Caption(run, (width, form.height), view, form.speed) for run in runs]
