@@ -2,16 +2,17 @@
 """Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, time step, versions. Needs no YADE."""
 from ..motion import GAL, GroundMotion, jma_intensity, pga
 
+SHORTEST = 1.0
+"""Duration of a motion that has an intensity. [s]"""
+
 
 def provenance(frames):
-    """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.8; time step 0.00025 s; yade-timber 1.0, YADE 2023.02a'"""
+    """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.7; time step 0.00025 s; yade-timber 1.0, YADE 2023.02a'"""
     found = frames.summary or {}
-    parts = [shaking(frames, found.get("record") or {})]
-    if found.get("dt"):
-        parts.append(f"time step {found['dt']:g} s")
-    host = (found.get("versions") or {}).get("yade")
-    parts.append(", ".join(filter(None, (f"yade-timber {frames.version}".strip(), host and f"YADE {host}"))))
-    return "; ".join(filter(None, parts))
+    record, versions = (part if isinstance(part, dict) else {} for part in (found.get("record"), found.get("versions")))
+    step = f"time step {found['dt']:g} s" if isinstance(found.get("dt"), (int, float)) else ""
+    programs = [f"yade-timber {frames.version}".strip(), f"YADE {versions['yade']}" if versions.get("yade") else ""]
+    return "; ".join(filter(None, (shaking(frames, record), step, ", ".join(filter(None, programs)))))
 
 
 def shaking(frames, record):
@@ -19,7 +20,9 @@ def shaking(frames, record):
     if frames.motion is None:
         return "No ground motion"
     applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
-    factor = f" x {record['scale']:g}" if record.get("scale") is not None else ""
-    source = f"Record {record['source']}{factor}" if record.get("source") else "Ground motion"
-    intensity = jma_intensity(applied).official
-    return f"{source}, PGA {pga(applied):.0f} gal, JMA intensity {intensity:.1f}"
+    source = f"Record {record['source']}" if record.get("source") else "Ground motion"
+    factor = f" x {record['scale']:g}" if isinstance(record.get("scale"), (int, float)) else ""
+    parts = [source + factor, f"PGA {pga(applied):.0f} gal"]
+    if applied.duration >= SHORTEST and pga(applied) > 0:
+        parts.append(f"JMA intensity {jma_intensity(applied).official:.1f}")
+    return ", ".join(parts)
