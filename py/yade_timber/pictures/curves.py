@@ -6,8 +6,9 @@ import numpy as np
 
 from ..base import colors
 from ..recording.sentences import DRIFT_LINES
-from .figures import A4, drawable, heading, heading_height, new_figure, save
+from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
 from .key_times import first_shown
+from .provenance import provenance
 from .sheets import result
 
 DPI = 200
@@ -59,6 +60,7 @@ def page(frames, dpi):
     figure.axes[-1].set_xlabel(f"time [s]{rest}", fontsize=9)
     figure.align_ylabels()
     heading(figure, f"{frames.title}. History", result(frames))
+    footer(figure, provenance(frames))
     return figure
 
 

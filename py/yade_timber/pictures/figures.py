@@ -23,6 +23,8 @@ TITLE_SIZE, SMALLEST_TITLE, SUBTITLE_SIZE = 14, 9, 10
 """Font sizes. [pt]"""
 TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 """Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
+FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
+"""Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
 LONGEST_TEXT = 300
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
@@ -82,6 +84,14 @@ def heading(figure, title, subtitle=""):
     size = TITLE_SIZE * min(1, room / max(len(title), 1))
     figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=size, fontweight="bold", va="center")
     figure.text(MARGIN / width, 1 - 0.46 / height, _wrapped(subtitle, width), fontsize=SUBTITLE_SIZE, va="top")
+
+
+def footer(figure, text):
+    """One small line at the bottom of a figure, made smaller to fit the width."""
+    width, height = figure.get_size_inches()
+    text = drawable(text)
+    size = min(FOOTER_SIZE, FOOTER_SIZE * FOOTER_LETTERS * (width - 2 * MARGIN) / max(len(text), 1))
+    figure.text(MARGIN / width, FOOTER_PLACE / height, text, fontsize=size, color="#555555")
 
 
 def heading_height(width, subtitle=""):

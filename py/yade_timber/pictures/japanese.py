@@ -6,6 +6,8 @@ from ..recording.sentences import SMALL, largest_drift, ratio
 
 DIRECTIONS = {"ns": "南北", "ew": "東西"}
 SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
+STRUCTURES = {"entrance": "玄関"}
+ORIGIN = {"No ground motion": "地動なし", "Ground motion": "地動", "Record ": "記録 ", "JMA intensity": "計測震度", "time step": "時間刻み"}
 LEVELS = {"1/120": "層間変形角が 1/120 を超える（損傷の始まり）", "1/30": "層間変形角が 1/30 を超える（大きな損傷）"}
 SHAKING = {"the shaking begins": "揺れの始まり", "strongest shaking": "最大の揺れ"}
 
@@ -24,6 +26,13 @@ def result(found):
     if columns.get("fallen"):
         parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
     return "。".join(parts) + "。"
+
+
+def origin(text):
+    """Line of `provenance.provenance` with its words in Japanese."""
+    for english, japanese in ORIGIN.items():
+        text = text.replace(english, japanese)
+    return text
 
 
 def outcome(found):
@@ -51,5 +60,6 @@ def event(kind, text):
     if kind == "snow_fallen":
         side = next((ja for en, ja in SIDES.items() if en in text), "")
         return f"{side}の屋根の雪が落ちる" if side else "屋根の雪が落ちる"
-    fixed = {"shaking": SHAKING.get(text, text), "collapse": "倒壊：床が階高の半分以上落ちた", "structure_fallen": f"{text.split(' has ')[0]} が倒れた"}
+    name = text.split(" has ")[0]
+    fixed = {"shaking": SHAKING.get(text, text), "collapse": "倒壊：床が階高の半分以上落ちた", "structure_fallen": f"{STRUCTURES.get(name, name)}が倒れた"}
     return fixed.get(kind, text)

@@ -87,11 +87,12 @@ def packed(source, run):
 def info(run):
     """Texts of the page, and the description of its arrays."""
     e, j, found = run.elements, run.joints, run.summary or {}
+    origin = provenance(run)
     return {
         "title": plain(run.title),
         "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
-        "japanese": {"title": plain(japanese.title(found)), "result": plain(japanese.result(found))} if found else None,
-        "origin": plain(provenance(run)),
+        "japanese": {"title": plain(japanese.title(found)), "result": plain(japanese.result(found)), "origin": plain(japanese.origin(origin))} if found else None,
+        "origin": plain(origin),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from ..recording.sentences import sentence
 from . import key_times
-from .figures import A4, MARGIN, add_panel, drawable, heading, heading_height, new_figure, save
+from .figures import A4, MARGIN, add_panel, drawable, footer, heading, heading_height, new_figure, save
+from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
 from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
@@ -26,7 +27,7 @@ SCREEN = Format(9.5, 6.2, 150, 4)
 """A small picture for a web page."""
 END_DPI = 130
 """For the picture of the end, made for screens."""
-GAP, FOOT, CAPTION = 0.12, 0.62, 0.36
+GAP, FOOT, CAPTION = 0.12, 0.76, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
@@ -104,6 +105,7 @@ def sheet(frames, view, form):
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
     legend(figure, start, {mark.state for shot in shots for mark in shot.marks}, 8)
+    footer(figure, provenance(frames))
     return figure
 
 
@@ -140,4 +142,5 @@ def both_views(frames, frame, dpi):
         left += size[0] + GAP
     heading(figure, f"{frames.title}. After {frames.time[frame]:.1f} s", result(frames))
     legend(figure, start, {mark.state for mark in shot.marks}, 10)
+    footer(figure, provenance(frames))
     return figure
