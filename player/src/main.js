@@ -124,7 +124,7 @@ function inPicture(start, runs) {
   return [...start, ...corners(runs, Infinity).map((point) => near.clampPoint(point, point))];
 }
 
-/** For tests and the console: seek(t), play(on), time, playing, speak(language), joint(j) { x, y } [pixel]; of a point [m] in the body frame of an element of a run (from 0 on):
+/** For tests and the console: seek(t), play(on), time, pace, playing, speak(language), joint(j) { x, y } [pixel]; of a point [m] in the body frame of an element of a run (from 0 on):
  *  position(name, run, point) [m, frame of the ground], screen(name, run, point) { x, y } [pixel]. */
 function expose(player) {
   const position = (name, k = 0, point = [0, 0, 0]) => {
@@ -140,6 +140,9 @@ function expose(player) {
     play: (on = true) => player.play(on),
     get time() {
       return player.clock.time;
+    },
+    get pace() {
+      return player.clock.pace;
     },
     get playing() {
       return player.clock.playing;

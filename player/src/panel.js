@@ -28,6 +28,7 @@ export class Panel {
     translated(() => {
       part("title").textContent = part("curves-title").textContent = this.title;
       for (const name of ["result", "origin"]) part(name).textContent = either(run.info[name], run.info.japanese?.[name]);
+      part("origin").title = part("origin").textContent;
     });
   }
 
