@@ -21,7 +21,8 @@ set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${architecture})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # The module fits one build of YADE; all libraries that it links to come with it.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "yade (= ${yade_package_version}), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-yaml, python3-tqdm")
+  "yade (= ${yade_package_version}), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-pil, python3-moderngl, libegl1, libgl1-mesa-dri, python3-yaml, python3-tqdm")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, fonts-ipafont-gothic")
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 include(CPack)

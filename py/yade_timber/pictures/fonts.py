@@ -2,6 +2,7 @@
 """Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed. Needs no YADE."""
 import sys
 from functools import cache
+from pathlib import Path
 
 import matplotlib
 from matplotlib import font_manager
@@ -13,14 +14,21 @@ EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGo
 PACKAGE = "fonts-ipafont-gothic"
 SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
 """TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
-_missed = set()
+FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
+"""How their files' names begin."""
+_missed, _used = set(), set()
 
 
 @cache
-def families():
-    """Font families for matplotlib, in the order in which a letter is looked up."""
+def east_asian():
+    """Installed family with Japanese letters, or None. Fonts installed since matplotlib listed them are found, too."""
     installed = {font.name for font in font_manager.fontManager.ttflist}
-    return [OWN, *[name for name in EAST_ASIAN if name in installed][:1]]
+    if not installed.intersection(EAST_ASIAN):
+        for path in font_manager.findSystemFonts():
+            if Path(path).name.lower().startswith(FILES):
+                font_manager.fontManager.addfont(path)
+        installed = {font.name for font in font_manager.fontManager.ttflist}
+    return next((name for name in EAST_ASIAN if name in installed), None)
 
 
 @cache
@@ -36,7 +44,11 @@ def file(family, bold=False):
 
 def has(letter):
     """Whether a picture can show a letter. The first one that no font has is reported on standard error."""
-    if any(ord(letter) in letters(family) for family in families()):
+    if ord(letter) in letters(OWN):
+        return True
+    family = east_asian()
+    if family and ord(letter) in letters(family):
+        _used.add(family)
         return True
     if not _missed and letter.isalpha():
         print(f"notice: no installed font has the letter '{letter}'; install {PACKAGE} for Japanese names", file=sys.stderr)
@@ -45,12 +57,12 @@ def has(letter):
 
 
 def best_file(text, bold=False):
-    """Path of the font file that has most letters of a text, for drawing without matplotlib."""
-    family = max(families(), key=lambda name: sum(ord(letter) in letters(name) for letter in text if not letter.isspace()))
-    return file(family, bold)
+    """Path of the font file for a text that is drawn without matplotlib."""
+    own = all(letter.isspace() or ord(letter) in letters(OWN) for letter in text)
+    return file(OWN if own else east_asian() or OWN, bold)
 
 
 def apply(figure):
-    """Let all texts of a figure find their letters in `families`."""
-    for text in figure.findobj(matplotlib.text.Text):
-        text.set_fontfamily(families())
+    """Let all texts of a figure find letters that matplotlib's own font lacks."""
+    for text in figure.findobj(matplotlib.text.Text) if _used else ():
+        text.set_fontfamily([OWN, *_used])
