@@ -2,6 +2,7 @@
 """Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
 import re
 from textwrap import fill
+from unicodedata import east_asian_width
 
 import matplotlib
 import numpy as np
@@ -81,7 +82,7 @@ def heading(figure, title, subtitle=""):
     width, height = figure.get_size_inches()
     room = TITLE_LETTERS * (width - 2 * MARGIN)  # letters at TITLE_SIZE
     title = drawable(title, int(room * TITLE_SIZE / SMALLEST_TITLE))
-    size = TITLE_SIZE * min(1, room / max(len(title), 1))
+    size = TITLE_SIZE * min(1, room / max(wide(title), 1))
     figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=size, fontweight="bold", va="center")
     figure.text(MARGIN / width, 1 - 0.46 / height, _wrapped(subtitle, width), fontsize=SUBTITLE_SIZE, va="top")
 
@@ -92,6 +93,11 @@ def footer(figure, text):
     text = drawable(text)
     size = min(FOOTER_SIZE, FOOTER_SIZE * FOOTER_LETTERS * (width - 2 * MARGIN) / max(len(text), 1))
     figure.text(MARGIN / width, FOOTER_PLACE / height, text, fontsize=size, color="#555555")
+
+
+def wide(text):
+    """Width of a text in Latin letters: a Japanese one takes two."""
+    return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)
 
 
 def heading_height(width, subtitle=""):
