@@ -91,7 +91,7 @@ def info(run):
     return {
         "title": plain(run.title),
         "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
-        "japanese": {"title": plain(japanese.title(found)), "result": plain(japanese.result(found)), "origin": plain(japanese.origin(origin))} if found else None,
+        "japanese": japanese_texts(found, origin) if found else None,
         "origin": plain(origin),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
@@ -108,12 +108,19 @@ def info(run):
     }
 
 
+def japanese_texts(found, origin):
+    """Title, result and origin of an ended run in Japanese. found: its summary"""
+    texts = {"title": japanese.title(found), "result": japanese.result(found), "origin": japanese.origin(origin)}
+    return {name: plain(text) for name, text in texts.items()}
+
+
 def breaks(run):
     """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number of all."""
     firsts, table = {}, run.breaks or {"joint": []}
     for number, joint in enumerate(map(int, table["joint"])):
         if 0 <= joint < len(run.joints.name):
-            first = {"joint": joint, "time": float(table["time"][number]), "cause": plain(table["cause"][number]), "force": float(table["force"][number]), "springs": 0}
+            first = {"joint": joint, "time": float(table["time"][number]), "cause": plain(table["cause"][number]),
+                     "force": float(table["force"][number]), "springs": 0}
             firsts.setdefault(joint, first)["springs"] += 1
     return list(firsts.values())
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, time step, versions. Needs no YADE."""
-from ..motion import GAL, GroundMotion, jma_intensity, pga
+from ..motion import GroundMotion, jma_intensity, pga
 
 SHORTEST = 1.0
 """Duration of a motion that has an intensity. [s]"""

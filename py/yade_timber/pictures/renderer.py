@@ -68,7 +68,10 @@ def put(made, **values):
 
 
 class Topology:
-    """Faces of bodies as fans of triangles around their middles. faces: for each body its faces, vertex numbers within the body; counts: vertices of each body."""
+    """Faces of bodies as fans of triangles around their middles.
+
+    faces: for each body its faces, lists of vertex numbers within the body; counts: number of vertices of each body
+    """
 
     def __init__(self, faces, counts):
         first = np.cumsum([0, *counts[:-1]])

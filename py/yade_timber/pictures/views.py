@@ -164,7 +164,9 @@ def legend(figure, solids, states, size):
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
-    style = dict(handles=entries, loc="lower center", bbox_to_anchor=(0.5, LEGEND_PLACE / figure.get_size_inches()[1]), ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5, columnspacing=1.6)
+    place = (0.5, LEGEND_PLACE / figure.get_size_inches()[1])
+    style = dict(handles=entries, loc="lower center", bbox_to_anchor=place, ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5,
+                 columnspacing=1.6)
     drawn = figure.legend(**style, fontsize=size)
     fit = 0.98 * figure.bbox.width / drawn.get_window_extent().width
     if fit < 1:
