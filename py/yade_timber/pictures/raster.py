@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .renderer import SAMPLES, Bodies, Topology, canvas, context, program, put
+from .renderer import Bodies, Topology, canvas, context, program, put
 
 LIGHT = np.array([0.35, 0.75, 0.80])
 """Direction to the light in the axes right, towards the viewer, up of the picture; any length."""
@@ -68,12 +68,12 @@ def shade(solids, window, front, sky=SKY):
 
 def covered(solids, window):
     """(rows, columns) whether a body covers a pixel."""
-    drawn, *_ = _drawn(solids, window, 0.0, np.zeros(3), samples=0)
+    drawn, *_ = _drawn(solids, window, 0.0, np.zeros(3))
     return drawn.depths() < 1
 
 
-def _drawn(solids, window, front, sky, samples=SAMPLES):
-    """(Canvas with the resolved picture, nearest and farthest coordinate towards the viewer [m])."""
+def _drawn(solids, window, front, sky):
+    """(Canvas with the picture, nearest and farthest coordinate towards the viewer [m])."""
     view = window.view
     bodies = Bodies(Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids])
     vertices = np.concatenate([s.vertices for s in solids]) if solids else np.zeros((0, 3))
@@ -84,10 +84,9 @@ def _drawn(solids, window, front, sky, samples=SAMPLES):
     shared = dict(camera=window.matrix(near, far), toward=(*view.toward, front), haze=sky, haziness=(HAZE, HAZE_DEPTH))
     put(program("SOLID"), **shared, sun=np.eye(4), light=light, ambient=(DARKEST, DARKEST), direct=1 - DARKEST, shadows=0)
     put(program("EDGE"), **shared, eye=(*view.toward, 0), ink=(EDGE_COLOR,) * 3 + (1,), size=window.size, width=EDGE_WIDTH)
-    drawn = canvas(*window.size, samples)
+    drawn = canvas(*window.size)
     drawn.begin(sky)
     context().enable_only(context().DEPTH_TEST | context().BLEND)
     bodies.render()
-    drawn.resolve()
     bodies.release()
     return drawn, near, far

@@ -2,7 +2,7 @@
 """Pictures of convex bodies by OpenGL without a window. Needs no YADE.
 
 moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs no display.
-Pictures have SAMPLES samples per pixel. World frame: x east, y north, z up [m].
+Soft lines along all edges smooth the outlines of faces. World frame: x east, y north, z up [m].
 """
 import threading
 from functools import wraps
@@ -12,8 +12,6 @@ import numpy as np
 from ..base.errors import RunError
 from . import shaders
 
-SAMPLES = 4
-"""Per pixel; reduced to the largest number that the renderer offers."""
 PACKAGES = "python3-moderngl libegl1 libegl-mesa0 libgl1-mesa-dri"
 LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
@@ -135,32 +133,27 @@ class Bodies:
 class Canvas:
     """A picture of (width, height) pixels in the making."""
 
-    def __init__(self, width, height, samples=SAMPLES):
+    def __init__(self, width, height):
         made = context()
         self.size = int(width), int(height)
-        samples = min(samples, made.max_samples)
-        self.drawn = made.framebuffer([made.renderbuffer(self.size, 4, samples=samples)], made.depth_renderbuffer(self.size, samples=samples))
-        self.resolved = made.framebuffer([made.renderbuffer(self.size, 4)], made.depth_renderbuffer(self.size))
+        self.frame = made.framebuffer([made.renderbuffer(self.size, 4)], made.depth_renderbuffer(self.size))
 
     def begin(self, color):
         """Make it empty and draw on it from now on."""
-        self.drawn.use()
-        self.drawn.clear(*color, alpha=0.0, depth=1.0)
-
-    def resolve(self):
-        context().copy_framebuffer(self.resolved, self.drawn)
+        self.frame.use()
+        self.frame.clear(*color, alpha=0.0, depth=1.0)
 
     def pixels(self, components=3):
-        """(height, width, components) uint8 of the resolved picture, the first row at the top."""
-        data = self.resolved.read(components=components, alignment=1)
+        """(height, width, components) uint8, the first row at the top."""
+        data = self.frame.read(components=components, alignment=1)
         return np.frombuffer(data, np.uint8).reshape(*self.size[::-1], components)[::-1]
 
     def depths(self):
-        """(height, width) float32 of the resolved picture, 0 near to 1 far, the first row at the top."""
-        return np.frombuffer(self.resolved.read(attachment=-1, dtype="f4", alignment=1), "f4").reshape(self.size[::-1])[::-1]
+        """(height, width) float32, 0 near to 1 far, the first row at the top."""
+        return np.frombuffer(self.frame.read(attachment=-1, dtype="f4", alignment=1), "f4").reshape(self.size[::-1])[::-1]
 
 
 @once_per_thread
-def canvas(width, height, samples=SAMPLES):
+def canvas(width, height):
     """A Canvas of this size, which may have been used before: the panels of a sheet share one."""
-    return Canvas(width, height, samples)
+    return Canvas(width, height)

@@ -36,7 +36,7 @@ class Stage:
         self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
         self.bodies = Bodies(topology, [colors.KINDS.get(e.kind[k], colors.OTHER) for k in self.numbers])
-        self.canvas = Canvas(*size, samples=0)
+        self.canvas = Canvas(*size)
         made = context()
         self.depth = made.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
         self.depth.compare_func = "<="
@@ -62,7 +62,6 @@ class Stage:
         made.enable_only(made.DEPTH_TEST | made.BLEND | made.PROGRAM_POINT_SIZE)
         self.bodies.render()
         self._draw_marks(position, orientation, time)
-        self.canvas.resolve()
         return self.canvas.pixels()
 
     def _draw_shadow(self):
@@ -99,13 +98,13 @@ class Stage:
         if not len(found):
             return
         self.marks.write(found)
-        self.canvas.drawn.depth_mask = False
+        self.canvas.frame.depth_mask = False
         for test, opacity in ((">", HIDDEN), ("<=", 1.0)):
             made.depth_func = test
             program("MARK")["opacity"].value = opacity
             self.points.render(mode=made.POINTS, vertices=len(found))
         made.depth_func = "<"
-        self.canvas.drawn.depth_mask = True
+        self.canvas.frame.depth_mask = True
 
 
 def rgb(color):
