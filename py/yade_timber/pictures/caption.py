@@ -122,6 +122,5 @@ class Caption:
 def _blend(picture, sheet, top):
     """Draw an RGBA sheet over the rows of a picture from `top` on."""
     rows = picture[top : top + len(sheet)]
-    sheet = sheet[: len(rows)].astype(np.uint16)
-    share = sheet[..., 3:]
-    rows[:] = (rows * (255 - share) + sheet[..., :3] * share) // 255
+    share = sheet[: len(rows), :, 3:].astype(np.uint16) + 1  # 256: opaque
+    rows[:] = (rows * (256 - share) + sheet[: len(rows), :, :3] * share) >> 8
