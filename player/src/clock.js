@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-/** The time shown, and its speed. */
+const SLOW = 0.25; // factor on the speed around the main event
+const [BEFORE, AFTER] = [0.7, 1.8]; // of the main event [s]
+
+/** The time shown, and its speed. main: time of the main event [s], or null */
 export class Clock {
-  constructor(end) {
-    Object.assign(this, { end, time: 0, speed: 1, playing: false, last: null });
+  constructor(end, main) {
+    Object.assign(this, { end, main, time: 0, speed: 1, slows: false, playing: false, last: null });
+  }
+
+  /** Speed at the present time. */
+  get pace() {
+    const near = this.slows && this.main !== null && this.time > this.main - BEFORE && this.time < this.main + AFTER;
+    return this.speed * (near ? SLOW : 1);
   }
 
   /** Go to a time [s], limited to the run. */
@@ -24,7 +33,7 @@ export class Clock {
     if (!this.playing) return;
     const passed = this.last === null ? 0 : Math.min((now - this.last) / 1000, 0.25);
     this.last = now;
-    this.time = Math.min(this.time + passed * this.speed, this.end);
+    this.time = Math.min(this.time + passed * this.pace, this.end);
     if (this.time >= this.end) this.playing = false;
   }
 }

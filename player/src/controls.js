@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Buttons, time line and keys.
 import { element } from "./dom.js";
+import { Film, download, possible } from "./film.js";
+import { current, either, speak, tr, translated } from "./texts.js";
 import { CAMERA_NAMES } from "./view.js";
 
 const TURN = 0.12; // [rad] per key
@@ -11,9 +13,11 @@ const find = (id) => document.getElementById(id);
 export function connect(player) {
   const { clock, view, options } = player;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event") };
+  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event"), slow: find("slow"), factor: find("factor"), film: find("film"), full: find("full"), language: find("language"), more: find("more") };
   const cameras = CAMERA_NAMES.map((name) => find(`camera-${name}`));
-  const titled = ({ info }) => info.events.map(({ time, text }) => ({ time, text: player.runs.length > 1 ? `${info.title}: ${text}` : text }));
+  const several = player.runs.length > 1;
+  const said = ({ info }, text, japanese) => either(several ? `${info.title}: ${text}` : text, several ? `${info.japanese?.title ?? info.title}：${japanese}` : japanese);
+  const titled = (run) => run.info.events.map(({ time, text, japanese }) => ({ time, get text() { return said(run, text, japanese); } }));
   const events = player.runs.flatMap(titled).sort((a, b) => a.time - b.time);
 
   const camera = (name) => view.set(name, !calm.matches);
@@ -36,8 +40,26 @@ export function connect(player) {
   part.play.addEventListener("click", () => player.play(!clock.playing));
   part.scrub.addEventListener("input", () => player.seek(Number(part.scrub.value)));
   part.speed.addEventListener("change", () => speed(0));
-  for (const name of ["shaken", "joints"]) part[name].addEventListener("change", () => change(name, part[name].checked));
+  for (const name of ["ghost", "walls", "person"]) {
+    part[name] = find(name);
+    part[name].checked = options[name];
+  }
+  for (const name of ["shaken", "joints", "ghost", "walls", "person"]) part[name].addEventListener("change", () => change(name, part[name].checked));
   CAMERA_NAMES.forEach((name, k) => cameras[k].addEventListener("click", () => camera(name)));
+  part.factor.closest("label").hidden = !player.runs.some((run) => run.info.collapse === null);
+  part.factor.addEventListener("change", () => player.exaggerate(Number(part.factor.value)));
+  part.slow.closest("label").hidden = clock.main === null;
+  part.slow.addEventListener("change", () => (clock.slows = part.slow.checked));
+  part.full.hidden = !document.documentElement.requestFullscreen;
+  const full = () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
+  part.full.addEventListener("click", full);
+  part.language.addEventListener("click", () => {
+    speak(current() === "ja" ? "en" : "ja");
+    player.changed();
+  });
+  translated(() => (part.language.textContent = current() === "ja" ? "English" : "日本語"));
+  connectFilm(player, part.film);
+  document.addEventListener("pointerdown", ({ target }) => part.more.contains(target) || part.more.removeAttribute("open"));
   find("help-button").addEventListener("click", () => part.help.showModal());
   addTicks(find("ticks"), events, player);
 
@@ -58,6 +80,7 @@ export function connect(player) {
     c: () => camera(CAMERA_NAMES[(CAMERA_NAMES.indexOf(view.name) + 1) % CAMERA_NAMES.length]),
     g: () => part.shaken.closest("label").hidden || part.shaken.click(),
     j: () => part.joints.click(),
+    f: () => part.full.hidden || full(),
     "+": () => view.turn(0, 0, 1 / 1.15),
     "=": () => view.turn(0, 0, 1 / 1.15),
     "-": () => view.turn(0, 0, 1.15),
@@ -85,12 +108,34 @@ export function connect(player) {
     if (part.time.textContent !== now) part.time.textContent = now;
     if (document.activeElement !== part.scrub || Number(part.scrub.value) !== clock.time) part.scrub.value = clock.time;
     part.scrub.setAttribute("aria-valuetext", `${now} seconds`);
-    const label = clock.playing ? "Pause" : "Play";
+    const label = tr(clock.playing ? "Pause" : "Play");
     if (part.play.getAttribute("aria-label") !== label) part.play.setAttribute("aria-label", label);
     document.body.classList.toggle("playing", clock.playing);
     announce(part.event, events, clock);
     CAMERA_NAMES.forEach((name, k) => cameras[k].setAttribute("aria-pressed", String(view.name === name)));
   };
+}
+
+/** The button that records what is played, from the present time to the end or to a second click. */
+function connectFilm(player, button) {
+  const stages = player.parts.filter(({ stage }) => stage);
+  button.hidden = !possible() || !stages.length;
+  const label = () => (button.textContent = `${player.film ? "■" : "●"} ${tr(player.film ? "Stop recording" : "Record a film")}`);
+  translated(label);
+  const stop = () => {
+    player.film?.stop();
+    player.film = null;
+    player.play(false);
+    label();
+  };
+  button.addEventListener("click", () => {
+    if (player.film) return stop();
+    const parts = stages.map(({ panel }) => ({ canvas: panel.view, title: () => panel.title, state: () => `${player.clock.time.toFixed(2)} s   ${panel.now.textContent}` }));
+    player.film = new Film(parts, (file) => download(file, `${player.runs[0].info.title.replace(/[^\p{L}\p{N}]+/gu, "_")}.webm`));
+    player.play(true);
+    label();
+  });
+  player.ended = () => player.film && stop();
 }
 
 /** Whether the focused control needs a key itself: a list its arrows, a button reached by keyboard its space. */
@@ -101,10 +146,11 @@ function needed({ key, target }, tabbed) {
 
 /** Marks of events on the time line; a click goes to the event. */
 function addTicks(place, events, player) {
-  for (const { time, text } of events) {
-    const tick = element("i", { title: `${time.toFixed(1)} s ${text}` });
-    tick.style.left = `${(100 * time) / player.clock.end}%`;
-    tick.addEventListener("click", () => player.seek(time));
+  for (const event of events) {
+    const tick = element("i");
+    tick.style.left = `${(100 * event.time) / player.clock.end}%`;
+    tick.addEventListener("click", () => player.seek(event.time));
+    translated(() => (tick.title = `${event.time.toFixed(1)} s ${event.text}`));
     place.append(tick);
   }
 }

@@ -2,6 +2,7 @@
 // Ground motion and storey drifts over time, with a cursor; a click goes to that time.
 import { element, svg } from "./dom.js";
 import { rowAt } from "./run.js";
+import { storeyName, tr, translated } from "./texts.js";
 
 /** Okabe and Ito (2008); storeys differ by dashes, too. */
 export const COLORS = { ns: "#0072b2", ew: "#d55e00", ud: "#8a8a8a" };
@@ -28,7 +29,9 @@ export class Curves {
 
   figure(chart) {
     chart.canvas = element("canvas", { role: "img", ariaLabel: chart.description });
-    return element("figure", { className: chart.name }, element("figcaption", {}, ...chart.caption), chart.canvas);
+    const caption = element("figcaption");
+    translated(() => caption.replaceChildren(...chart.caption()));
+    return element("figure", { className: chart.name }, caption, chart.canvas);
   }
 
   listen(seek) {
@@ -79,7 +82,7 @@ function motionChart(run, most) {
   const lines = ["ew", "ns", "ud"].map((key, k) => ({ key, k, dash: [] })).reverse();
   return {
     name: "motion",
-    caption: [element("span", {}, "Ground", element("span", { className: "wide" }, " acceleration"), ", m/s²"), ...["ns", "ew", "ud"].map(direction)],
+    caption: () => [element("span", {}, tr("Ground acceleration, m/s²")), ...["ns", "ew", "ud"].map(direction)],
     description: `Ground acceleration over time, up to ${most.toFixed(1)} m/s²`,
     lines: lines.map((line) => ({ ...line, value: (i) => run.acceleration[3 * i + line.k], time: (i) => start + i * dt, count })),
     scale: (value) => value / (1.05 * most),
@@ -95,10 +98,10 @@ function driftChart(run, most) {
   const rows = run.history_time.length;
   const full = Math.sqrt(Math.min(Math.max(1.1 * most, 1 / 8), MOST_DRIFT));
   const storeys = Math.max(...columns.map(({ storey }) => storey));
-  const dashes = storeys > 1 ? Array.from({ length: storeys }, (_, k) => swatch("#555", DASHES[k], `storey ${k + 1}`)) : [];
+  const dashes = () => (storeys > 1 ? Array.from({ length: storeys }, (_, k) => swatch("#555", DASHES[k % DASHES.length], storeyName(k + 1))) : []);
   return {
     name: "drift",
-    caption: [element("span", { className: "wide" }, "Storey drift"), element("span", { className: "narrow" }, "Drift"), ...["ns", "ew"].map(direction), ...dashes],
+    caption: () => [element("span", {}, tr("Storey drift")), ...["ns", "ew"].map(direction), ...dashes()],
     description: `Storey drifts over time. ${run.info.result}`,
     lines: columns.map(({ key, storey }, k) => ({
       key,
@@ -114,7 +117,7 @@ function driftChart(run, most) {
 }
 
 const round = (v) => Number((v >= 2 ? Math.floor(v) : v).toPrecision(2));
-const direction = (key) => swatch(COLORS[key], [], NAMES[key]);
+const direction = (key) => swatch(COLORS[key], [], tr(NAMES[key]));
 
 function swatch(color, dash, name) {
   const line = svg("path", { d: "M0 4H18", stroke: color, "stroke-width": 2.5, "stroke-dasharray": dash.join(" ") });
@@ -139,11 +142,7 @@ function axes(pen, chart, x, y, width, height, span) {
   Object.assign(pen, { font: FONT, fillStyle: INK, textBaseline: "middle", textAlign: "right" });
   stroke(pen, [[LEFT, y(0)], [width, y(0)]], "#9b9789", 1);
   for (const value of chart.levels) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
-  let last = Infinity;
-  for (const { value, text } of chart.marks) {
-    last = Math.max(Math.min(y(value), last - LABEL_GAP), LABEL_GAP / 2); // moved upwards where labels would overlap
-    pen.fillText(text, LEFT - 5, last);
-  }
+  for (const { place, text } of apart(chart.marks.map(({ value, text }) => ({ place: y(value), text })))) pen.fillText(text, LEFT - 5, place);
   Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
   const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
   for (let k = 0; k * gap <= span; k++) {
@@ -151,6 +150,14 @@ function axes(pen, chart, x, y, width, height, span) {
     stroke(pen, [[x(t), 0], [x(t), height - AXIS]], PALE, 1);
     if (x(t) < width - 16) pen.fillText(k === 0 ? "0 s" : `${Number(t.toFixed(1))}`, Math.max(x(t), LEFT + 8), height);
   }
+}
+
+/** Labels [{ place [pixel], text }] from the bottom up, LABEL_GAP apart: moved upwards where they would overlap, down again at the upper border. */
+export function apart(labels) {
+  const sorted = labels.toSorted((a, b) => b.place - a.place);
+  sorted.forEach((label, k) => k && (label.place = Math.min(label.place, sorted[k - 1].place - LABEL_GAP)));
+  sorted.forEach((label, k) => (label.place = Math.max(label.place, LABEL_GAP / 2 + (sorted.length - 1 - k) * LABEL_GAP)));
+  return sorted;
 }
 
 function stroke(pen, points, color, width, dash = []) {

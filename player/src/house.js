@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The elements of a run as two batches: timber, and translucent snow. One draw call each.
+// The elements of a run as two batches: timber, and snow. One draw call each.
 import { BatchedMesh, BufferAttribute, BufferGeometry, Color, Group, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 
-const SNOW_OPACITY = 0.8;
 const EDGE = 0.5; // brightness of the lines along edges
 
-/** All elements but the ground. */
+const CHOSEN = new Color("#ffd400");
+
+/** All elements but the ground. material: of all of them, instead of timber and snow. */
 export class House extends Group {
-  constructor(run) {
+  constructor(run, material = null) {
     super();
     this.run = run;
     const shown = run.info.elements.map((element, number) => ({ ...element, number })).filter(({ kind }) => kind !== "ground");
     this.batches = [
-      batch(run, shown.filter(({ kind }) => kind !== "snow"), timber()),
-      batch(run, shown.filter(({ kind }) => kind === "snow"), snow()),
+      batch(run, shown.filter(({ kind }) => kind !== "snow"), material ?? timber()),
+      batch(run, shown.filter(({ kind }) => kind === "snow"), material ?? snow()),
     ].filter((one) => one.userData.numbers.length);
     this.add(...this.batches);
+  }
+
+  /** The nearest element on a ray (Raycaster): { number, distance [m] }, or null. */
+  hit(ray) {
+    const found = ray.intersectObjects(this.batches, false)[0];
+    return found ? { number: found.object.userData.numbers[found.batchId], distance: found.distance } : null;
+  }
+
+  /** Colour one element, or none (null). */
+  highlight(number) {
+    for (const mesh of this.batches) {
+      const { numbers, colors } = mesh.userData;
+      numbers.forEach((own, i) => mesh.setColorAt(i, own === number ? CHOSEN : colors[i]));
+    }
   }
 
   /** Copy the current placement of the run's elements. */
@@ -40,9 +55,10 @@ function batch(run, elements, material) {
   const size = shapes.reduce((sum, shape) => sum + shape.attributes.position.count, 0);
   const mesh = new BatchedMesh(elements.length, size, 0, material);
   const colors = new Map(run.info.kinds.map(({ kind, color }) => [kind, new Color(color)]));
-  elements.forEach(({ kind }, i) => {
+  mesh.userData.colors = elements.map(({ kind }) => colors.get(kind));
+  elements.forEach((_, i) => {
     mesh.addInstance(mesh.addGeometry(shapes[i]));
-    mesh.setColorAt(i, colors.get(kind));
+    mesh.setColorAt(i, mesh.userData.colors[i]);
   });
   mesh.userData.numbers = elements.map(({ number }) => number);
   mesh.perObjectFrustumCulled = mesh.sortObjects = mesh.frustumCulled = false;
@@ -79,9 +95,34 @@ function timber() {
   return edged(new MeshLambertMaterial({ color: 0xffffff }));
 }
 
+/** White without edge lines, with drifts and grains in its brightness, bluish in the shade. */
 function snow() {
-  return edged(new MeshLambertMaterial({ color: 0xffffff, transparent: true, opacity: SNOW_OPACITY, emissive: 0xb5c4d0, emissiveIntensity: 0.3 }));
+  const material = new MeshLambertMaterial({ color: 0xffffff, emissive: 0x8fa9c4, emissiveIntensity: 0.2 });
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", "#include <common>\nvarying vec3 vGrain;")
+      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvGrain = position;");
+    shader.fragmentShader = shader.fragmentShader.replace("#include <common>", `#include <common>\nvarying vec3 vGrain;\n${NOISE}`).replace(
+      "#include <color_fragment>",
+      `#include <color_fragment>
+      float drifts = noise(vGrain * 1.3) * 0.6 + noise(vGrain * 3.7) * 0.4;
+      float grains = noise(vGrain * 38.0) * (1.0 - smoothstep(0.3, 1.0, length(fwidth(vGrain)) * 38.0));
+      diffuseColor.rgb = mix(vec3(0.72, 0.79, 0.88), vec3(0.90, 0.92, 0.94), smoothstep(0.15, 0.75, drifts)) * (0.93 + 0.10 * grains);`,
+    );
+  };
+  return material;
 }
+
+const NOISE = `
+float hash(vec3 p) { return fract(sin(dot(p, vec3(127.1, 311.7, 74.7))) * 43758.5453); }
+float noise(vec3 p) {
+  vec3 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  vec4 low = vec4(hash(i), hash(i + vec3(1, 0, 0)), hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)));
+  vec4 high = vec4(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)));
+  vec4 z = mix(low, high, f.z);
+  return mix(mix(z.x, z.y, f.x), mix(z.z, z.w, f.x), f.y);
+}`;
 
 /** Draws lines along the edges of the faces, about a pixel wide, paler where a member is only a few pixels wide. */
 function edged(material) {

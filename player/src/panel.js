@@ -4,6 +4,7 @@ import { driftAt } from "./curves.js";
 import { element, svg } from "./dom.js";
 import { DAMAGE_COLORS, LOAD_COLORS } from "./joints.js";
 import { STATE } from "./run.js";
+import { current, either, tr, translated } from "./texts.js";
 
 /** The section of a run, from the page's template. seek: called with a time [s]. */
 export class Panel {
@@ -13,29 +14,40 @@ export class Panel {
     this.section = copy.querySelector(".run");
     const part = (name) => this.section.querySelector(`.${name}`);
     for (const name of ["view", "stage", "curves", "camera-name", "needle", "now", "error"]) this[name] = part(name);
-    part("title").textContent = run.info.title;
-    part("result").textContent = run.info.result;
-    part("curves-title").textContent = run.info.title;
     this.view.setAttribute("aria-label", `${run.info.title}: the house in 3D. Drag to turn it, or use Shift and the arrow keys.`);
     this.section.setAttribute("aria-label", run.info.title);
     part("event-list").hidden = !run.info.events.length;
-    this.events = run.info.events.map(({ time, text }) => {
-      const button = element("button", { type: "button" }, element("b", {}, `${time.toFixed(1)} s`), ` ${text}`);
+    this.events = run.info.events.map(({ time, text, japanese }) => {
+      const what = element("span");
+      const button = element("button", { type: "button" }, element("b", {}, `${time.toFixed(1)} s`), " ", what);
       button.addEventListener("click", () => seek(time));
       part("events").append(element("li", {}, button));
+      translated(() => (what.textContent = either(text, japanese)));
       return { time, button };
     });
+    translated(() => {
+      part("title").textContent = part("curves-title").textContent = this.title;
+      for (const name of ["result", "origin"]) part(name).textContent = either(run.info[name], run.info.japanese?.[name]);
+      part("origin").title = part("origin").textContent;
+    });
+  }
+
+  get title() {
+    return either(this.run.info.title, this.run.info.japanese?.title);
   }
 
   /** Show the state at a time: drift, broken joints, past events, direction of north. */
   update(t, view) {
     const { info, joints } = this.run;
     const down = info.collapse !== null && t >= info.collapse;
-    const drift = info.drifts.length ? `storey drift ${ratio(driftAt(this.run, t))}, ` : "";
-    const partly = this.run.count(STATE.partly);
-    const over = t > this.run.end + 1e-6 ? `recorded up to ${this.run.end.toFixed(1)} s: ` : "";
-    setText(this.now, `${over}${down ? "collapsed, " : drift}${this.run.count(STATE.broken)} of ${joints} joints broken${partly ? `, ${partly} partly` : ""}`);
-    setText(this["camera-name"], view.title);
+    const drift = info.drifts.length ? ratio(driftAt(this.run, t)) : "";
+    const [partly, broken, end] = [this.run.count(STATE.partly), this.run.count(STATE.broken), this.run.end.toFixed(1)];
+    const over = t > this.run.end + 1e-6;
+    const enlarged = this.run.exaggeration === 1 ? "" : `${tr("Movement")} ${this.run.exaggeration}×, `;
+    const english = `${enlarged}${over ? `recorded up to ${end} s: ` : ""}${down ? "collapsed, " : drift && `storey drift ${drift}, `}${broken} of ${joints} joints broken${partly ? `, ${partly} partly` : ""}`;
+    const japanese = `${enlarged}${over ? `記録は ${end} 秒まで：` : ""}${down ? "倒壊、" : drift && `層間変形角 ${drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上")}、`}接合部 ${joints} のうち ${broken} が破断${partly ? `、一部破断 ${partly}` : ""}`;
+    setText(this.now, current() === "ja" ? japanese : english);
+    setText(this["camera-name"], tr(view.title));
     this.needle.style.transform = `rotate(${(view.azimuth + Math.PI / 2).toFixed(3)}rad)`;
     for (const { time, button } of this.events) button.classList.toggle("past", time <= t + 1e-6);
   }
@@ -65,7 +77,7 @@ export function legend(place, runs) {
   const marks = Object.keys(MARKS).filter((name) => runs.some((run) => run.occurs(STATE[name])));
   const bar = element("span", { className: "bar" });
   bar.style.background = `linear-gradient(90deg, ${LOAD_COLORS.join()})`;
-  place.replaceChildren(element("li", { className: "loads" }, bar, "force in a joint: none … strength"));
+  place.replaceChildren(element("li", { className: "loads" }, bar, tr("force in a joint: none … strength")));
   for (const [label, tag, attributes] of [...boxes, ...marks.map((name) => MARKS[name])])
-    place.append(element("li", {}, svg("svg", { width: 16, height: 16, "aria-hidden": "true" }, svg(tag, attributes)), label));
+    place.append(element("li", {}, svg("svg", { width: 16, height: 16, "aria-hidden": "true" }, svg(tag, attributes)), tr(label)));
 }

@@ -59,6 +59,7 @@ export class Run {
     this.joint = { place: new Float32Array(3 * this.joints), load: new Float32Array(this.joints), state: new Uint8Array(this.joints) };
     this.ground = [0, 0, 0]; // displacement of the ground [m]
     this.frame = 0;
+    this.exaggeration = 1; // factor on displacements and rotations since the start
   }
 
   /** Interpolate all elements and joints to a time [s]. Allocates nothing. */
@@ -67,6 +68,7 @@ export class Run {
     const next = Math.min(k + 1, this.time.length - 1);
     const weight = next > k ? Math.min(Math.max((t - this.time[k]) / (this.time[next] - this.time[k]), 0), 1) : 0;
     this.placeElements(k, next, weight);
+    if (this.exaggeration !== 1) this.exaggerate();
     this.placeJoints(k, next, weight);
     this.moveGround(t);
   }
@@ -79,6 +81,22 @@ export class Run {
     const c = k * orientation.length;
     const d = next * orientation.length;
     for (let i = 0; i < orientation.length; i += 4) Quaternion.slerpFlat(orientation, i, orientations, c + i, orientations, d + i, weight);
+  }
+
+  /** Enlarge displacements and rotations since the start; parts that fall are left as they are. */
+  exaggerate() {
+    const { position, orientation, positions, orientations } = this;
+    for (let e = 0; e < this.elements; e++) {
+      const moved = Math.hypot(...[0, 1, 2].map((i) => position[3 * e + i] - positions[3 * e + i]));
+      const factor = 1 + (this.exaggeration - 1) * Math.min(Math.max((FALLEN - moved) / FALLING, 0), 1);
+      for (let i = 3 * e; i < 3 * e + 3; i++) position[i] = positions[i] + factor * (position[i] - positions[i]);
+      first.fromArray(orientations, 4 * e);
+      turn.fromArray(orientation, 4 * e).multiply(inverse.copy(first).conjugate());
+      if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
+      const angle = 2 * Math.acos(Math.min(turn.w, 1));
+      if (angle > 1e-6) turn.setFromAxisAngle(axis.set(turn.x, turn.y, turn.z).normalize(), factor * angle);
+      turn.multiply(first).toArray(orientation, 4 * e);
+    }
   }
 
   placeJoints(k, next, weight) {
@@ -110,6 +128,24 @@ export class Run {
     return point.applyQuaternion({ x: q[0], y: q[1], z: q[2], w: q[3] }).add({ x: p[0], y: p[1], z: p[2] });
   }
 
+  /** The point of the body frame of element k that is at a position now (Vector3 [m]); changes and returns it. */
+  local(k, point) {
+    const [q, p] = [this.orientation.subarray(4 * k), this.position.subarray(3 * k)];
+    return point.sub({ x: p[0], y: p[1], z: p[2] }).applyQuaternion({ x: -q[0], y: -q[1], z: -q[2], w: q[3] });
+  }
+
+  /** Numbers of the joints of element k. */
+  jointsOf(k) {
+    return Array.from({ length: this.joints }, (_, j) => j).filter((j) => this.a[j] === k || this.b[j] === k);
+  }
+
+  /** Largest load of some joints in each frame: { values, at(run, t) -> { load, joint or null } }. */
+  loadOver(joints) {
+    const values = Float32Array.from(this.time, (_, k) => joints.reduce((most, j) => Math.max(most, this.loads[k * this.joints + j]), 0));
+    const at = (run) => joints.reduce((most, j) => (most.joint === null || run.joint.load[j] > most.load ? { load: run.joint.load[j], joint: j } : most), { load: 0, joint: null });
+    return { values, at };
+  }
+
   /** Current corners of element k: list of Vector3 [m]. */
   corners(k) {
     const [from, to] = [this.vertex_start[k], this.vertex_start[k + 1]];
@@ -136,6 +172,9 @@ export class Run {
     }
   }
 }
+
+const [FALLEN, FALLING] = [0.8, 0.4]; // displacement from which on nothing is exaggerated, and the range before it [m]
+const [first, turn, inverse, axis] = [new Quaternion(), new Quaternion(), new Quaternion(), new Vector3()];
 
 /** States of a joint, as numbers for the shader of joints.js. */
 export const STATE = { whole: 0, partly: 1, broken: 2, before: 3 };

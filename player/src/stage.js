@@ -4,6 +4,7 @@ import { DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, Scene, Vec
 import { Ground } from "./ground.js";
 import { House } from "./house.js";
 import { Joints } from "./joints.js";
+import { Ghost, Glass, Person } from "./surroundings.js";
 
 const MOST_PIXELS = 2; // largest number of device pixels per pixel
 const HORIZON = 0xe9eef0;
@@ -17,7 +18,8 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.house = new House(run);
     this.joints = new Joints(run);
-    this.moving = new Group().add(this.house, this.joints, new Ground(box));
+    Object.assign(this, { ghost: new Ghost(run), walls: new Glass(run), person: new Person(box) });
+    this.moving = new Group().add(this.house, this.joints, this.ghost, this.walls, this.person, new Ground(box));
     this.scene = new Scene().add(this.moving, ...lights(box));
     this.scene.fog = new Fog(HORIZON);
   }
@@ -32,11 +34,12 @@ export class Stage {
     this.joints.resize(height * ratio, fov, ratio);
   }
 
-  /** Draw the current state of the run. shaken: whether the ground moves relative to the camera. */
-  draw(view, { shaken, joints }) {
+  /** Draw the current state of the run. shaken: whether the ground moves relative to the camera; the other options: whether a thing is shown. */
+  draw(view, { shaken, joints, ghost, walls, person }) {
     this.house.update();
     this.joints.update();
-    this.joints.visible = joints;
+    if (walls) this.walls.update();
+    [this.joints.visible, this.ghost.visible, this.walls.visible, this.person.visible] = [joints, ghost, walls, person];
     if (shaken) this.moving.position.fromArray(this.run.ground);
     else this.moving.position.set(0, 0, 0);
     view.shape(this.aspect);

@@ -3,7 +3,7 @@
 """Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
 Reads the folders modelA_snow, modelA_quake and modelC2_snow in results. Writes DIR/modelC2_snow.png, DIR/l_house.png and
-DIR/gallery/*.png; the picture of the player needs Chromium.
+DIR/gallery/*.png, and a film of two of the runs, DIR/gallery/film.webp; the picture of the player needs Chromium.
 """
 import argparse
 import io
@@ -22,7 +22,7 @@ from yade_timber.base.atomic_write import written_whole  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
-from yade_timber.pictures import curves, drawings, motion_sheet, player, sheets  # noqa: E402
+from yade_timber.pictures import curves, drawings, film, motion_sheet, player, sheets  # noqa: E402
 from yade_timber.pictures.views import FRONT, SIDE  # noqa: E402
 from yade_timber.recording import frames  # noqa: E402
 
@@ -33,6 +33,8 @@ HOUSE, EXAMPLE = "C2", "l_house"
 COMPARED = ("modelA_quake", "modelC2_snow")
 AFTER_COLLAPSE = 1.0
 """Time shown in the comparison, after the collapse of the first run. [s]"""
+FILM, SPAN = film.Format(width=720, height=330, rate=12, quality=36), (-5.0, 2.5)
+"""Film of the runs COMPARED, from and to these times after the collapse of the first [s]: below 2 MB."""
 CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
             "--window-size=1200,800", "--virtual-time-budget=5000")
 DPI = 130
@@ -106,6 +108,9 @@ def make(results, out):
     written.append(write(gallery / "ground_motion.png", motion_sheet.page(default_motion(), 0.05, DPI)))
     if shutil.which(CHROMIUM[0]):
         written.append(save(gallery / "player.png", compared(runs, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
+    begin, end = (fallen_at(runs[COMPARED[0]]) + time for time in SPAN)
+    film.write(gallery / "film.webp", [runs[name] for name in COMPARED], form=FILM, begin=begin, end=end)
+    written.append(gallery / "film.webp")
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
     return written
 

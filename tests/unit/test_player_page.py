@@ -6,10 +6,10 @@ import frames_sample
 import numpy as np
 import pytest
 from browser import errors, picture, resize, wait
-from yade_timber.pictures import player
+from yade_timber.pictures import key_times, player
 from yade_timber.recording import frames
 
-WIDE, PHONE, LYING_PHONE = (920, 600), (360, 740), (844, 390)
+WIDE, PHONE, LYING_PHONE = (920, 620), (360, 740), (844, 390)
 MIDDLE, HEAD, FOOT = [0, 0, 0], [0, 0, 1.1], [0, 0, -1.1]  # of an element; of a column, near its ends [m]
 ROOF_IS_DARK = 0.5  # brightest channel of its pixels; sky and ground are above 0.7
 
@@ -258,8 +258,11 @@ def test_it_fits_a_phone(still):
     wait(lambda: ask(still, "innerWidth") == PHONE[0])
     check_fits(still)
     wait(lambda: roof_is_drawn(still, 0))
-    small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.getBoundingClientRect().height < 36).length"
-    assert ask(still, small) == 0
+    small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 36).length"
+    for _ in ("menu closed", "menu open"):
+        assert ask(still, small) == 0
+        ask(still, "void document.querySelector('#more summary').click()")
+        check_fits(still)
 
 
 def test_the_state_is_in_sight_on_a_lying_phone(still):
@@ -373,3 +376,95 @@ def test_the_policy_stops_foreign_code(driver, tmp_path):
     assert driver.title == "House A: earthquake" and driver.find_element("css selector", "h1").is_displayed()
     assert ask(driver, "fetch('https://example.org/').then(() => 'reached', () => 'refused')") == "refused"
     assert sum("Content Security Policy" in line for line in errors(driver)) >= 4
+
+
+def click(driver, place):
+    """A click at {x, y} of the page."""
+    for kind in ("mousePressed", "mouseReleased"):
+        driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "clickCount": 1, **place})
+
+
+def test_a_click_names_a_member_and_a_joint(still, pages):
+    """The card of the roof, then that of a joint: names, load as recorded, break."""
+    run = pages[2][0]
+    ask(still, "player.seek(1)")
+    click(still, ask(still, "player.screen('roof')"))
+    card = wait(lambda: still.find_element("class name", "card").text)
+    assert "roof" in card and not ask(still, "document.querySelector('.card').hidden")
+    number = run.elements.name.index("column.NE")
+    joint = int(np.flatnonzero(run.joints.a == number)[-1])
+    click(still, ask(still, f"player.joint({joint})"))
+    load = run.load[run.at(1.0), joint]
+    card = wait(lambda: f"1.00 s: {load:.2f}" in (text := still.find_element("class name", "card").text) and text)
+    assert "column-beam joint" in card and "column.NE" in card
+    still.find_element("css selector", ".card .close").click()
+    assert ask(still, "document.querySelector('.card').hidden")
+    assert errors(still) == []
+
+
+def test_the_page_speaks_japanese(still):
+    english = still.find_element("class name", "now").text
+    ask(still, "player.speak('ja')")
+    ask(still, "player.seek(1.4)")
+    assert "接合部" in still.find_element("class name", "now").text and "できごと" in still.find_element("class name", "event-list").text
+    assert still.find_element("id", "camera-front").text == "正面" and ask(still, "document.documentElement.lang") == "ja"
+    ask(still, "player.speak('en')")
+    ask(still, "player.seek(1.5)")
+    assert still.find_element("class name", "now").text == english and still.find_element("id", "camera-front").text == "Front"
+
+
+def choose(driver, name, value):
+    ask(driver, f"void ((e) => {{ e.value = '{value}'; e.dispatchEvent(new Event('change')); }})(document.getElementById('{name}'))")
+
+
+def test_movement_is_enlarged_about_the_start(driver, pages):
+    """Displacements of the roof, below 0.1 m in the first seconds, are five times as large; the page says so."""
+    load(driver, pages[0] + "#t=1.2", motion=False)
+    start, plain = (np.array(between(pages[2][0], "roof", time)) for time in (0.0, 1.2))
+    choose(driver, "factor", 5)
+    ask(driver, "player.seek(1.2)")
+    assert ask(driver, "player.position('roof')") == pytest.approx(start + 5 * (plain - start), abs=5e-3)
+    assert "5×" in driver.find_element("class name", "now").text
+    choose(driver, "factor", 1)
+
+
+def test_things_for_scale_are_drawn(driver, pages):
+    """Glass walls, the house at the start and a person change the picture, and leave it when they are switched off."""
+    load(driver, pages[0] + "#t=3.5", motion=False)
+    before = picture(driver)
+    for name in ("walls", "ghost", "person"):
+        ask(driver, f"void document.getElementById('{name}').click()")
+        wait(lambda: (abs(picture(driver) - before) > 0.02).sum() > 100)
+        ask(driver, f"void document.getElementById('{name}').click()")
+        wait(lambda: (abs(picture(driver) - before) > 0.02).sum() == 0)
+    assert errors(driver) == []
+
+
+def test_it_plays_slowly_around_the_main_event(driver, pages):
+    load(driver, pages[0] + "#t=0.5", motion=False)
+    assert ask(driver, "player.pace") == 1
+    ask(driver, "void document.getElementById('slow').click()")
+    main = player.main_event(pages[2][0])
+    ask(driver, f"player.seek({main})")
+    assert ask(driver, "player.pace") == 0.25
+
+
+def test_it_opens_before_an_event_that_is_earlier_than_the_shaking(driver, tmp_path):
+    run = frames_sample.run()
+    run.motion.start = 3.0
+    first = min(event["time"] for event in player.events(run))
+    player.make([("x", run)], tmp_path / "x.html")
+    load(driver, (tmp_path / "x.html").as_uri(), motion=False)
+    assert ask(driver, "player.time") == pytest.approx(max(0, first - 2), abs=1e-3) and first < key_times.onset(run.motion)
+
+
+def test_a_film_is_recorded(driver, pages, tmp_path):
+    """A click starts it, a second one ends it and saves a WebM file."""
+    driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    load(driver, pages[0] + "#t=0", motion=False)
+    ask(driver, "void document.getElementById('film').click()")
+    wait(lambda: ask(driver, "player.time > 3.5"))
+    ask(driver, "void document.getElementById('film').click()")
+    (film,) = wait(lambda: [path for path in tmp_path.glob("*.webm") if path.stat().st_size])
+    assert film.read_bytes()[:4] == b"\x1aE\xdf\xa3" and not ask(driver, "player.playing")  # EBML
+    assert errors(driver) == []

@@ -1,27 +1,65 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
+import multiprocessing
+import os
+import signal
+import threading
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
+
 from ..recording import frames
 
 END, CURVES, QUANTITIES, PLAYER = "end_state", "history", "quantities", "player.html"
 SHEETS = ("front", "side")
 NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
+PROCESSES = 2
+"""Largest number that draw at the same time."""
 
 
 def write(folder, results=None):
     """Write the pictures of a run into a folder; returns their paths. results: folder with the run's frames, by default the same.
 
-    Raises RunError when the frames cannot be read, OSError when a picture cannot be written.
+    Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
-    from . import curves, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from matplotlib.backends import backend_pdf  # noqa: F401  (before this process is copied)
+
+    from . import curves, figures, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
-    written = sheets.write_end(folder / END, recorded)
-    for view in views.VIEWS:
-        written += sheets.write_sheet(folder / view.name, recorded, view)
+    figures.drawable(recorded.title)  # a missing letter is reported here, once
+    tasks = [partial(sheets.write_sheet, folder / view.name, recorded, view) for view in views.VIEWS]
     if recorded.history and recorded.history.samples:
-        written += curves.write(folder / CURVES, recorded)
+        tasks.append(partial(curves.write, folder / CURVES, recorded))
         if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
-            written += quantities.write(folder / QUANTITIES, quantities.read(path.parent))
-    return written + [player.make([(path, recorded)], folder / PLAYER)]
+            tasks.append(lambda: quantities.write(folder / QUANTITIES, quantities.read(path.parent)))
+    tasks += [partial(sheets.write_end, folder / END, recorded), lambda: [player.make([(path, recorded)], folder / PLAYER)]]
+    return sorted((path for paths in _results(tasks) for path in paths), key=lambda path: NAMES.index(path.name))
+
+
+def _results(tasks):
+    """Results of functions, called in copies of this process where that is safe: it has one Python thread (a live session has more) and no OpenGL."""
+    from . import renderer
+
+    processes = min(PROCESSES, len(os.sched_getaffinity(0)))
+    if processes == 1 or threading.active_count() > 1 or renderer.used():
+        return [task() for task in tasks]
+    _Copy.tasks = tasks
+    ignored = (signal.signal, (signal.SIGINT, signal.SIG_IGN))  # the copies end with this process
+    try:
+        with ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), *ignored) as pool:
+            return list(pool.map(_Copy.result, range(len(tasks))))
+    except BrokenProcessPool:  # a copy was killed, as by lack of memory
+        return [task() for task in tasks]
+
+
+class _Copy:
+    """The tasks, which a copied process has in its memory: recorded frames need not be sent to it."""
+
+    tasks = ()
+
+    @classmethod
+    def result(cls, number):
+        return cls.tasks[number]()

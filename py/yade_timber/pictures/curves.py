@@ -6,17 +6,14 @@ import numpy as np
 
 from ..base import colors
 from ..recording.sentences import DRIFT_LINES
-from .figures import A4, drawable, heading, heading_height, new_figure, save
-from .key_times import onset
+from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
+from .key_times import first_shown
+from .provenance import provenance
 from .sheets import result
 
 DPI = 200
 DRIFT_RANGE = 0.16
 """Largest drift shown: beyond it a storey falls. [-]"""
-AT_REST = 1e-3
-"""Before the shaking a house with smaller storey drifts is at rest. [-]"""
-LEAD = 1.0
-"""Time shown before the shaking. [s]"""
 LABEL_GAP = 10
 """Between the baselines of two labels of drifts. [pt]"""
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
@@ -37,7 +34,7 @@ DISSIPATED = {
 
 def write(stem, frames):
     """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(frames, DPI), stem, ("png", "pdf"), DPI)
+    return save(page(frames, DPI), stem, ("png", "pdf"))
 
 
 def page(frames, dpi):
@@ -63,17 +60,8 @@ def page(frames, dpi):
     figure.axes[-1].set_xlabel(f"time [s]{rest}", fontsize=9)
     figure.align_ylabels()
     heading(figure, f"{frames.title}. History", result(frames))
+    footer(figure, provenance(frames))
     return figure
-
-
-def first_shown(frames):
-    """Time at which the curves begin: shortly before the shaking when the house is at rest until then, else 0. [s]"""
-    if frames.motion is None:
-        return 0.0
-    start = min(onset(frames.motion), frames.time[-1]) - LEAD
-    moving = frames.history.time[frames.history.largest_drift() > AT_REST]
-    first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
-    return float(start) if 0 < start < first else 0.0
 
 
 def draw_events(axes, found):

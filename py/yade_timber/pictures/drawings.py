@@ -34,7 +34,7 @@ THICK = 0.11
 
 def write(stem, model):
     """Write `stem`.png and `stem`.pdf: the drawings of a HouseModel. Returns the paths. Raises OSError."""
-    return save(page(model, DPI), stem, ("png", "pdf"), DPI)
+    return save(page(model, DPI), stem, ("png", "pdf"))
 
 
 def page(model, dpi):
@@ -90,7 +90,7 @@ def draw_space(ax, solids, dpi):
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
     window, front = Window(OBLIQUE, box, density(ax, box, dpi)), front_of(solids, OBLIQUE)
     whole, frame = (shade([s for s in solids if s.kind not in hidden], window, front, sky=1.0)[0] for hidden in (("ground",), ("ground", *TRANSPARENT)))
-    ax.imshow(OPACITY * whole + (1 - OPACITY) * frame, extent=box, interpolation="antialiased", aspect="equal")
+    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8), extent=box, interpolation="antialiased", aspect="equal")
     ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
     ax.axis("off")
 

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
 import re
-from functools import cache
 from textwrap import fill
+from unicodedata import east_asian_width
 
 import matplotlib
-from matplotlib import font_manager
+import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ft2font import FT2Font
+from PIL import Image
 
 from ..base.atomic_write import written_whole
+from . import fonts
 
 A4 = (8.27, 11.69)
 """Short and long side. [inch]"""
@@ -22,19 +24,37 @@ TITLE_SIZE, SMALLEST_TITLE, SUBTITLE_SIZE = 14, 9, 10
 """Font sizes. [pt]"""
 TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 """Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
+FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
+"""Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
 LONGEST_TEXT = 300
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
-SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
-"""TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
 
-METADATA = {".png": {"Software": None}, ".pdf": {"CreationDate": None}}
-"""Nothing that differs between two runs of the same program."""
+PNG_LEVEL = 3
+"""Of zlib: a tenth larger than at its default level, in two thirds of the time."""
+METADATA = {"CreationDate": None}
+"""Of PDF files: nothing that differs between two runs of the same program."""
+
+
+class Pixels(Artist):
+    """A picture (rows, columns, 3) uint8, the first row at the top, from the lower left corner of axes on. It is drawn pixel by pixel, in a PDF as well:
+    `imshow` resamples, which takes twenty times as long."""
+
+    zorder = 0
+
+    def __init__(self, picture):
+        super().__init__()
+        self.rows = np.full((*picture.shape[:2], 4), 255, np.uint8)
+        self.rows[..., :3] = picture[::-1]
+
+    def draw(self, renderer):
+        corner = self.axes.bbox
+        renderer.draw_image(renderer.new_gc(), round(corner.x0, 6), round(corner.y0, 6), self.rows)
 
 
 def new_figure(width, height, dpi):
     """Empty white figure of a width and height [inch], rounded to whole pixels of a resolution [1/inch]."""
-    figure = Figure(figsize=(round(width * dpi) / dpi, round(height * dpi) / dpi), facecolor="white")
+    figure = Figure(figsize=(round(width * dpi) / dpi, round(height * dpi) / dpi), dpi=dpi, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
 
@@ -51,17 +71,10 @@ def drawable(text, most=LONGEST_TEXT):
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
-    letters = _letters()
     line = " ".join(str(text)[: 4 * most].split())
-    line = "".join(letter if ord(letter) in letters else REPLACEMENT for letter in line)
+    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in line)
     line = line if len(line) <= most else line[: most - 1] + "…"
     return line.replace("$", r"\$")
-
-
-@cache
-def _letters():
-    """Code points that the default font has."""
-    return frozenset(FT2Font(font_manager.findfont(font_manager.FontProperties(family=matplotlib.rcParams["font.family"]))).get_charmap())
 
 
 def heading(figure, title, subtitle=""):
@@ -69,9 +82,22 @@ def heading(figure, title, subtitle=""):
     width, height = figure.get_size_inches()
     room = TITLE_LETTERS * (width - 2 * MARGIN)  # letters at TITLE_SIZE
     title = drawable(title, int(room * TITLE_SIZE / SMALLEST_TITLE))
-    size = TITLE_SIZE * min(1, room / max(len(title), 1))
+    size = TITLE_SIZE * min(1, room / max(wide(title), 1))
     figure.text(MARGIN / width, 1 - 0.30 / height, title, fontsize=size, fontweight="bold", va="center")
     figure.text(MARGIN / width, 1 - 0.46 / height, _wrapped(subtitle, width), fontsize=SUBTITLE_SIZE, va="top")
+
+
+def footer(figure, text):
+    """One small line at the bottom of a figure, made smaller to fit the width."""
+    width, height = figure.get_size_inches()
+    text = drawable(text)
+    size = min(FOOTER_SIZE, FOOTER_SIZE * FOOTER_LETTERS * (width - 2 * MARGIN) / max(len(text), 1))
+    figure.text(MARGIN / width, FOOTER_PLACE / height, text, fontsize=size, color="#555555")
+
+
+def wide(text):
+    """Width of a text in Latin letters: a Japanese one takes two."""
+    return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)
 
 
 def heading_height(width, subtitle=""):
@@ -85,13 +111,23 @@ def _wrapped(subtitle, width):
     return "\n".join(fill(line, int(SUBTITLE_LETTERS * (width - 2 * MARGIN))) for line in units_kept)
 
 
-def save(figure, stem, endings, dpi):
-    """Write a figure as files STEM.ENDING; returns their paths. Raises OSError."""
+def save(figure, stem, endings):
+    """Write a figure as files STEM.ENDING, PNG with its own resolution; returns their paths. Raises OSError."""
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
+    fonts.apply(figure)
     for path in paths:
-        with written_whole(path) as part, matplotlib.rc_context(SETTINGS):
-            figure.savefig(part, dpi=dpi, metadata=METADATA[path.suffix])
+        with written_whole(path) as part, matplotlib.rc_context(fonts.SETTINGS):
+            if path.suffix == ".png":
+                image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
+            else:
+                figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
+
+
+def image_of(figure):
+    """RGB image of a figure with its own resolution."""
+    figure.canvas.draw()
+    return Image.fromarray(np.ascontiguousarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
 
 
 def stem_of(path):

@@ -15,6 +15,12 @@ ONSET = 0.1
 """Ground acceleration at which the shaking begins. [m/s2]"""
 
 
+AT_REST = 1e-3
+"""Before the shaking a house with smaller storey drifts is at rest. [-]"""
+LEAD = 1.0
+"""Time shown before the shaking. [s]"""
+
+
 @dataclass(frozen=True)
 class KeyTime:
     """frame: number of the frame; reason: caption, empty for a frame chosen by its motion alone."""
@@ -87,3 +93,13 @@ def strongest_shaking(frames):
 def largest_drift(frames):
     """Time of the largest storey drift. [s]"""
     return frames.history.time[np.argmax(frames.history.largest_drift())]
+
+
+def first_shown(frames):
+    """Time at which curves and films begin: shortly before the shaking when the house is at rest until then, else 0. [s]"""
+    if frames.motion is None or not frames.history:
+        return 0.0
+    start = min(onset(frames.motion), frames.time[-1]) - LEAD
+    moving = frames.history.time[frames.history.largest_drift() > AT_REST]
+    first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
+    return float(start) if 0 < start < first else 0.0

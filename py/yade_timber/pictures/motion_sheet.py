@@ -17,7 +17,7 @@ ROWS = (("ns", 1, "N-S", "-"), ("ew", 0, "E-W", "--"), ("ud", 2, "up-down", ":")
 
 def write(stem, motion, corner):
     """Write `stem`.png and `stem`.pdf; corner as in `page`. Returns the paths. Raises OSError."""
-    return save(page(motion, corner, DPI), stem, ("png", "pdf"), DPI)
+    return save(page(motion, corner, DPI), stem, ("png", "pdf"))
 
 
 def page(motion, corner, dpi):

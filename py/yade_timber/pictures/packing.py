@@ -11,6 +11,8 @@ import zlib
 
 import numpy as np
 
+LEVEL = 6
+"""Of zlib: two hundredths larger than at 9, in half of the time."""
 LARGEST = 2**30
 """Largest multiple of a step that is stored. [-]"""
 
@@ -20,7 +22,7 @@ def pack(info, arrays):
     header = {**info, "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()]}
     text = json.dumps(header, allow_nan=False).encode()
     parts = [len(text).to_bytes(4, "little"), text, *(planes(name, values, step) for name, (values, step) in arrays.items())]
-    return base64.b64encode(zlib.compress(b"".join(parts), 9)).decode()
+    return base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode()
 
 
 def planes(name, values, step):

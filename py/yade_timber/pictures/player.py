@@ -19,9 +19,11 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..recording import frames
-from ..recording.sentences import DRIFT_LINES, sentence
-from .key_times import onset, strongest_shaking
+from ..recording.sentences import DRIFT_LINES, joint_place, sentence
+from . import japanese
+from .key_times import largest_drift, onset, strongest_shaking
 from .packing import pack
+from .provenance import provenance
 
 ASSETS = Path(__file__).resolve().parents[1] / "data" / "player"
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
@@ -84,18 +86,52 @@ def packed(source, run):
 
 def info(run):
     """Texts of the page, and the description of its arrays."""
+    e, j, found = run.elements, run.joints, run.summary or {}
+    origin = provenance(run)
     return {
         "title": plain(run.title),
-        "result": plain(sentence(run.summary)) if run.summary else f"Not ended yet: the first {run.time[-1]:.1f} s",
-        "elements": [{"name": plain(name), "kind": plain(kind)} for name, kind in zip(run.elements.name, run.elements.kind)],
-        "joints": len(run.joints.name),
-        "kinds": kinds({plain(kind) for kind in run.elements.kind}),
+        "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
+        "japanese": japanese_texts(found, origin) if found else None,
+        "origin": plain(origin),
+        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
+                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
+        "joints": len(j.name),
+        "joint_list": [{"kind": plain(kind), "place": plain(joint_place(kind, storey, side))} for kind, storey, side in zip(j.kind, j.storey, j.side)],
+        "breaks": breaks(run),
+        "kinds": kinds({plain(kind) for kind in e.kind}),
         "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
         "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in drifts(run)],
         "levels": [{"value": value, "text": text.split()[0]} for value, text in DRIFT_LINES],
         "events": events(run),
-        "collapse": (run.summary or {}).get("collapse_time_s"),
+        "main": main_event(run),
+        "collapse": found.get("collapse_time_s"),
     }
+
+
+def japanese_texts(found, origin):
+    """Title, result and origin of an ended run in Japanese. found: its summary"""
+    texts = {"title": japanese.title(found), "result": japanese.result(found), "origin": japanese.origin(origin)}
+    return {name: plain(text) for name, text in texts.items()}
+
+
+def breaks(run):
+    """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number of all."""
+    firsts, table = {}, run.breaks or {"joint": []}
+    for number, joint in enumerate(map(int, table["joint"])):
+        if 0 <= joint < len(run.joints.name):
+            first = {"joint": joint, "time": float(table["time"][number]), "cause": plain(table["cause"][number]),
+                     "force": float(table["force"][number]), "springs": 0}
+            firsts.setdefault(joint, first)["springs"] += 1
+    return list(firsts.values())
+
+
+def main_event(run):
+    """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest drift; else None."""
+    found = run.summary or {}
+    falls = [event["time_s"] for kind in ("structure_fallen", "snow_fallen") for event in found.get("events", []) if event["kind"] == kind]
+    largest = [float(largest_drift(run))] if drifts(run) else []
+    times = [time for time in (found.get("collapse_time_s"), found.get("tilt_time_s"), *falls, *largest) if time is not None]
+    return times[0] if times else None
 
 
 def kinds(present):
@@ -110,28 +146,28 @@ def css(color):
 
 
 def events(run):
-    """[{time [s], text}] of the events within the run, in the order of time."""
-    recorded = ((event["time_s"], event["what"]) for event in (run.summary or {}).get("events", []))
-    found = [*shaking(run), *passed_levels(run), *recorded]
-    return [{"time": float(time), "text": plain(text)} for time, text in sorted(found) if 0 <= time <= run.time[-1]]
+    """[{time [s], text, japanese}] of the events within the run, in the order of time."""
+    recorded = ((event["time_s"], event["kind"], event["what"]) for event in (run.summary or {}).get("events", []))
+    found = [event for event in (*shaking(run), *passed_levels(run), *recorded) if 0 <= event[0] <= run.time[-1]]
+    return [{"time": float(time), "text": plain(text), "japanese": plain(japanese.event(kind, text))} for time, kind, text in sorted(found)]
 
 
 def shaking(run):
-    """(time, text) of the ground motion."""
+    """(time, kind, text) of the ground motion."""
     if run.motion:
-        yield onset(run.motion), "the shaking begins"
+        yield onset(run.motion), "shaking", "the shaking begins"
         if run.summary:
-            yield strongest_shaking(run), "strongest shaking"
+            yield strongest_shaking(run), "shaking", "strongest shaking"
 
 
 def passed_levels(run):
-    """(time, text) when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
+    """(time, kind, text) when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
     if not drifts(run):
         return
     largest = run.history.largest_drift()
     for value, text in DRIFT_LINES[:-1]:
         if (largest > value).any():
-            yield run.history.time[np.argmax(largest > value)], f"drift passes {text.replace(' ', ': ', 1)}"
+            yield run.history.time[np.argmax(largest > value)], "level", f"drift passes {text.replace(' ', ': ', 1)}"
 
 
 # --- numbers ----------------------------------------------------------------------------------------------------------
@@ -156,6 +192,8 @@ def shapes(elements):
 def joints(found):
     return {
         "a": (found.a, 1),
+        "b": (found.b, 1),
+        "strength": (np.where(np.isfinite(found.strength), np.minimum(found.strength, 1e9), 0), 1),
         "anchor": (found.anchor, 1e-4),
         "springs": (found.springs, 1),
         "damaged": (found.damaged, 1),

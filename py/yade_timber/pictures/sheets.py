@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from ..recording.sentences import sentence
 from . import key_times
-from .figures import A4, MARGIN, add_panel, drawable, heading, heading_height, new_figure, save
+from .figures import A4, MARGIN, add_panel, drawable, footer, heading, heading_height, new_figure, save
+from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
 from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
@@ -26,7 +27,7 @@ SCREEN = Format(9.5, 6.2, 150, 4)
 """A small picture for a web page."""
 END_DPI = 130
 """For the picture of the end, made for screens."""
-GAP, FOOT, CAPTION = 0.12, 0.62, 0.36
+GAP, FOOT, CAPTION = 0.12, 0.76, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
@@ -81,7 +82,7 @@ def layout(form, count, box, result):
 
 def write_sheet(stem, frames, view):
     """Write `stem`.png and `stem`.pdf: the key times in one view. Returns the paths. Raises OSError."""
-    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"), PRINT.dpi)
+    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"))
 
 
 def sheet(frames, view, form):
@@ -91,19 +92,20 @@ def sheet(frames, view, form):
     shots = [snapshot(frames, time.frame) for time in times]
     box = box_of(view, start, [shot.solids for shot in shots])
     plan = layout(form, len(shots), box, result(frames))
-    front, covered = front_of(start, view), silhouette(start, view, box)
+    front, outlines = front_of(start, view), silhouette(start, view)
     figure = new_figure(plan.width, plan.height, form.dpi)
     for time, shot, corner in zip(times, shots, plan.corners()):
         ax = add_panel(figure, corner, plan.panel, form.dpi)
         draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
         if time.frame:
-            draw_silhouette(ax, covered, box, PANEL_MARK)
+            draw_silhouette(ax, outlines, PANEL_MARK)
         caption = f"{frames.time[time.frame]:.2f} s{': ' if time.reason else ''}{time.reason}"
         ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3)
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
     legend(figure, start, {state for shot in shots for state in shot.states}, 8)
+    footer(figure, provenance(frames))
     return figure
 
 
@@ -114,7 +116,7 @@ def result(frames):
 
 def write_end(stem, frames):
     """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
-    return save(both_views(frames, -1, END_DPI), stem, ("png",), END_DPI)
+    return save(both_views(frames, -1, END_DPI), stem, ("png",))
 
 
 def both_views(frames, frame, dpi):
@@ -133,11 +135,12 @@ def both_views(frames, frame, dpi):
     for view, box, size in zip(VIEWS, boxes, sizes):
         ax = add_panel(figure, (left, END_AXES), size, dpi)
         draw_view(ax, Window(view, box, density), shot, front_of(start, view))
-        draw_silhouette(ax, silhouette(start, view, box), box)
+        draw_silhouette(ax, silhouette(start, view))
         ax.set_title(view.title, fontsize=12)
         draw_ends(ax, view, 10)
         scale_bar(ax, box, 10)
         left += size[0] + GAP
     heading(figure, f"{frames.title}. After {frames.time[frame]:.1f} s", result(frames))
     legend(figure, start, shot.states, 10)
+    footer(figure, provenance(frames))
     return figure

@@ -3,13 +3,16 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from contourpy import FillType, contour_generator
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.path import Path
 
 from ..base import colors
+from .figures import Pixels
 from .panels import NAMES as PANEL_NAMES
 from .panels import STYLES, draw_panels
-from .raster import Window, outline, shade
+from .raster import Window, covered, shade
 
 
 @dataclass
@@ -84,6 +87,8 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
 }
 MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken", "before": "joint broken before the start"}
 LEGEND_COLUMNS = 6
+LEGEND_PLACE = 0.14
+"""Height of its lower end. [inch]"""
 LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam, sill", "floor": "floor", "foundation": "foundation"}
 
 
@@ -102,7 +107,7 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
     """Shaded picture of a Snapshot in a Window with ground line and damaged joints. front: from `front_of` [m]"""
     box = window.box
     picture, depth = shade(snapshot.solids, window, front)
-    ax.imshow(np.rint(255 * picture).astype(np.uint8), extent=box, interpolation="none", aspect="equal")
+    ax.add_artist(Pixels(picture))
     ax.axhline(0, color="black", linewidth=0.16 * mark_size)
     draw_panels(ax, window.view, snapshot.panels)
     for mark in snapshot.marks:
@@ -110,14 +115,21 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
 
 
-def silhouette(start, view, box):
-    """(rows, columns) whether the house, snow and ground left out, covers a pixel. start: solids before the first step"""
-    return outline([s for s in start if s.kind not in ("ground", "snow")], Window(view, box, OUTLINE_PIXELS))
+def silhouette(start, view):
+    """Outer outlines of the house, snow and ground left out: list of (n, 2) closed lines in the picture plane [m]. start: solids before the first step"""
+    box = box_of(view, start, [])
+    window = Window(view, box, OUTLINE_PIXELS)
+    mask = np.pad(covered([s for s in start if s.kind not in ("ground", "snow")], window), 1)[::-1].astype(float)
+    found = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
+    outers = [points[: ends[1]] for points, ends in zip(*found)]
+    outers = [line for line in outers if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)]
+    return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
 
 
-def draw_silhouette(ax, covered, box, mark_size=MARK_SIZE):
-    """Dashed outline of a silhouette."""
-    ax.contour(covered.astype(float), [0.5], extent=box, origin="upper", colors=INK, linewidths=0.1 * mark_size, linestyles="dashed")
+def draw_silhouette(ax, outlines, mark_size=MARK_SIZE):
+    """Dashed outlines of a silhouette."""
+    for line in outlines:
+        ax.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
 
 
 def draw_mark(ax, window, depth, mark, size):
@@ -162,7 +174,9 @@ def legend(figure, solids, states, size):
     entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
-    style = dict(handles=entries, loc="lower center", ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5, columnspacing=1.6)
+    place = (0.5, LEGEND_PLACE / figure.get_size_inches()[1])
+    style = dict(handles=entries, loc="lower center", bbox_to_anchor=place, ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5,
+                 columnspacing=1.6)
     drawn = figure.legend(**style, fontsize=size)
     fit = 0.98 * figure.bbox.width / drawn.get_window_extent().width
     if fit < 1:

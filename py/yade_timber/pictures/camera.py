@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Perspective cameras around a house, as in the player (player/src/view.js). World frame: x east, y north, z up [m]."""
+from dataclasses import dataclass
+
+import numpy as np
+
+FIELD = 32.0
+"""Vertical angle of view. [degree]"""
+SPARE = 1.3
+"""Size of the picture by the size of the house: captions need room above and below. [-]"""
+NEAR = 6.0
+"""Distance from the house up to which wreckage stays in the picture. [m]"""
+CAMERAS = {"front": (0.0, 5.0), "side": (90.0, 5.0), "space": (38.0, 20.0)}
+"""Azimuth from east to north and elevation. [degree]"""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """eye, target (3,) [m]; matrix (4, 4): from the world to OpenGL's clip space; scale: pixels per metre at distance 1 m, by the picture's height."""
+
+    eye: np.ndarray
+    target: np.ndarray
+    matrix: np.ndarray
+    scale: float
+
+
+def look(name, points, aspect):
+    """Camera NAME at the smallest distance that shows all points (P, 3). aspect: width by height"""
+    azimuth, elevation = np.radians(CAMERAS[name])
+    toward = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    right = np.array([-toward[1], toward[0], 0]) / np.hypot(*toward[:2])
+    up = np.cross(toward, right)
+    tangent = np.tan(np.radians(FIELD) / 2)
+    target = (points.min(0) + points.max(0)) / 2
+    for _ in range(4):
+        offset = points - target
+        halves = np.maximum(abs(offset @ right) / aspect, abs(offset @ up))
+        away = (halves / (tangent / SPARE) + offset @ toward).max()
+        for axis in (right, up):
+            seen = (offset @ axis) / (away - offset @ toward)
+            target = target + away * (seen.min() + seen.max()) / 2 * axis
+    eye = target + away * toward
+    return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, away), 0.5 / tangent)
+
+
+def kept(start, end):
+    """(P, 3) points that a camera shows: those of the start, and those of the end within NEAR of them."""
+    low, high = start.min(0) - (NEAR, NEAR, 0), start.max(0) + (NEAR, NEAR, 0)
+    return np.concatenate([start, np.clip(end[np.isfinite(end).all(1)], low, high)])
+
+
+def _matrix(eye, right, up, toward, tangent, aspect, away):
+    near, far = max(0.2, 0.05 * away), away + 200.0
+    seen = np.eye(4)
+    seen[:3, :3] = right, up, toward
+    seen[:3, 3] = -seen[:3, :3] @ eye
+    lens = np.zeros((4, 4))
+    lens[0, 0], lens[1, 1] = 1 / (tangent * aspect), 1 / tangent
+    lens[2, 2:], lens[3, 2] = ((far + near) / (near - far), 2 * far * near / (near - far)), -1
+    return lens @ seen
+
+
+def sun(points):
+    """((4, 4) matrix of the light's view, (3,) unit vector to the light): from the south-east, parallel, around all points (P, 3)."""
+    middle, size = (points.min(0) + points.max(0)) / 2, np.ptp(points, axis=0)
+    light = np.array([13.0, -5.0, 17.0]) / np.linalg.norm([13.0, -5.0, 17.0])
+    right = np.cross([0, 0, 1.0], light)
+    right /= np.linalg.norm(right)
+    axes = np.array([right, np.cross(light, right), -light])
+    half = max(size[:2].max() / 2 + NEAR, size[2])
+    made = np.eye(4)
+    made[:3, :3] = axes / half
+    made[:3, 3] = -made[:3, :3] @ middle
+    return made, light

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow. Needs no YADE.
+
+Positions are interpolated between recorded frames, the ground moves as recorded, the camera stands still.
+"""
+import shutil
+import subprocess
+import threading
+from dataclasses import dataclass
+
+import numpy as np
+from PIL import Image
+
+from ..base.atomic_write import written_whole
+from ..base.errors import RunError
+from . import camera
+from .caption import Caption
+from .key_times import first_shown
+from .stage import Stage
+
+ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4")
+LONGEST = 36000
+"""Largest number of pictures in a film. [-]"""
+
+
+@dataclass(frozen=True)
+class Format:
+    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film; quality: of WebP, 0 to 100."""
+
+    width: int = 1280
+    height: int = 720
+    rate: float = 30.0
+    speed: float = 1.0
+    quality: int = 60
+
+
+def write(path, runs, view="space", form=Format(), begin=None, end=None):
+    """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the format.
+
+    runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking to the end of the longest run.
+    Raises RunError when it cannot be made, OSError when it cannot be written.
+    """
+    if not all(len(run.time) for run in runs):
+        raise RunError("a run without frames")
+    begin = min(first_shown(run) for run in runs) if begin is None else begin
+    last = max(run.time[-1] for run in runs)
+    end = last if end is None else min(end, last)
+    if not begin < end:
+        raise RunError(f"a film from {begin:g} s to {end:g} s has no pictures")
+    count = max(1, round((end - begin) / form.speed * form.rate))
+    if count > LONGEST:
+        raise RunError(f"a film of {count} pictures; at most {LONGEST}: choose a shorter time, a higher speed or fewer pictures per second")
+    drawn = Pictures(runs, view, form)
+    times = begin + np.arange(count) * form.speed / form.rate
+    with written_whole(path) as part:
+        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(part, drawn, times, form)
+    return count
+
+
+def default_name():
+    """Name of a film without --out: MP4 where ffmpeg is installed."""
+    return "film.mp4" if shutil.which("ffmpeg") else "film.webp"
+
+
+class Pictures:
+    """Draws the runs side by side with one camera, and their captions."""
+
+    def __init__(self, runs, view, form):
+        self.form, width = form, form.width // len(runs)
+        starts = [corners(run) for run in runs]
+        shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
+        seen = camera.look(view, shown, width / form.height)
+        light = camera.sun(np.concatenate(starts))
+        self.stages = [Stage(run, (width, form.height), seen, light) for run in runs]
+        self.captions = [Caption(run, (width, form.height), view, form.speed) for run in runs]
+
+    def at(self, time):
+        """(height, width, 3) uint8 at a time [s]."""
+        parts = [caption.on(stage.picture(min(time, stage.frames.time[-1])), time) for stage, caption in zip(self.stages, self.captions)]
+        return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+
+
+def corners(run, frame=None):
+    """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
+    return np.concatenate([run.corners_at_start(k) if frame is None else run.corners(frame, k) for k in run.shown])
+
+
+def _write_mp4(path, drawn, times, form):
+    """Pass the pictures to ffmpeg."""
+    width, height = form.width // len(drawn.stages) * len(drawn.stages), form.height
+    source = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{form.rate:g}", "-i", "-")
+    even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
+    command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
+    try:
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    except FileNotFoundError:
+        raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in .webp") from None
+    said = []
+    listener = threading.Thread(target=lambda: said.append(process.stderr.read()))
+    listener.start()
+    try:
+        for time in times:
+            process.stdin.write(np.ascontiguousarray(drawn.at(time)).data)
+        process.stdin.close()
+    except BrokenPipeError:
+        pass
+    except BaseException:
+        process.kill()
+        raise
+    finally:
+        status = process.wait()
+        listener.join()
+    if status:
+        raise RunError(f"ffmpeg: {' '.join(said[0].decode(errors='replace').split())[-300:] or f'exit status {status}'}")
+
+
+def _write_webp(path, drawn, times, form):
+    try:
+        Reel(drawn, times).save(path, "webp", save_all=True, duration=round(1000 / form.rate), loop=0, quality=form.quality, method=2, minimize_size=False)
+    except (KeyError, ValueError) as problem:  # Pillow without WebP; a size that WebP does not have
+        raise RunError(f"Pillow cannot write this film as WebP ({problem})") from None
+
+
+class Reel(Image.Image):
+    """The pictures as an animated Pillow image, drawn one after the other: together they would take gigabytes."""
+
+    is_animated = True
+
+    def __init__(self, drawn, times):
+        super().__init__()
+        self.drawn, self.times, self.n_frames, self.number = drawn, times, len(times), None
+        self.seek(0)
+
+    def seek(self, frame):
+        """Draw a picture."""
+        if frame != self.number:
+            image = Image.fromarray(np.ascontiguousarray(self.drawn.at(self.times[frame])))
+            self.im, self._size, self._mode, self.mode, self.number = image.im, image.size, "RGB", "RGB", frame
+
+    def tell(self):
+        return self.number

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Texts of the player in Japanese: title, result and events of a run. Numbers and names are the same as in English. Needs no YADE."""
+import re
+
+from ..recording.sentences import SMALL, largest_drift, ratio
+
+DIRECTIONS = {"ns": "南北", "ew": "東西"}
+SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
+STRUCTURES = {"entrance": "玄関"}
+ORIGIN = {"No ground motion": "地動なし", "Ground motion": "地動", "Record ": "記録 ", "JMA intensity": "計測震度", "time step": "時間刻み"}
+LEVELS = {"1/120": "層間変形角が 1/120 を超える（損傷の始まり）", "1/30": "層間変形角が 1/30 を超える（大きな損傷）"}
+SHAKING = {"the shaking begins": "揺れの始まり", "strongest shaking": "最大の揺れ"}
+
+
+def title(found):
+    """'住宅 C2：地震、積雪 5.6 t' of a summary."""
+    loads = ["地震"] * bool(found.get("earthquake")) + [f"積雪 {found['snow_mass_kg'] / 1000:.1f} t" if found["snow"] else ""]
+    loads = list(filter(None, loads))
+    return f"住宅 {found['model']}：{'、'.join(loads) or '自重のみ'}"
+
+
+def result(found):
+    """Outcome of a summary: collapse or peak drift, residual drift, joints, columns."""
+    broken, columns = found["broken"]["total"], found.get("columns", {})
+    parts = [outcome(found), f"接合部 {found['joints']['total']} か所のうち {broken} か所が破断"]
+    if columns.get("fallen"):
+        parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
+    return "。".join(parts) + "。"
+
+
+def origin(text):
+    """Line of `provenance.provenance` with its words in Japanese."""
+    for english, japanese in ORIGIN.items():
+        text = text.replace(english, japanese)
+    return text
+
+
+def outcome(found):
+    if found["collapsed"]:
+        return f"{found['collapse_time_s']:.1f} 秒に倒壊"
+    drift, storey, direction = largest_drift(found)
+    left = largest_drift(found, "residual_drift")[0]
+    residual = f"、残留変形角 {ratio(left, '')}{'未満' if left < SMALL else ''}" if drift >= 1 / 120 else ""
+    peak = f"{ratio(drift, '')}（{DIRECTIONS.get(direction, direction)}、{storey[len('storey'):]} 階）" if drift >= SMALL else "1/1000 未満"
+    return f"倒壊せず。最大層間変形角 {peak}{residual}"
+
+
+def event(kind, text):
+    """Text of an event, from its kind and its English text; the English one where the kind is unknown."""
+    if kind == "level":
+        return next((ja for level, ja in LEVELS.items() if level in text), text)
+    if kind == "first_break":
+        found = re.search(r"([\d.]+) kN", text)
+        return "最初のばねの破断" + (f"（{found[1]} kN）" if found else "")
+    if kind == "tilt":
+        return f"層間変形角が 1/10 を超える（{'東西' if 'E-W' in text else '南北'}）"
+    if kind == "columns_lost":
+        found = re.match(r"(\d+) of (\d+)", text)
+        return f"柱 {found[2]} 本のうち {found[1]} 本が倒れるか外れた" if found else text
+    if kind == "snow_fallen":
+        side = next((ja for en, ja in SIDES.items() if en in text), "")
+        return f"{side}の屋根の雪が落ちる" if side else "屋根の雪が落ちる"
+    name = text.split(" has ")[0]
+    fixed = {"shaking": SHAKING.get(text, text), "collapse": "倒壊：床が階高の半分以上落ちた", "structure_fallen": f"{STRUCTURES.get(name, name)}が倒れた"}
+    return fixed.get(kind, text)

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints: the pictures of a film. Needs no YADE."""
+import numpy as np
+
+from ..base import colors
+from ..recording.frames import rotated
+from .renderer import Bodies, Canvas, Topology, context, program, put
+
+SHADOW_PIXELS = 1024
+HORIZON, ZENITH = (0.93, 0.945, 0.94), (0.72, 0.82, 0.90)
+AMBIENT, DIRECT = (0.80, 0.62), 0.42
+"""Brightness of faces that look up and down, and that the sun adds. [-]"""
+HAZE_DEPTH = 60.0
+"""Distance behind the house at which the haze is HAZE. [m]"""
+HAZE = 0.5
+EDGE_INK, EDGE_WIDTH = (0.16, 0.13, 0.10, 0.7), 1.2
+"""Colour and opacity, and width [pixel] of the lines along edges."""
+GROUND_REACH = 60.0
+"""Distance at which the ground has faded into the sky. [m]"""
+MARK_SIZE, MARK_PIXELS = 0.25, (9.0, 26.0)
+"""Size of a mark [m], and its limits [pixel]."""
+STATES = {"partly": 1.0, "broken": 2.0, "before": 3.0}
+HIDDEN = 0.3
+"""Opacity of a mark behind a member. [-]"""
+SQUARE, UPPER_HALF = np.array([[-1, -1, 1, -1, -1, 1, 1, 1], [-1, 0, 1, 0, -1, 1, 1, 1]], "f4")
+
+
+class Stage:
+    """Draws a run (Frames) in pictures of (width, height) pixels from one camera. light: from `camera.sun`"""
+
+    def __init__(self, frames, size, camera, light):
+        self.frames, self.camera, (self.sun, self.light) = frames, camera, light
+        e = frames.elements
+        self.numbers = frames.shown
+        self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
+        self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
+        topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
+        self.bodies = Bodies(topology, [colors.KINDS.get(e.kind[k], colors.OTHER) for k in self.numbers])
+        self.canvas = Canvas(*size)
+        made = context()
+        self.depth = made.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
+        self.depth.compare_func = "<="
+        self.depth.repeat_x = self.depth.repeat_y = False
+        self.shadow = made.framebuffer(depth_attachment=self.depth)
+        self.ground = made.vertex_array(program("GROUND"), [(made.buffer(SQUARE), "2f", "corner")])
+        self.sky = made.vertex_array(program("SKY"), [(made.buffer(UPPER_HALF), "2f", "corner")])
+        self.marks = made.buffer(reserve=max(16 * len(frames.joints.name), 16), dynamic=True)
+        self.points = made.vertex_array(program("MARK"), [(self.marks, "3f 1f", "place", "state")])
+
+    def picture(self, time):
+        """(height, width, 3) uint8 at a time [s]; positions are interpolated between frames, the ground moves as recorded."""
+        position, orientation = placements(self.frames, time)
+        vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
+        self.bodies.put(np.where(np.isfinite(vertices), vertices, 0.0))
+        self._prepare(ground_at(self.frames.motion, time))
+        self._draw_shadow()
+        self.canvas.begin(HORIZON)
+        made = context()
+        made.enable_only(made.BLEND)
+        self.sky.render(mode=made.TRIANGLE_STRIP)
+        self.ground.render(mode=made.TRIANGLE_STRIP)
+        made.enable_only(made.DEPTH_TEST | made.BLEND | made.PROGRAM_POINT_SIZE)
+        self.bodies.render()
+        self._draw_marks(position, orientation, time)
+        return self.canvas.pixels()
+
+    def _draw_shadow(self):
+        self.shadow.use()
+        self.shadow.clear(depth=1.0)
+        context().enable_only(context().DEPTH_TEST)
+        self.bodies.shadow.render()
+        self.depth.use(0)
+
+    def _prepare(self, moved):
+        """Set the shaders for a displacement of the ground (3,) [m], to which all positions are relative."""
+        view, shift = self.camera, np.eye(4)
+        shift[:3, 3] = moved
+        ahead = view.target - view.eye
+        ahead /= np.linalg.norm(ahead)
+        width, height = self.canvas.size
+        shared = dict(camera=view.matrix @ shift, sun=self.sun, toward=(*-ahead, -ahead @ view.target), haze=HORIZON, haziness=(HAZE, HAZE_DEPTH), shade=0)
+        put(program("SHADOW"), sun=self.sun)
+        put(program("SOLID"), **shared, light=self.light, ambient=AMBIENT, direct=DIRECT)
+        program("SOLID")["shadows"].value = True
+        put(program("EDGE"), **shared, eye=(*view.eye, 1), ink=EDGE_INK, size=(width, height), width=EDGE_WIDTH)
+        put(program("GROUND"), **shared, middle=(0, 0), extent=2 * GROUND_REACH, reach=GROUND_REACH)
+        put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
+        put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS, partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))
+
+    def _draw_marks(self, position, orientation, time):
+        """Marks of the damaged joints, pale where a member hides them."""
+        j, made = self.frames.joints, context()
+        states = self.frames.joint_states(frame_before(self.frames, time))
+        numbers = np.flatnonzero(states != "whole")
+        places = position[j.a[numbers]] + rotated(orientation[j.a[numbers]], j.anchor[numbers])
+        found = np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers) else np.zeros((0, 4))
+        found = found[np.isfinite(found).all(1)].astype("f4")
+        if not len(found):
+            return
+        self.marks.write(found)
+        self.canvas.frame.depth_mask = False
+        for test, opacity in ((">", HIDDEN), ("<=", 1.0)):
+            made.depth_func = test
+            program("MARK")["opacity"].value = opacity
+            self.points.render(mode=made.POINTS, vertices=len(found))
+        made.depth_func = "<"
+        self.canvas.frame.depth_mask = True
+
+
+def rgb(color):
+    """'#rrggbb' -> RGB in 0..1."""
+    return tuple(int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+
+
+def frame_before(frames, time):
+    """Number of the last frame at or before a time [s], at least 0."""
+    return max(0, int(np.searchsorted(frames.time, time + 1e-9, side="right")) - 1)
+
+
+def placements(frames, time):
+    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) at a time [s]: linear and slerp between frames."""
+    first = frame_before(frames, time)
+    last = min(first + 1, len(frames.time) - 1)
+    span = frames.time[last] - frames.time[first]
+    share = min(max((time - frames.time[first]) / span, 0.0), 1.0) if span > 0 else 0.0
+    a, b = (np.asarray(frames.position[k], float) for k in (first, last))
+    return a + share * (b - a), slerp(np.asarray(frames.orientation[first], float), np.asarray(frames.orientation[last], float), share)
+
+
+def slerp(a, b, share):
+    """Unit quaternions (N, 4) on the shorter arc between a and b."""
+    cosine = (a * b).sum(1, keepdims=True)
+    b, cosine = np.where(cosine < 0, -b, b), np.minimum(abs(cosine), 1.0)
+    angle = np.arccos(cosine)
+    sine = np.sin(angle)
+    small = sine < 1e-6
+    sine = np.where(small, 1.0, sine)
+    from_a = np.where(small, 1 - share, np.sin((1 - share) * angle) / sine)
+    from_b = np.where(small, share, np.sin(share * angle) / sine)
+    return from_a * a + from_b * b
+
+
+def ground_at(motion, time):
+    """(3,) displacement of the ground [m]; zero without a motion."""
+    if motion is None:
+        return np.zeros(3)
+    return np.array([np.interp(time, motion.time, motion.displacement[:, k]) for k in range(3)])
