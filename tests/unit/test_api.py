@@ -3,8 +3,6 @@
 import signal
 import subprocess
 import sys
-import threading
-import time
 from os import kill, getpid
 from pathlib import Path
 
@@ -13,6 +11,7 @@ import pytest
 import yade_timber as yt
 from yade import O
 from yade_timber.base.errors import RunError
+from yade_timber.run.runner import Run
 
 HOUSE_SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "house.py"
 SHORT = {"duration": 0.3, "dt": 2e-4, "quiet": True, "no_frames": True}
@@ -70,22 +69,21 @@ def test_wrong_options_are_refused_in_a_line(error, words, options):
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
 
 
-def test_interrupted_run_continues():
-    """Ctrl-C after some steps; the handlers are the session's own again."""
-    def interrupt():
-        while O.iter < 100:
-            time.sleep(0.01)
+def test_interrupted_run_continues(monkeypatch):
+    """Ctrl-C in the first interval between two frames; the handlers are the session's own again."""
+    def interrupted(run, step):
+        advance(run, step)
         kill(getpid(), signal.SIGINT)
 
+    advance = Run._advance
     before = signal.getsignal(signal.SIGINT)
-    options = {**SHORT, "duration": 40, "every_step": True, "out": "stopped"}
-    O.reset()
-    threading.Thread(target=interrupt).start()
-    with pytest.raises(KeyboardInterrupt, match="resume=True"):
+    options = {**SHORT, "duration": 2, "every_step": True, "out": "stopped"}
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt, match="resume=True"):
+        patch.setattr(Run, "_advance", interrupted)
         yt.run("A", **options)
     assert signal.getsignal(signal.SIGINT) is before
     reached = O.time
-    assert 0 < reached < 40
+    assert reached == pytest.approx(0.05)  # one frame
     assert yt.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary["duration_s"] == pytest.approx(reached + 0.1, abs=2e-4)
 
 
