@@ -61,7 +61,7 @@ def _text(path):
 
 def write(stem, results):
     """Write `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(results, DPI), stem, ("png", "pdf"), DPI)
+    return save(page(results, DPI), stem, ("png", "pdf"))
 
 
 def page(results, dpi):
