@@ -20,7 +20,7 @@ from yade_timber.pictures import all_pictures, report
 from yade_timber.study.driver import Task, run_missing
 from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
 from yade_timber.study.retrofit import motions, overview, race
-from yade_timber.study.retrofit.candidates import KINDS, candidates
+from yade_timber.study.retrofit.candidates import KINDS, USUAL_KINDS, candidates
 from yade_timber.study.retrofit.runs import Ranking
 
 
@@ -35,7 +35,8 @@ def arguments():
     made.add_argument("--intensity", type=positive, metavar="I", help="scale each motion to this JMA intensity")
     made.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
     made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
-    made.add_argument("--kinds", type=lambda text: text.split(","), default=list(KINDS), metavar="KIND,KIND", help=f"of {', '.join(KINDS)} (default: all)")
+    made.add_argument("--kinds", type=lambda text: text.split(","), default=list(USUAL_KINDS), metavar="KIND,KIND",
+                      help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})")
     made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
     made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
     made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")

@@ -30,14 +30,15 @@ def frames(*states, name="h.wall1.NS.x0.0-1.mud.window.columns"):
     moved = [start[0], start[1] + [0, 0, 0.1]]
     count = len(states)
     joints = SimpleNamespace(kind=["wall_column"] * count, a=[0] * count, b=[1] * count, side=["east"] * count, name=[name] * count)
-    return SimpleNamespace(joints=joints, joint_states=lambda frame: states, corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
+    elements = SimpleNamespace(storey=np.array([1, 1]))
+    return SimpleNamespace(elements=elements, joints=joints, joint_states=lambda frame: states, corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
 
 
 @pytest.mark.parametrize("states, state", [(("whole", "whole"), "whole"), (("broken", "whole"), "partly"), (("broken", "broken"), "broken")])
 def test_corners_and_states(states, state):
     panel, = panels(frames(*states), 0)
     assert panel.corners == pytest.approx(np.array([[0, 0, 0], [0, 2, 0.1], [0, 2, 2.6], [0, 0, 2.5]]))
-    assert (panel.state, panel.sides, panel.opening) == (state, ("east",), "window")
+    assert (panel.state, panel.storey, panel.sides, panel.opening) == (state, 1, ("east",), "window")
     assert Snapshot([], [], [panel]).states == {f"wall {state}"}
 
 

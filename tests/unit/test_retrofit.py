@@ -28,16 +28,19 @@ def test_candidates_of_a_house():
     assert found[names.index("double_column_ends")].changes == {"set": "joints.column_ends.number=4"}  # the shipped house has two fittings at each end
     assert names[-1] == "snow_cleared" and found[-1].changes == {"snow": "0"}
     assert "snow_cleared" not in [candidate.name for candidate in measures.candidates("B", 0.0)]
+    walls = measures.candidates("B", 0.0, ("wall",), ("EW.y0.3-4",))
+    assert [wall.changes for wall in walls] == [{"braces": f"main.wall{storey}.EW.y0.3-4.plywood"} for storey in (1, 2)]
     assert [candidate.name for candidate in measures.candidates("B", 1.0, ("brace",), ("EW.y0.3-4",))] == ["main.brace1.EW.y0.3-4", "main.brace2.EW.y0.3-4"]
 
 
 @pytest.mark.parametrize("name, text", [
     ("main.brace1.EW.y0.3-4", "brace: main, storey 1, south wall, 3.2 m east"), ("main.brace1.NS.x8.4-5", "brace: main, storey 1, east wall, 4.1 m north"),
     ("main.brace2.NS.x4.1-3", "brace: main, storey 2, inner N-S wall, 1.8 m north"),
+    ("main.wall1.EW.y0.3-4.plywood", "plywood wall: main, storey 1, south wall, 3.2 m east"),
 ])
 def test_bays_as_text(name, text):
     model = measures.build_house(measures.load_house("B"), check=False)
-    assert measures.brace_text(model, name) == text
+    assert measures.bay_text(model, name) == text
 
 
 def test_seeds_and_target():

@@ -11,8 +11,9 @@ from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
-from .overlay import brace_parts, changed_house
+from .overlay import brace_parts, changed_house, wall_parts
 from .weight import weigh
 
 __all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
-           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "overlaps", "shipped_houses", "weigh"]
+           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "overlaps", "shipped_houses",
+           "wall_parts", "weigh"]

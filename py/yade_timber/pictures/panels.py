@@ -24,9 +24,10 @@ NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken
 
 @dataclass
 class Panel:
-    """The wall of a bay. corners (4, 3) world [m], around the bay; sides: of the house, as 'north'; state: a key of STYLES."""
+    """The wall of a bay. corners (4, 3) world [m], around the bay; storey: from 1; sides: of the house, as 'north'; state: a key of STYLES."""
 
     corners: np.ndarray
+    storey: int
     sides: tuple
     state: str
     opening: str = ""
@@ -47,6 +48,7 @@ class Sheet:
     ends: list
     sides: tuple
     name: str
+    storey: int
     broken: bool
 
 
@@ -58,7 +60,7 @@ def panels(frames, frame):
         if kind == "wall_column":
             bay = joints.a[k], joints.b[k]
             ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
-            sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], states[k] != "whole"))
+            sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]), states[k] != "whole"))
     return of_sheets(sheets)
 
 
@@ -68,7 +70,7 @@ def panels_as_built(model):
     for joint in model.joints:
         if joint.kind == "wall_column":
             ends = [axis_ends(vertices, vertices) for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
-            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, joint.broken))
+            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey, joint.broken))
     return of_sheets(sheets)
 
 
@@ -83,7 +85,7 @@ def of_sheets(sheets):
         broken = [sheet.broken for sheet in layers]
         state = "broken" if all(broken) else "partly" if any(broken) else "whole"
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].sides, state, opening))
+        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state, opening))
     return found
 
 

@@ -19,6 +19,7 @@ from ..recording import verdict
 from ..recording.lines import lines, main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from . import quantities, report_pictures
+from .panels import panels
 
 PAGE, PDF = "report.html", "report.pdf"
 JOINTS_SHOWN = 8
@@ -99,7 +100,7 @@ def picture(figure, part=None, name="", about=""):
 def house(frames, found):
     """Plans, and the table of the storeys."""
     known, kinds = found["quantities"], frames.elements.kind
-    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace", "wall")}
+    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {"walled bay": len(panels(frames, 0))}
     periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := main_mode(found, "before", axis)))
     rows = "".join(
         f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{9.81e-3 * storey['mass_above_kg']:.0f} kN</td>"
@@ -110,7 +111,8 @@ def house(frames, found):
     per_area = f", {9.81e-3 * known['mass_kg'] / area:.2f} kN per m² of {area:.0f} m² of floor" if area else ""
     numbers = ", ".join(f"{count} {kind}s" for kind, count in counts.items() if count) + f", {found['joints']['total']} joints"
     weight = f"Main structure{' with snow' * found['snow']}: {9.81e-3 * known['mass_kg']:.0f} kN{per_area}."
-    braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; orange: joints broken from the start" * any(frames.joints.damaged)
+    braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
+    braces += "; orange: joints broken from the start" * any(frames.joints.damaged)
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
         f"<p>Plans, north up{braces}. {numbers}. {weight}{periods and f' Natural periods {periods}.'}</p>"
@@ -174,8 +176,10 @@ def joints(results):
 
 
 def joint_name(name):
-    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first."""
+    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first. A wall's joint has one name."""
     first, _, second = name.partition("|")
+    if not second:
+        return text(first)
     second = second.removeprefix(f"{first.partition('.')[0]}.")
     return f"{text(first)} | {text(second)}"
 

@@ -10,6 +10,7 @@ from ..recording.history import DIRECTIONS
 from ..recording.lines import main_mode
 from ..recording.sentences import direction_name, largest_drift
 from .figures import heading_height, new_figure
+from .panels import panels
 from .sheets import Format, result, sheet
 from .views import FRONT, SIDE
 
@@ -43,7 +44,7 @@ def draw_plan(axis, frames, storey):
     """Plan of a storey, north up."""
     e = frames.elements
     for k, kind in enumerate(e.kind):
-        if e.storey[k] != storey or kind not in ("column", "brace", "wall"):
+        if e.storey[k] != storey or kind not in ("column", "brace"):
             continue
         corners = frames.corners_at_start(k)
         (x0, y0), (x1, y1) = corners[:, :2].min(0), corners[:, :2].max(0)
@@ -51,10 +52,12 @@ def draw_plan(axis, frames, storey):
         if kind == "column":
             thick = max(x1 - x0, y1 - y0) >= THICK
             axis.add_patch(Polygon(box, closed=True, facecolor="black" if thick else "white", edgecolor="black", lw=0.5, zorder=3))
-        elif kind == "brace":
-            axis.add_patch(wedge(corners))
         else:
-            axis.add_patch(Polygon(box, closed=True, facecolor=colors.GREEN, edgecolor="none", zorder=1.5))
+            axis.add_patch(wedge(corners))
+    for panel in panels(frames, 0):
+        if panel.storey == storey:
+            (x, y, _), (other_x, other_y, _) = panel.corners[:2]
+            axis.plot((x, other_x), (y, other_y), color=colors.GREEN, lw=2.2, ls=":" if panel.opening else "-", solid_capstyle="butt", zorder=1.5)
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
     axis.set_title(f"storey {storey}", fontsize=7, pad=2)

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Strengthening measures of a house: a brace in a free bay, double fittings in a group of joints, snow cleared from the roofs."""
+"""Strengthening measures of a house: a brace or a wall in a free bay, double fittings in a group of joints, snow cleared from the roofs."""
 import math
 from dataclasses import dataclass
 
-from ...house import brace_parts, build_house, free_bays, load_house
+from ...house import brace_parts, build_house, free_bays, free_wall_bays, load_house, wall_parts
 
-KINDS = ("brace", "fitting", "snow")
+KINDS = ("brace", "wall", "fitting", "snow")
+USUAL_KINDS = ("brace", "fitting", "snow")
+"""Without walls, which are as many as braces."""
+SHEATHING = "plywood"
+"""Type of the walls that are added."""
 
 
 @dataclass(frozen=True)
@@ -25,13 +29,15 @@ class Candidate:
 AS_IT_IS = Candidate("as_it_is", "house as it is")
 
 
-def candidates(house, snow, kinds=KINDS, texts=("",)):
+def candidates(house, snow, kinds=USUAL_KINDS, texts=("",)):
     """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]. Raises HouseError."""
     description = load_house(house)
     model = build_house(description, check=False)
     found = []
     if "brace" in kinds:
-        found += [Candidate(name, brace_text(model, name), (("braces", name),)) for name in free_bays(description)]
+        found += [Candidate(name, bay_text(model, name), (("braces", name),)) for name in free_bays(description)]
+    if "wall" in kinds:
+        found += [Candidate(name, bay_text(model, name), (("braces", name),)) for name in free_wall_bays(description, SHEATHING)]
     if "fitting" in kinds:
         found += fittings(description, model)
     if "snow" in kinds and snow > 0:
@@ -50,20 +56,27 @@ def fittings(description, model):
     ]
 
 
-def brace_text(model, name):
-    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall."""
-    structure, storey, along, *_ = brace_parts(name)
+def bay_text(model, name):
+    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall; 'plywood wall: ...'."""
+    structure, storey, along, *_ = bay_parts(name)
+    measure = f"{SHEATHING} wall" if wall_parts(name) else "brace"
     xs, ys = bay_ends(model, name)
     at, centre = (ys[0], sum(xs) / 2) if along == "x" else (xs[0], sum(ys) / 2)
     lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
     low, high = ("south", "north") if along == "x" else ("west", "east")
     side = low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
-    return f"brace: {structure}, storey {storey}, {side} wall, {centre:.1f} m {'east' if along == 'x' else 'north'}"
+    return f"{measure}: {structure}, storey {storey}, {side} wall, {centre:.1f} m {'east' if along == 'x' else 'north'}"
 
 
 def bay_ends(model, name):
     """((x, x), (y, y)) [m] of the centres of the columns of a bay 'main.brace1.EW.y0.3-4'."""
-    structure, storey, along, at, *ends = brace_parts(name)
+    structure, storey, along, at, *ends = bay_parts(name)
     nodes = [(node, at) if along == "x" else (at, node) for node in ends]
     centres = [model.element(f"{structure}.column{storey}.x{x:g}y{y:g}").solid.centroid for x, y in nodes]
     return [centre[0] for centre in centres], [centre[1] for centre in centres]
+
+
+def bay_parts(name):
+    """(structure, storey, 'x' or 'y', node of the line, one end, other end [grid nodes]) of a brace or a wall."""
+    wall = wall_parts(name)
+    return wall[:-1] if wall else brace_parts(name)
