@@ -2,6 +2,7 @@
 #include <HouseMonitor.hpp>
 #include <Gravity.hpp>
 #include <bodies.hpp>
+#include <sampling.hpp>
 #include <validation.hpp>
 #include <pkg/common/GravityEngines.hpp>
 
@@ -148,9 +149,7 @@ void HouseMonitor::record()
 
 void HouseMonitor::action()
 {
-	if (scene->time < nextSample - scene->dt / 2) return;
-	record();
-	nextSample = math::max(nextSample, scene->time) + interval;
+	if (isSampleDue(*scene, interval, nextSample)) record();
 }
 
 } // namespace yade

@@ -28,7 +28,7 @@ void TimberJoint::validate() const
 {
 	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
 	requireGiven(hasSprings, "TimberJoint.kn", kn, false);
-	if (!(yields() && ks == 0)) requireGiven(hasSprings, "TimberJoint.ks", ks, false);
+	if (hasSprings || !std::isnan(ks)) requireNonNegative("TimberJoint.ks", ks);
 	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
 	require(dampingRatio >= 0 && dampingRatio <= 1, "TimberJoint.dampingRatio", dampingRatio, "between 0 and 1");
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");

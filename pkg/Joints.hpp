@@ -49,7 +49,7 @@ public:
 		((vector<Vector3r>, anchors2, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 2. [m]"))
 		((Vector3r, normal, Vector3r(0, 0, 1), Attr::triggerPostLoad, "Unit normal of the contact area in the frame of body 1, towards body 2. [-]"))
 		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see perJoint. [N/m] (paper, Table 1)"))
-		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; law slip: that of kn, or 0 for springs that act along the normal only. [N/m] (paper, Table 1)"))
+		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; 0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table 1)"))
 		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: the yield force. [N] (paper, section 3.2)"))
 		((bool, perJoint, false, , "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
 		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch. [-]"))

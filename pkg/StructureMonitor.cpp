@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <StructureMonitor.hpp>
+#include <sampling.hpp>
 #include <validation.hpp>
 #include <numeric>
 
@@ -63,14 +64,8 @@ void StructureMonitor::recordJoints()
 
 void StructureMonitor::action()
 {
-	if (scene->time >= nextJoints - scene->dt / 2) {
-		recordJoints();
-		nextJoints = math::max(nextJoints, scene->time) + jointInterval;
-	}
-	if (scene->time >= nextSample - scene->dt / 2) {
-		recordMomenta();
-		nextSample = math::max(nextSample, scene->time) + interval;
-	}
+	if (isSampleDue(*scene, jointInterval, nextJoints)) recordJoints();
+	if (isSampleDue(*scene, interval, nextSample)) recordMomenta();
 }
 
 } // namespace yade

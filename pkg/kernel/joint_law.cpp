@@ -6,7 +6,7 @@
 namespace timber {
 namespace {
 
-	[[maybe_unused]] bool isValid(const JointStiffness& k) { return k.normal > 0 && k.shear > 0 && std::isfinite(k.normal) && std::isfinite(k.shear); }
+	[[maybe_unused]] bool isValid(const JointStiffness& k) { return k.normal > 0 && k.shear >= 0 && std::isfinite(k.normal) && std::isfinite(k.shear); }
 	[[maybe_unused]] bool isValid(const JointPlacement& p) { return isFinite(p.axesA) && isFinite(p.axesB) && isFinite(p.distance); }
 	[[maybe_unused]] bool isValid(const JointSprings& s)
 	{

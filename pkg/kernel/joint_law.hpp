@@ -13,7 +13,7 @@ namespace timber {
 
 /// Of one spring.
 struct JointStiffness {
-	double normal, shear; ///< K_pn, K_ps [N/m]
+	double normal, shear; ///< K_pn > 0, K_ps >= 0: with 0 the springs act along the normal only [N/m]
 };
 
 template <class Number> struct SpringForce {

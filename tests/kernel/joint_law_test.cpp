@@ -28,6 +28,16 @@ TEST(JointSpring, SplitStiffness)
 	EXPECT_NEAR(f.energy, 0.5 * 1000 * 0.0004 + 0.5 * 100 * 0.0025, rounding);
 }
 
+/// K_ps = 0: no force within the contact area, however far the bodies slide there.
+TEST(JointSpring, NormalSpring)
+{
+	const SpringForce<double> f = springForce<double>({ 1000, 0 }, { 0.3, 0.4, -0.02 }, Vec3::UnitZ());
+	EXPECT_NEAR(f.normal, -20, rounding * 20);
+	EXPECT_LT((f.force - Vec3(0, 0, -20)).norm(), rounding * 20);
+	EXPECT_NEAR(f.energy, 0.5 * 1000 * 0.0004, rounding);
+	EXPECT_EQ(breakCause(f), BreakCause::Compression);
+}
+
 TEST(JointSpring, ForceIsTheGradientOfTheEnergy)
 {
 	Random random(51);

@@ -85,6 +85,7 @@ TEST(Preconditions, OfJointsAndStability)
 	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
 	EXPECT_REFUSED(springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
 	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
+	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
 	EXPECT_GT(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::UnitX()).force.norm(), 0);
 	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 1, 3 }, {}, Vec3::UnitX())); // softens before it yields
 	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, { none, -1 }, Vec3::UnitX()));

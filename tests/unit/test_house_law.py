@@ -3,7 +3,8 @@
 import pytest
 import yade.wrapper as yw
 from yade import O
-from yade_timber.house import friction, loads
+from yade_timber.base.gravity import GRAVITY
+from yade_timber.house import friction
 from yade_timber.run.identity import identity
 from yade_timber.scene import engines, scenario
 
@@ -51,7 +52,7 @@ def test_loads_are_mass_of_the_bodies(tmp_path):
     """Mass and inertia of each body are those of its element; gravity is the one that turns loads into mass."""
     path = tmp_path / "house.yaml"
     path.write_text("extends: storehouse\nname: mine\nloads: {roof: 0.9, wall: 0.6}\n")
-    assert engines.GRAVITY == (0, 0, -loads.GRAVITY)
+    assert engines.GRAVITY == (0, 0, -GRAVITY)
     model = scenario.build(scenario.Scenario("loads", str(path)))
     heavy = [(body.state.mass, body.state.inertia) for body in O.bodies]
     assert [mass for mass, _ in heavy] == pytest.approx([e.mass for e in model.elements], rel=1e-12)

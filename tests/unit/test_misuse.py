@@ -90,7 +90,7 @@ REFUSED = [
     ("RoundedPolyhedron", "vertices", [Vector3(0, 0, 0)]),
     ("TimberJoint", "anchors1", [Vector3(0, 0, 0)]),
     ("TimberJoint", "kn", -1.0),
-    ("TimberJoint", "ks", 0.0),
+    ("TimberJoint", "ks", -1.0),
     ("TimberJoint", "strength", NAN),
     ("TimberJoint", "normal", Vector3(0, 0, 0)),
     ("ContactForces", "sweeps", -3),

@@ -70,10 +70,20 @@ def test_page_and_report(folder, tmp_path):
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
     found = json.loads((tmp_path / "summary.json").read_text())
-    for part in (found["sentence"], "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), "scripts/modelB1_quake.py", "--dt 5e-4"):
+    for part in (found["sentence"], "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), report.weight(found["weight"]), "scripts/modelB1_quake.py", "--dt 5e-4"):
         assert report.text(part) in page, part
     if shutil.which("chromium"):
         assert written[1].name == report.PDF and len(re.findall(rb"/Type\s*/Page\b(?!s)", written[1].read_bytes())) == 1, "one page"
+
+
+def test_weight(folder):
+    """Total and weight per floor area without snow, which is stated apart; a house without a floor area has a weight only."""
+    known = {"total_kn": 83.2, "snow_kn": 0.0, "floor_area_m2": 119.2, "per_floor_area_kn_m2": 0.698}
+    assert report.weight(known) == "Weight 83 kN, 0.70 kN per m² of 119 m² of floor."
+    assert report.weight({**known, "snow_kn": 59.4, "floor_area_m2": 0.0, "per_floor_area_kn_m2": None}) == "Weight 83 kN; snow 59 kN."
+    found = json.loads((folder / "summary.json").read_text())
+    assert "weighs 0.7 kN per m² of floor" in report.caveats(found)[0]
+    assert report.caveats({"weight": {**found["weight"], "per_floor_area_kn_m2": 2.7}}) == list(report.CAVEATS)
 
 
 def test_report_of_other_folders(folder, tmp_path):
@@ -85,10 +95,10 @@ def test_report_of_other_folders(folder, tmp_path):
     with pytest.raises(RunError, match="without --no-frames"):
         report.write(tmp_path)
     found = json.loads((tmp_path / "summary.json").read_text())
-    del found["quantities"]
-    (tmp_path / "summary.json").write_text(json.dumps(found))
-    with pytest.raises(RunError, match="earlier version"):
-        report.write(tmp_path)
+    for part in ("weight", "quantities"):
+        (tmp_path / "summary.json").write_text(json.dumps({key: value for key, value in found.items() if key != part}))
+        with pytest.raises(RunError, match="earlier version"):
+            report.write(tmp_path)
 
 
 def test_hostile_names_are_text(folder):

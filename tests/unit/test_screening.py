@@ -21,8 +21,9 @@ from yade_timber.study.claims import CLAIMS, RUNS  # noqa: E402
 from yade_timber.study.factors import FACTORS, house_entries  # noqa: E402
 from yade_timber.study.screening import cells, picture, report  # noqa: E402
 from yade_timber.study.screening.collect import Results, collect  # noqa: E402
-from yade_timber.study.screening.effects import EMPTY, INTERACTION, MAIN, effects  # noqa: E402
-from yade_timber.study.screening.responses import RESPONSES  # noqa: E402
+from yade_timber.study.screening.effects import EMPTY, INTERACTION, MAIN, Effect, effects  # noqa: E402
+from yade_timber.study.screening.responses import COUNT as NUMBER  # noqa: E402
+from yade_timber.study.screening.responses import LOG, RESPONSES, SHARE  # noqa: E402
 
 NAMES = [factor.name for factor in FACTORS]
 COUNT = len(FACTORS)
@@ -261,11 +262,26 @@ def test_report(results, tmp_path):
     header, *rows = (tmp_path / "screening.csv").read_text().splitlines()
     assert header.split(",")[:3] == ["cell", "motions", NAMES[0]] and len(rows) == 32 and rows[0].startswith("c00,3,")
     text = (tmp_path / "screening.md").read_text()
-    assert "32 of 32 cells under 3 motions: seed3, seed0, KOBE." in text and "not complete" not in text
+    assert "32 of 32 cells under 3 motions: seed3, seed0, KOBE." in text and "not complete" not in text and "of both kinds" in text
     line = next(line for line in text.splitlines() if line.startswith("| C / B: largest drift |") and " x " in line)
     assert line.split("|")[2].strip().startswith("**x 6.") and not line.split("|")[3].strip().startswith("**")  # 10**0.8 = 6.31
     aliases = (tmp_path / "effects.csv").read_text()
     assert f"{NAMES[2]} x {NAMES[7]}" in aliases and aliases.count("no factor (bce)") == len(RESPONSES)
+
+
+def test_report_of_half_a_design(results, tmp_path):
+    """No column is without a factor: a dash in its place, and no word of a second kind of errors. The picture has rows of factors only."""
+    half = Results(list(range(16)), results.motions, {name: shape[:, :16] for name, shape in results.values.items()})
+    report.write(half, tmp_path)
+    text = (tmp_path / "screening.md").read_text()
+    line = next(line for line in text.splitlines() if line.startswith("| C / B: largest drift |") and " x " in line)
+    assert line.endswith("| – |") and "of both kinds" not in text and "16 of 32 cells" in text and "root mean" not in text
+    tested = COUNT * len(RESPONSES)
+    assert f"of the {tested} effects tested" in text and f"some {0.0455 * tested:.0f} there" in text
+    rows = (tmp_path / "effects.csv").read_text().splitlines()[1:]
+    assert len(rows) == tested and all(row.split(",")[-2] == "" for row in rows)
+    full, part = (picture.draw(made, tmp_path / "effects.png").read_bytes()[16:24] for made in (results, half))
+    assert full[:4] == part[:4] and full[4:] > part[4:], "same width [pixels], lower"
 
 
 def test_report_of_few_cells(results, tmp_path):
@@ -282,5 +298,7 @@ def test_picture(results, tmp_path):
 
 
 def test_text_of_values():
+    effect = Effect(MAIN, "a", (0,), 0.59, 0.12, math.nan)
+    assert [report.effect_text(kind, effect) for kind in (LOG, SHARE, NUMBER)] == ["**x 3.89 (1.32)**", "**+59 pp (12)**", "**+0.59 (0.12)**"]
     assert [report.value_text("drift_A", value) for value in (0.0, -1.0, -0.3)] == ["falls", "1/10", "0.50"]
     assert report.value_text("C_over_B", math.log10(2)) == "2" and report.value_text("falls_A", 0.25) == "25 %" and report.value_text("claims", math.nan) == ""

@@ -245,6 +245,24 @@ def test_stable_dt_of_one_block_is_the_closed_form():
     assert_close(yt.stable_dt(1.0), 2 / np.sqrt(max(highest, 4 * kn / state.mass)), rtol=1e-3)  # stop of the power iteration
 
 
+def test_springs_along_the_normal_only():
+    """ks = 0 on a fixed block: along the normal u = v / w sin(w t) with w = sqrt(k / m), across it uniform motion, in 100 steps of w dt = 0.01.
+
+    Leapfrog from rest of the spring has the phase (w dt / 2): 5e-3 of the amplitude; allowed 1e-2. Across it no force acts: rounding.
+    """
+    O.reset()
+    O.bodies.append([yt.box((1, 1, 1), (0, 0, 0), fixed=True), yt.box((1, 1, 1), (0, 0, 2))])
+    O.engines = [yw.ForceResetter(), yw.JointEngine(), yw.SymplecticIntegrator()]
+    state = O.bodies[1].state
+    joint = yt.connect(0, 1, [tuple(state.pos)], (0, 0, 1), stiffness=(1e4 * state.mass, 0), strength=np.inf, damping_ratio=0.0)
+    state.vel, O.dt = (0.3, 0, 0.2), 1e-4
+    O.run(100, True)
+    assert_close(state.pos[0], 0.3 * O.time, rtol=1e-12)
+    assert_close(state.pos[2] - 2, 0.2 / 100 * np.sin(100 * O.time), rtol=1e-2)
+    assert joint.springs[0]["force"][0] == 0 and not joint.isBroken
+    yt.connect(0, 1, [tuple(state.pos)], (0, 0, 1), stiffness=(1e5, 0), slip=yt.SlipLaw(0.2, 0.3))
+
+
 @pytest.mark.parametrize(
     "call, words",
     [
@@ -258,6 +276,7 @@ def test_stable_dt_of_one_block_is_the_closed_form():
         (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, np.nan)), "ultimate_stretch"),
         (lambda: yt.connect(0, 1, [(0, 0, 0)], strength=np.inf, slip=yt.SlipLaw(0.2, 0.3)), "softening_stretch"),
         (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, 2e5), slip=yt.SlipLaw(0.2, 0.3)), "two equal numbers"),
+        (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, np.inf)), "connect: stiffness"),
         (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1), "strength"),
         (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]), "broken"),
     ],

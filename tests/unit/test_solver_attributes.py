@@ -24,7 +24,7 @@ RANGES = [  # class, attributes that make it complete, owner of the attribute in
     (yw.SnowPhys, PAIR, "SnowPhys", "stiffness", POSITIVE),
     (yw.TimberPhys, PAIR | {"radius": 1}, "TimberPhys", "modulus", POSITIVE),
     (yw.TimberPhys, PAIR | {"modulus": 1}, "TimberPhys", "radius", POSITIVE),
-    *[(yw.TimberJoint, JOINT, "TimberJoint", *one) for one in (("kn", POSITIVE), ("ks", POSITIVE), ("strength", POSITIVE_OR_INFINITE))],
+    *[(yw.TimberJoint, JOINT, "TimberJoint", *one) for one in (("kn", POSITIVE), ("ks", NOT_NEGATIVE), ("strength", POSITIVE_OR_INFINITE))],
     *[(yw.TimberJoint, JOINT, "TimberJoint", name, refused) for name, refused in (("frictionShare", (-0.1, 1.1, NAN)), ("softeningStretch", POSITIVE_OR_INFINITE))],
     *[
         (yw.TimberJoint, SLIP, "TimberJoint", *one)
@@ -53,6 +53,7 @@ def test_values_out_of_range_are_refused(kind, complete, owner, name, refused):
 def test_limits_of_the_ranges_are_accepted():
     assert yw.ContactForces(sweeps=0).sweeps == 0
     assert yw.TimberJoint(**{**JOINT, "strength": INF}).strength == INF
+    assert yw.TimberJoint(**{**JOINT, "ks": 0}).ks == 0
     assert yw.SnowPhys(**PAIR | {"stiffness": 1, "mass": INF, "friction": 0, "dampingRatio": 0}).mass == INF
 
 

@@ -7,11 +7,9 @@ columns, half of each bay on the column at either end.
 
 import numpy as np
 
+from ..base.gravity import mass_of
 from .geometry import plane_axes, polygon_area
 from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
-
-GRAVITY = 9.81
-"""Between weight and mass, that of the scene. [m/s2]"""
 
 
 def apply_loads(elements, structures, loads):
@@ -25,16 +23,6 @@ def apply_loads(elements, structures, loads):
                 element.set_mass(mass_of(mine[element.kind] * upper_area(element)))
         if mine["wall"]:
             _hang_walls(structure, members, mine["wall"])
-
-
-def mass_of(weight):
-    """Mass [kg] of a weight [kN]."""
-    return 1000 * weight / GRAVITY
-
-
-def weight_of(mass):
-    """Weight [kN] of a mass [kg]."""
-    return mass * GRAVITY / 1000
 
 
 def upper_area(element):

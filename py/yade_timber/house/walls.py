@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
+from .loads import bay_length
 from .members import DIRECTION, column_plan
 from .model import JointSpec
 from .schema import fail
@@ -48,7 +49,7 @@ class Bay:
     @property
     def length(self):
         """Between the axes of the columns. [m]"""
-        return float(np.hypot(*(self.high.solid.centroid - self.low.solid.centroid)[:2]))
+        return bay_length(self.low, self.high)
 
     @property
     def height(self):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
 
-from .loads import weight_of
+from ..base.gravity import weight_of
 
 HALVED = ("column", "brace")
 """Kinds of members of which one half belongs to the level above and one to the level below."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base import colors
 from ..base.errors import RunError
+from ..base.gravity import weight_of
 from ..base.input_file import require_regular
 from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
@@ -48,8 +49,8 @@ def read(folder):
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     except ValueError as problem:
         raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
-    if "quantities" not in summary:
-        raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities; repeat the run")
+    if not {"quantities", "weight"} <= summary.keys():
+        raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities or weight; repeat the run")
     tables = [list(csv.DictReader(_text(folder / name).splitlines())) for name in (JOINTS, COLUMNS)]
     return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
 
@@ -111,7 +112,7 @@ def draw_shears(axis, results):
     for direction in DIRECTIONS:
         axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction], label=direction_name(direction))
     peaks = results.summary["quantities"]["base_shear"]["sustained"]
-    weight = 9.81 * results.summary["quantities"]["mass_kg"] / 1e3
+    weight = weight_of(results.summary["quantities"]["mass_kg"])
     text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
     style(axis, f"base shear: {text} sustained; weight {weight:.0f} kN", "time [s]", "[kN]")
     axis.legend(fontsize=7, frameon=False, loc="lower left", ncols=2)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
+from ..base.gravity import weight_of
 from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
@@ -36,8 +37,8 @@ CAVEATS = (
     "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies no house; ask an engineer.",
 )
 """Limits of the model that a reader of one result must know (docs/limits.md)."""
-LIGHT = 1500.0
-"""Weight per floor area below which a house is lighter than real ones. [N/m2]"""
+LIGHT = 1.5
+"""Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
 STYLE = """
 @page { size: A4; margin: 9mm 10mm; }
 body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; max-width: 190mm; margin: 0 auto; }
@@ -74,7 +75,7 @@ def page(frames, results):
         f'<div class="row"><section>{house(frames, found)}</section><section class="wide">{motion(frames, found)}</section></div>',
         f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
         f'<div class="row"><section>{events(found)}</section><section class="wide">{joints(results)}</section></div>{limits()}',
-        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(frames, found))}</ul>",
+        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(found))}</ul>",
         repeat(found),
     ]
     title = text(f"Report: {frames.title}")
@@ -103,19 +104,16 @@ def house(frames, found):
     counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {"walled bay": len(panels(frames, 0))}
     periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := main_mode(found, "before", axis)))
     rows = "".join(
-        f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{9.81e-3 * storey['mass_above_kg']:.0f} kN</td>"
+        f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{weight_of(storey['mass_above_kg']):.0f} kN</td>"
         f"<td class=number>{coefficients(storey)}</td></tr>"
         for name, storey in known["storeys"].items()
     )
-    area = floor_area(frames)
-    per_area = f", {9.81e-3 * known['mass_kg'] / area:.2f} kN per m² of {area:.0f} m² of floor" if area else ""
     numbers = ", ".join(f"{count} {kind}s" for kind, count in counts.items() if count) + f", {found['joints']['total']} joints"
-    weight = f"Main structure{' with snow' * found['snow']}: {9.81e-3 * known['mass_kg']:.0f} kN{per_area}."
     braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
     braces += "; orange: joints broken from the start" * any(frames.joints.damaged)
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
-        f"<p>Plans, north up{braces}. {numbers}. {weight}{periods and f' Natural periods {periods}.'}</p>"
+        f"<p>Plans, north up{braces}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}</p>"
         f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W</th></tr>{rows}</table>"
     )
 
@@ -125,16 +123,11 @@ def coefficients(storey):
     return ", ".join("-" if value is None else f"{value:.2f}" for value in storey["shear_coefficient"].values())
 
 
-def floor_area(frames):
-    """Floor area of all storeys of the main structure within the outline of its columns, an upper bound for other shapes than rectangles. [m2]"""
-    e = frames.elements
-    main = next((group for group, kind in zip(e.group, e.kind) if kind == "column"), None)
-    storeys = {int(e.storey[k]) for k, kind in enumerate(e.kind) if kind == "column" and e.group[k] == main}
-    places = [e.position[k][:2] for k, kind in enumerate(e.kind) if kind == "column" and e.group[k] == main]
-    if not places:
-        return 0.0
-    xs, ys = zip(*places)
-    return float((max(xs) - min(xs)) * (max(ys) - min(ys))) * len(storeys)
+def weight(known):
+    """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of the part `weight` of a summary."""
+    per_area = "" if known["per_floor_area_kn_m2"] is None else f", {known['per_floor_area_kn_m2']:.2f} kN per m² of {known['floor_area_m2']:.0f} m² of floor"
+    snow = f"; snow {known['snow_kn']:.0f} kN" if known["snow_kn"] else ""
+    return f"Weight {known['total_kn']:.0f} kN{per_area}{snow}."
 
 
 def motion(frames, found):
@@ -184,12 +177,11 @@ def joint_name(name):
     return f"{text(first)} | {text(second)}"
 
 
-def caveats(frames, found):
+def caveats(found):
     """Limits of the model that matter for this run."""
-    area = floor_area(frames)
-    weight = 9.81 * (found["quantities"]["mass_kg"] - found["snow_mass_kg"]) / area if area else LIGHT
-    light = f"The house without snow weighs {weight / 1e3:.1f} kN per m² of floor. Real houses with tiles, walls and live load weigh 2.5 to 3 kN per m²."
-    return [*([light] if weight < LIGHT else []), *CAVEATS]
+    per_area = found["weight"]["per_floor_area_kn_m2"]
+    light = f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load weigh 2.5 to 3 kN per m²."
+    return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
 def repeat(found):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The result of a run in up to ten lines, for the report. A summary is the content of summary.json. Needs no YADE."""
+from ..base.gravity import weight_of
 from . import verdict
 from .history import DIRECTIONS
 from .sentences import directed, direction_name, joints, largest_drift, ratio
@@ -19,7 +20,7 @@ def lines(found):
 
 
 def verdicts(found):
-    """'main: unsafe: peak drift 1/13 exceeds the safety limit of 1/30.' for each structure."""
+    """'main: unsafe: peak drift 1/13 reaches the safety limit of 1/30.' for each structure."""
     for name, facts in found["structures"].items():
         limit = verdict.passed(facts["peak_drift"])
         reason = f"peak drift {ratio(facts['peak_drift'])}" + (f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else "")
@@ -42,7 +43,7 @@ def drifts(found):
 def forces(found):
     """Base shear, also as a share of the weight."""
     known = found["quantities"]
-    weight = 9.81 * known["mass_kg"]
+    weight = 1e3 * weight_of(known["mass_kg"])  # [N]
     sustained, peak = known["base_shear"]["sustained"], known["base_shear"]["peak"]
     shears = ", ".join(f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)" for axis, force in sustained.items())
     return f"Largest base shear, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."

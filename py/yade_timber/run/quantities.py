@@ -3,6 +3,8 @@
 
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the StructureMonitor.
 """
+from dataclasses import dataclass
+
 import numpy as np
 import yade.wrapper as yw
 
@@ -16,7 +18,7 @@ from .modal import modes_now
 
 JOINTS, COLUMNS = "joints.csv", "columns.csv"
 NAMES = (quantities.NAME, JOINTS, COLUMNS)
-"""Files that `write` makes."""
+"""Files that `Tables.write` makes."""
 AXES = quantities.AXES
 
 O = yw.Omega()
@@ -86,9 +88,9 @@ JOINT_HEADER = (
 COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]", "state")
 
 
-def column_feet(model, observed):
+def column_feet(observed):
     """Rows of columns.csv, the largest uplift first. observed: Observer of the run"""
-    monitor, state = find_engine(yw.StructureMonitor), observed.state()
+    monitor, model, state = find_engine(yw.StructureMonitor), observed.model, observed.state()
     feet = {}
     for joint, *peak in zip(model.joints, monitor.opening, monitor.pull, monitor.load):
         if joint.end == "bottom" and model.element(joint.a).kind == "column":
@@ -107,31 +109,43 @@ def column_feet(model, observed):
 # --- summary and files ------------------------------------------------------------------------------------------------
 
 
-def summarised(model, observed):
-    """The part `quantities` of the summary. observed: Observer of the run"""
-    joints, columns = joint_peaks(model), column_feet(model, observed)
-    standing = [row for row in columns if row[-1] == "standing"]
+@dataclass(frozen=True)
+class Tables:
+    """Content of the files. storeys: recording.quantities.Storeys; joints, columns: rows in the order of JOINT_HEADER and COLUMN_HEADER."""
+
+    storeys: quantities.Storeys
+    joints: list
+    columns: list
+
+    def write(self, folder):
+        """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
+        self.storeys.write(folder / quantities.NAME)
+        write_text(folder / JOINTS, csv_text(JOINT_HEADER, self.joints))
+        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, self.columns))
+        return [folder / name for name in NAMES]
+
+
+def tables(observed):
+    """Tables of the run as it is now. observed: Observer of the run"""
+    return Tables(storeys(), joint_peaks(observed.model), column_feet(observed))
+
+
+def summarised(made, observed):
+    """The part `quantities` of the summary. made: Tables of the run; observed: Observer of the run"""
+    standing = [row for row in made.columns if row[-1] == "standing"]
     collapse = find_engine(yw.HouseMonitor).collapseTime
     collapsed = np.isfinite(collapse)
     return {
         "modes": {"before": observed.modes, "after": None if collapsed or observed.modes is None else modes_now(observed.main_levels)},
-        **storey_peaks(storeys().until(collapse) if collapsed else storeys()),
-        "largest_utilisation": {"joint": joints[0][0], "value": round(joints[0][4], 4)} if joints else None,
-        "largest_pull": _largest(joints, 5, "joint", "force"),
-        "largest_shear": _largest(joints, 6, "joint", "force"),
+        **storey_peaks(made.storeys.until(collapse) if collapsed else made.storeys),
+        "largest_utilisation": _largest(made.joints, 4, "joint", "value", 4),
+        "largest_pull": _largest(made.joints, 5, "joint", "force"),
+        "largest_shear": _largest(made.joints, 6, "joint", "force"),
         "largest_uplift": None if collapsed else _largest(standing, 5, "column", "uplift_m"),
     }
 
 
-def _largest(rows, column, noun, value):
+def _largest(rows, column, noun, value, digits=6):
     """{noun: name, value: number} of the row with the largest number in a column, None without rows."""
     row = max(rows, key=lambda row: row[column], default=None)
-    return row and {noun: row[0], value: round(float(row[column]), 6)}
-
-
-def write(folder, model, observed):
-    """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
-    storeys().write(folder / quantities.NAME)
-    write_text(folder / JOINTS, csv_text(JOINT_HEADER, joint_peaks(model)))
-    write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, column_feet(model, observed)))
-    return [folder / name for name in NAMES]
+    return row and {noun: row[0], value: round(float(row[column]), digits)}

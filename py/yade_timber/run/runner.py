@@ -15,7 +15,7 @@ from ..recording.sentences import sentence
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
-from . import checkpoint, summary
+from . import checkpoint, quantities, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Progress
@@ -211,21 +211,22 @@ class Run:
             self.report(f"written: {self.output.export}")
             return
         self.take(O.time, last=True)
-        found = {**summary.summary(self.scenario, self.observer, self.wall_s), "made_from": made_from(self.output.options)}
-        written = self._results(found)
+        tables = quantities.tables(self.observer)
+        found = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": made_from(self.output.options)}
+        written = self._results(found, tables)
         if self.output.views:
             written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
 
-    def _results(self, found):
+    def _results(self, found, tables):
         written = []
         try:
             if self.recorder:
                 self.recorder.finish(self.frames_path, found)
                 written.append(self.frames_path)
-            return written + summary.write(self.output.folder, found, self.observer)
+            return written + summary.write(self.output.folder, found, tables, self.observer.model)
         except OSError as problem:
             raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 

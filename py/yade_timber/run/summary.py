@@ -28,8 +28,9 @@ NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, wall_s):
-    """Content of summary.json for the scene as it is now. observed: Observer of the run; wall_s: wall time of its steps so far [s].
+def summary(scenario, observed, tables, wall_s):
+    """Content of summary.json for the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run;
+    wall_s: wall time of its steps so far [s].
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; events: recording/events.py; broken, columns: recording/damage.py.
     """
@@ -77,7 +78,7 @@ def summary(scenario, observed, wall_s):
         "versions": versions(),
     }
     found["structures"] = structures(found, observed, state)
-    found["quantities"] = quantities.summarised(model, observed)
+    found["quantities"] = quantities.summarised(tables, observed)
     return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
 
 
@@ -154,10 +155,12 @@ def breaks_text(model):
     return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
-def write(folder, found, observed):
-    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError."""
-    monitor, model = find_engine(yw.HouseMonitor), observed.model
-    tables = quantities.write(folder, model, observed)
+def write(folder, found, tables, model):
+    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError.
+
+    found, tables: `summary` and quantities.Tables of the run
+    """
+    monitor, paths = find_engine(yw.HouseMonitor), tables.write(folder)
     contents = {
         HISTORY: History(monitor.columns(), monitor.rows).text(),
         BREAKS: breaks_text(model),
@@ -165,4 +168,4 @@ def write(folder, found, observed):
     }
     for name, text in contents.items():
         write_text(folder / name, text)
-    return [*tables, *(folder / name for name in contents)]
+    return [*paths, *(folder / name for name in contents)]

@@ -29,9 +29,8 @@ def export_scene(path):
 
     Notes
     -----
-    ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density: mass over
-    volume [kg/m3], radius [m], fixed,
-    material.
+    ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density (mass over volume) [kg/m3],
+    radius [m], fixed, material.
 
     ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name, coefficient.
 

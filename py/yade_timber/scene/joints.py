@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints between bodies of the scene that is loaded in YADE."""
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -66,7 +67,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     normal : (3,) array_like, optional
         From body 1 to body 2; by default from centroid to centroid. It matters only for unequal stiffnesses.
     stiffness : (float, float)
-        Normal and tangential stiffness. [N/m]
+        Normal and tangential stiffness, > 0 and >= 0. [N/m] With 0 the springs act along the normal only, which turns with body 1.
     strength : float
         Largest force P_max. [N]
     per : {"spring", "joint"}
@@ -76,7 +77,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     damping_ratio : float
         Of the vibration modes of the two bodies against each other, 0 to 1. [-]
     slip : SlipLaw, optional
-        Springs yield at the strength; needs equal stiffnesses. By default they break at the strength.
+        Springs yield at the strength; needs equal stiffnesses, or (kn, 0). By default they break at the strength.
 
     Returns
     -------
@@ -109,8 +110,10 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
         normal = arguments.vector("connect: normal", normal)
         if not any(normal):
             arguments.refuse(ValueError, "connect: normal", normal, "not zero")
-    kn, ks = arguments.numbers_of_shape("connect: stiffness", stiffness, (2,), "two finite numbers > 0 [N/m]")
-    kn, ks = arguments.positive("connect: stiffness[0]", kn, "N/m"), arguments.positive("connect: stiffness[1]", ks, "N/m")
+    kn, ks = arguments.numbers_of_shape("connect: stiffness", stiffness, (2,), "two finite numbers, > 0 and >= 0 [N/m]")
+    kn = arguments.positive("connect: stiffness[0]", kn, "N/m")
+    if not (math.isfinite(ks) and ks >= 0):
+        arguments.refuse(ValueError, "connect: stiffness[1]", ks, "a finite number >= 0 [N/m]")
     strength = arguments.positive("connect: strength", strength, "N", infinite=True)
     kind, name = arguments.text("connect: kind", kind), arguments.text("connect: name", name)
     damping_ratio = arguments.number("connect: damping_ratio", damping_ratio)
@@ -125,8 +128,8 @@ def yielding(springs, slip):
     share = arguments.number("connect: slip.friction_share", slip.friction_share)
     softening = arguments.positive("connect: slip.softening_stretch", slip.softening_stretch, "m")
     ultimate = arguments.positive("connect: slip.ultimate_stretch", slip.ultimate_stretch, "m")
-    if springs.kn != springs.ks:
-        arguments.refuse(ValueError, "connect: stiffness", (springs.kn, springs.ks), "two equal numbers with a SlipLaw [N/m]")
+    if springs.ks not in (springs.kn, 0):
+        arguments.refuse(ValueError, "connect: stiffness", (springs.kn, springs.ks), "two equal numbers, or (kn, 0), with a SlipLaw [N/m]")
     if not 0 <= share <= 1:
         arguments.refuse(ValueError, "connect: slip.friction_share", share, "a number from 0 to 1 [-]")
     if not softening > springs.strength / springs.kn:

@@ -7,6 +7,7 @@ its cells, effects are those of a least-squares fit, as far as the cells determi
 Two estimates of chance are made: the scatter of the motions, and the effects of the columns without a factor, which also contain
 interactions of three factors. An effect stands out when it exceeds both.
 """
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +28,7 @@ TINY = 1e-9
 class Effect:
     """kind: MAIN, INTERACTION or EMPTY; word: of its column; factors: numbers of the factors, or pairs of them.
 
-    value, error: effect and its standard error by the motions, in the response's unit; chance: root mean square of the EMPTY effects, or 0.
+    value, error: effect and its standard error by the motions, in the response's unit; chance: root mean square of the EMPTY effects, NaN without them.
     """
 
     kind: str
@@ -40,11 +41,22 @@ class Effect:
     @property
     def significance(self):
         """Effect over the larger one of its standard errors; 0 for no effect, NaN for a single motion."""
-        return self.value / max(self.error, self.chance, TINY)
+        chance = 0.0 if math.isnan(self.chance) else self.chance
+        return self.value / max(self.error, chance, TINY)
 
     @property
     def stands_out(self):
-        return self.kind != EMPTY and abs(self.significance) > SIGNIFICANT
+        return self.is_tested and abs(self.significance) > SIGNIFICANT
+
+    @property
+    def is_tested(self):
+        """Whether it may stand out: it is that of a choice, it has an error, and the response is not the same in all cells and motions."""
+        return self.kind != EMPTY and not math.isnan(self.error) and max(abs(self.value), self.error) > TINY
+
+
+def expected_by_chance(tested):
+    """Number of effects out of `tested` that stand out if all are normally distributed errors of zero mean."""
+    return tested * math.erfc(SIGNIFICANT / math.sqrt(2))
 
 
 def columns(count):
@@ -70,7 +82,7 @@ def effects(values, cells, count, typical):
     found = (2 * inverse @ typical(values[:, known], 0))[1:]
     errors = _errors(values[:, known], inverse, typical)[1:]
     empty = found[[kind == EMPTY for kind, _, _ in fitted]]
-    chance = float(np.sqrt((empty**2).mean())) if len(empty) else 0.0
+    chance = float(np.sqrt((empty**2).mean())) if len(empty) else math.nan
     return [Effect(*column, float(value), float(error), chance) for column, value, error in zip(fitted, found, errors)]
 
 

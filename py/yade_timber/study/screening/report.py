@@ -9,7 +9,7 @@ from ..claims import CLAIMS
 from ..factors import FACTORS
 from ..report import markdown_table
 from .cells import cell_name
-from .effects import INTERACTION, MAIN
+from .effects import EMPTY, INTERACTION, MAIN, SIGNIFICANT, expected_by_chance
 from .responses import COUNT, LOG, RESPONSES, SHARE
 
 CELL_COLUMNS = ("falls_A", "falls_B", "falls_C", "falls_B1", "falls_B2", "falls_C1", "falls_C2", "drift_A", "drift_B", "drift_C", "across_B1", "across_B2",
@@ -43,7 +43,7 @@ def cells_csv(results):
 
 
 def effects_csv(found):
-    rows = [(name, RESPONSES[name].kind, e.kind, label(e), e.value, blank(e.error), e.chance, int(e.stands_out))
+    rows = [(name, RESPONSES[name].kind, e.kind, label(e), e.value, blank(e.error), blank(e.chance), int(e.stands_out))
             for name, effects in found.items() for e in effects]  # fmt: skip
     return csv_text(("response", "unit", "kind", "effect_of", "effect", "error_by_motions", "error_by_empty_columns", "stands_out"), rows)
 
@@ -65,23 +65,38 @@ def label(effect, name=lambda k: FACTORS[k].name):
 def markdown(results, found):
     claims = {name: effects for name, effects in found.items() if name in CLAIMS}
     others = {name: effects for name, effects in found.items() if name not in CLAIMS}
-    parts = [head(results), factor_table(), cell_table(results), main_table("Main effects", others),
+    parts = [head(results, found), factor_table(), cell_table(results), main_table("Main effects", others),
              main_table("Main effects on the shares of motions in which the claims hold", claims), interaction_table(others)]  # fmt: skip
     return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
 
 
 EXPLANATION = """\
 Shares are means, other responses medians over the motions. An effect is the mean of the cells with the second level of a factor minus that
-with the first; x 2: twice as large. In brackets its standard error from the scatter of the motions (bootstrap). 'No factor': root mean
-square of the effects of columns without a factor, that is of chance and of interactions of three factors. **Bold**: beyond two standard
-errors of both kinds."""
+with the first; x 2: twice as large; pp: percentage points of the motions. In brackets its standard error from the scatter of the motions
+(bootstrap)."""
+NO_FACTOR = """\
+'No factor': root mean square of the effects of columns without a factor, that is of chance and of interactions of three factors."""
+NO_COLUMN = "These cells leave no column without a factor, by which to estimate chance (–)."
 
 
-def head(results):
+def head(results, found):
+    effects = [effect for some in found.values() for effect in some]
     lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.", "", EXPLANATION]
+    if effects:
+        lines += ["", *significance(effects)]
     if len(results.cells) < design.RUNS:
         lines += ["", "The design is not complete: main effects are confounded with two-factor interactions."]
     return lines
+
+
+def significance(effects):
+    """Lines on what bold means, and on how many effects are bold by chance. effects: of all responses"""
+    has_empty = any(effect.kind == EMPTY for effect in effects)
+    tested, bold = sum(effect.is_tested for effect in effects), sum(effect.stands_out for effect in effects)
+    both = " of both kinds" if has_empty else ""
+    return [f"{NO_FACTOR if has_empty else NO_COLUMN} **Bold**: beyond {SIGNIFICANT:g} standard errors{both}.",
+            f"{bold} of the {tested} effects tested are beyond that. Without any true effect, normally distributed errors would put some "
+            f"{expected_by_chance(tested):.0f} there: a single bold number is no finding."]  # fmt: skip
 
 
 def factor_table():
@@ -140,12 +155,15 @@ def value_text(name, value):
 
 
 def effect_text(kind, effect):
-    """'x 1.5 (1.2)' for a factor and that of its standard error, '+0.40 (0.10)' for shares and counts; bold when it stands out."""
+    """'x 1.5 (1.2)' for a factor and that of its standard error, '+40 pp (10)' for shares, '+0.40 (0.10)' for counts; bold when it stands out."""
     sign = "" if kind == LOG or effect.value < 0 else "+"
-    text = f"{sign}{size_text(kind, effect.value)}" + ("" if math.isnan(effect.error) else f" ({size_text(kind, effect.error).removeprefix('x ')})")
+    error = "" if math.isnan(effect.error) else f" ({size_text(kind, effect.error).removeprefix('x ').removesuffix(' pp')})"
+    text = f"{sign}{size_text(kind, effect.value)}{error}"
     return f"**{text}**" if effect.stands_out else text
 
 
 def size_text(kind, value):
-    """'x 1.50' for a logarithm, '0.40' for shares and counts."""
-    return f"x {10 ** value:.2f}" if kind == LOG else f"{value:.2f}"
+    """'x 1.50' for a logarithm, '40 pp' for a difference of shares, '0.40' for counts; a dash for NaN."""
+    if math.isnan(value):
+        return "–"
+    return {LOG: f"x {10 ** value:.2f}", SHARE: f"{round(100 * value)} pp", COUNT: f"{value:.2f}"}[kind]

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Rule of the engines that sample a scene at an interval.
+#pragma once
+#include <pch.hpp>
+
+namespace yade {
+
+/// Whether a sample is due, to half a step. If so, `next` becomes the time of the following sample.
+/// next: simulated time of the next sample [s]; interval: between samples, 0 for each step [s]
+inline bool isSampleDue(const Scene& scene, Real interval, Real& next)
+{
+	if (scene.time < next - scene.dt / 2) return false;
+	next = math::max(next, scene.time) + interval;
+	return true;
+}
+
+} // namespace yade
