@@ -173,6 +173,13 @@ def test_corners_move_and_turn():
     assert np.allclose(made.corners_at_start(2), CUBE + (0, 0, 1.5))
 
 
+def test_corners_of_all_elements_are_those_of_each():
+    made = frames()
+    numbers = range(len(made.elements.name))
+    for frame, single in ((None, made.corners_at_start), (1, lambda k: made.corners(1, k))):
+        assert all(np.array_equal(corners, single(k)) for k, corners in zip(numbers, made.all_corners(frame), strict=True))
+
+
 def test_joints_sit_on_their_first_element():
     made = frames()
     assert np.allclose(made.joint_places(-1), [[0, 0, 0], [0.5, 0, 1], [-0.5, 0, 1]])

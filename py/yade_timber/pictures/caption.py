@@ -41,14 +41,14 @@ class Caption:
     def on(self, picture, time):
         """The picture (height, width, 3) uint8 with its caption at a time [s]."""
         picture = picture.copy()
-        _blend(picture, self.top, 0)
+        self.top.on(picture, 0)
         text = self.state(time)
         if text != self.text:
             self.text, self.bottom = text, self._foot(text)
-        base = self.size[1] - (len(self.trace) if self.trace is not None else 0)
-        _blend(picture, self.bottom, base - len(self.bottom))
-        if self.trace is not None:
-            _blend(picture, self.trace, base)
+        base = self.size[1] - (self.trace.height if self.trace else 0)
+        self.bottom.on(picture, base - self.bottom.height)
+        if self.trace:
+            self.trace.on(picture, base)
             column = int(np.clip((time - self.span[0]) / (self.span[1] - self.span[0]), 0, 1) * (self.size[0] - 2))
             picture[base:, column : column + 2] = INK
         return picture
@@ -89,12 +89,12 @@ class Caption:
         gap = 0.5 * PAD * self.scale
         self._write(pen, gap, title, TITLE, INK, bold=True)
         self._write(pen, 1.5 * gap + TITLE * self.scale, f"{view[0].upper()}{view[1:]}. {origin}", SMALL, SOFT)
-        return np.asarray(sheet)
+        return Overlay(sheet)
 
     def _foot(self, text):
         sheet, pen = self._sheet((TEXT + 0.9 * PAD) * self.scale)
         self._write(pen, 0.3 * PAD * self.scale, text, TEXT, INK)
-        return np.asarray(sheet)
+        return Overlay(sheet)
 
     def _trace(self):
         """Ground acceleration over the time of the run."""
@@ -108,10 +108,10 @@ class Caption:
             points = np.column_stack([np.arange(2 * width) / 2, height * (0.5 - 0.48 * values / most)])
             pen.line([tuple(point) for point in points], tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)
         if self.scale < LABELLED:
-            return np.asarray(sheet)
+            return Overlay(sheet)
         label = f"ground acceleration, up to {most:.1f} m/s²: N-S blue, E-W orange"
         self._write(pen, 1, label, 0.85 * SMALL, SOFT)
-        return np.asarray(sheet)
+        return Overlay(sheet)
 
     def _sheet(self, height):
         """Half transparent paper over the whole width."""
@@ -119,8 +119,18 @@ class Caption:
         return sheet, ImageDraw.Draw(sheet)
 
 
-def _blend(picture, sheet, top):
-    """Draw an RGBA sheet over the rows of a picture from `top` on."""
-    rows = picture[top : top + len(sheet)]
-    share = sheet[: len(rows), :, 3:].astype(np.uint16) + 1  # 256: opaque
-    rows[:] = (rows * (256 - share) + sheet[: len(rows), :, :3] * share) >> 8
+class Overlay:
+    """A half transparent image (RGBA) to draw over pictures of the same width."""
+
+    def __init__(self, image):
+        pixels = np.asarray(image).astype(np.uint16)
+        share = pixels[:, :, 3:] + 1  # 256: opaque
+        self.height = len(pixels)
+        self.ink = pixels[:, :, :3] * share
+        self.clear = np.repeat(256 - share, 3, axis=2)
+
+    def on(self, picture, top):
+        """Draw it over the rows of a picture (height, width, 3) uint8 from `top` on."""
+        rows = picture[top : top + self.height]
+        ink, clear = self.ink[: len(rows)], self.clear[: len(rows)]
+        rows[:] = (rows * clear + ink) >> 8

@@ -116,11 +116,12 @@ def save(figure, stem, endings):
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
     fonts.apply(figure)
     for path in paths:
-        with written_whole(path) as part, matplotlib.rc_context(fonts.SETTINGS):
+        with written_whole(path) as part:
             if path.suffix == ".png":
                 image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
             else:
-                figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
+                with matplotlib.rc_context(fonts.SETTINGS), fonts.without_layout():
+                    figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
 
 

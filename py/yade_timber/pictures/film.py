@@ -82,7 +82,8 @@ class Pictures:
 
 def corners(run, frame=None):
     """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
-    return np.concatenate([run.corners_at_start(k) if frame is None else run.corners(frame, k) for k in run.shown])
+    found = run.all_corners(frame)
+    return np.concatenate([found[k] for k in run.shown])
 
 
 def _write_mp4(path, drawn, times, form):

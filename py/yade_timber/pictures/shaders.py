@@ -119,14 +119,14 @@ uniform float reach;  // distance up to which the grid is seen [m]
 in vec2 place;
 in vec3 vShade;
 out vec4 picture;
-float lines(vec2 p) {
-  vec2 width = fwidth(p);
-  vec2 near = abs(fract(p - 0.5) - 0.5) / max(width, 1e-6);
+float lines(vec2 p, vec2 width) {  // width: of a pixel
+  vec2 near = abs(fract(p - 0.5) - 0.5) / width;
   vec2 shown = (1.0 - smoothstep(0.2, 1.0, near)) * (1.0 - smoothstep(0.15, 0.5, width));
   return max(shown.x, shown.y);
 }
 void main() {
-  float grid = max(0.16 * lines(place), 0.26 * lines(place / 5.0));
+  vec2 width = max(fwidth(place), 1e-6);
+  float grid = max(0.16 * lines(place, width), 0.26 * lines(place / 5.0, width / 5.0));
   vec3 color = mix(vec3(0.84, 0.83, 0.78), vec3(0.45, 0.46, 0.44), grid);
   bool inside = all(greaterThan(vShade, vec3(0.0))) && all(lessThan(vShade, vec3(1.0)));
   if (inside) color *= mix(0.66, 1.0, texture(shade, vShade));

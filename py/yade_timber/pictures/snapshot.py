@@ -13,8 +13,8 @@ def snapshot(frames, frame):
 def solids(frames, frame=None):
     """Solid of every element in a frame, or (None) before the first step."""
     e = frames.elements
-    corners = frames.corners_at_start if frame is None else lambda k: frames.corners(frame, k)
-    return [Solid(kind, corners(k), e.faces[k], colors.KINDS.get(kind, colors.OTHER)) for k, kind in enumerate(e.kind)]
+    parts = zip(e.kind, frames.all_corners(frame), e.faces)
+    return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
 
 
 def marks(frames, frame):

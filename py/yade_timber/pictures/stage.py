@@ -31,7 +31,7 @@ class Stage:
     def __init__(self, frames, size, camera, light):
         self.frames, self.camera, (self.sun, self.light) = frames, camera, light
         e = frames.elements
-        self.numbers = frames.shown
+        self.numbers = nearest_first(frames, camera.eye)
         self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
         self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
@@ -55,14 +55,20 @@ class Stage:
         self._prepare(ground_at(self.frames.motion, time))
         self._draw_shadow()
         self.canvas.begin(HORIZON)
-        made = context()
-        made.enable_only(made.BLEND)
-        self.sky.render(mode=made.TRIANGLE_STRIP)
-        self.ground.render(mode=made.TRIANGLE_STRIP)
-        made.enable_only(made.DEPTH_TEST | made.BLEND | made.PROGRAM_POINT_SIZE)
-        self.bodies.render()
+        self.bodies.faces.render()
+        self._draw_background()
+        self.bodies.edges.render(mode=context().LINES)
         self._draw_marks(position, orientation, time)
         return self.canvas.pixels()
+
+    def _draw_background(self):
+        """Sky and ground where no face is: their shading takes a quarter of the time of a picture."""
+        made = context()
+        made.enable_only(made.DEPTH_TEST | made.BLEND | made.PROGRAM_POINT_SIZE)
+        self.canvas.frame.depth_mask = False
+        self.sky.render(mode=made.TRIANGLE_STRIP)
+        self.ground.render(mode=made.TRIANGLE_STRIP)
+        self.canvas.frame.depth_mask = True
 
     def _draw_shadow(self):
         self.shadow.use()
@@ -105,6 +111,12 @@ class Stage:
             self.points.render(mode=made.POINTS, vertices=len(found))
         made.depth_func = "<"
         self.canvas.frame.depth_mask = True
+
+
+def nearest_first(frames, eye):
+    """Numbers of the elements shown, those nearest to an eye (3,) [m] at the start first: hidden faces drawn later cost no shading."""
+    distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
+    return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
 
 
 def rgb(color):

@@ -110,8 +110,7 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
     ax.add_artist(Pixels(picture))
     ax.axhline(0, color="black", linewidth=0.16 * mark_size)
     draw_panels(ax, window.view, snapshot.panels)
-    for mark in snapshot.marks:
-        draw_mark(ax, window, depth, mark, mark_size)
+    draw_marks(ax, window, depth, snapshot.marks, mark_size)
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
 
 
@@ -132,14 +131,22 @@ def draw_silhouette(ax, outlines, mark_size=MARK_SIZE):
         ax.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
 
 
-def draw_mark(ax, window, depth, mark, size):
-    """Mark of a damaged joint, pale where a face hides it. depth: from `shade` [m]; size [pt]"""
+def draw_marks(ax, window, depth, marks, size):
+    """Marks of damaged joints, pale where a face hides them. depth: from `shade` [m]; size [pt]"""
+    groups = {}
+    for mark in marks:
+        place = np.dot(mark.position, window.view.right), mark.position[2]
+        groups.setdefault((mark.state, is_hidden(window, depth, mark.position)), []).append(place)
+    for (state, hidden), places in groups.items():
+        ax.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6, **marker(state, size))
+
+
+def is_hidden(window, depth, position):
+    """Whether the visible face of a pixel lies in front of a joint at a position (3,) [m]. depth: from `shade` [m]"""
     view, (left, _, _, top), density = window.view, window.box, window.density
-    across, up = np.dot(mark.position, view.right), mark.position[2]
-    row, column = int((top - up) * density), int((across - left) * density)
+    row, column = int((top - position[2]) * density), int((np.dot(position, view.right) - left) * density)
     inside = 0 <= row < depth.shape[0] and 0 <= column < depth.shape[1]
-    hidden = inside and depth[row, column] > np.dot(mark.position, view.toward) + HIDDEN_BEHIND
-    ax.plot(across, up, linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6, **marker(mark.state, size))
+    return bool(inside and depth[row, column] > np.dot(position, view.toward) + HIDDEN_BEHIND)
 
 
 def marker(state, size):

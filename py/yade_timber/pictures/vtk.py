@@ -74,7 +74,7 @@ class Elements:
     def __init__(self, frames):
         e = self.elements = frames.elements
         self.frames = frames
-        self.start = np.concatenate([frames.corners_at_start(k) for k in range(len(e.name))])
+        self.start = np.concatenate(frames.all_corners())
         first = np.cumsum([0, *map(len, e.vertices)])
         self.cells = cells([np.array(face) + first[k] for k, faces in enumerate(e.faces) for face in faces])
         owner = np.repeat(np.arange(len(e.name)), [len(faces) for faces in e.faces])
@@ -84,7 +84,7 @@ class Elements:
         self.names = strings("kind_names", kinds)
 
     def __call__(self, frame):
-        points = np.concatenate([self.frames.corners(frame, k) for k in range(len(self.elements.name))])
+        points = np.concatenate(self.frames.all_corners(frame))
         data = polydata(points, {"displacement": points - self.start})
         data.SetPolys(self.cells)
         for name, values in self.of_cells.items():

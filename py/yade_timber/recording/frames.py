@@ -154,6 +154,15 @@ class Frames:
         e = self.elements
         return placed(e.vertices[element], e.position[element], e.orientation[element])
 
+    def all_corners(self, frame=None):
+        """List of the (n, 3) corners of every element in a frame, or (None) before the first step, world frame [m]."""
+        e = self.elements
+        position, orientation = (e.position, e.orientation) if frame is None else (self.position[frame], self.orientation[frame])
+        counts = [len(vertices) for vertices in e.vertices]
+        body = np.repeat(np.arange(len(counts)), counts)
+        corners = np.asarray(position, float)[body] + rotated(np.asarray(orientation)[body], np.concatenate(e.vertices))
+        return np.split(corners, np.cumsum(counts)[:-1])
+
     def joint_places(self, frame):
         """(J, 3) positions of the joints on their first elements, world frame [m]."""
         a = self.joints.a
