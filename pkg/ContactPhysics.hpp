@@ -8,14 +8,19 @@
 
 namespace boost {
 namespace serialization {
+	template <class Archive> void serialize(Archive& ar, timber::ImpactState& i, const unsigned int)
+	{
+		ar& make_nvp("touchSpeed", i.touchSpeed) & make_nvp("duration", i.duration) & make_nvp("timeLeft", i.timeLeft) & make_nvp("rebound", i.rebound)
+		        & make_nvp("stored", i.stored);
+	}
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
 		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce) & make_nvp("dashpot", p.dashpotForce)
-		        & make_nvp("closing", p.closing);
+		        & make_nvp("closing", p.closing) & make_nvp("impact", p.impact);
 		ar& make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
 	}
-	/// PointScratch is not saved: it ends with its step.
+	/// The increment of a step is not saved.
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
 	{
 		ar& make_nvp("history", static_cast<timber::PointHistory&>(p));

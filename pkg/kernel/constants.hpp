@@ -78,6 +78,23 @@ constexpr double minRegionSkins = 25;
 /// jitter; 1e-4: the jitter is smaller by that factor (1e-8 of a stack's weight); 0: a second sweep even where all is at rest.
 constexpr double firstSweepShare = 1e-8;
 
+/// Duration of the longest impact that separates by its restitution, in steps. [-] Longer ones are resolved by the steps: the restitution is
+/// right to 10 % at 20 steps for a critical dashpot.
+/// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.
+constexpr double impactSteps = 20;
+
+/// Longest impact of a contact point, in durations of the undamped one. [-] Damped impacts that act alone take at most one.
+/// Larger: the velocity at which contacts with other loads separate is limited for longer; smaller: impacts end without their restitution.
+constexpr double impactDurations = 1.5;
+
+/// Rounding error of the velocity of separation at the end of an impact. [-]
+constexpr double reboundRounding = 1e-9;
+
+/// Velocity change by all other forces within the duration of an impact, over the touch speed, from which on the contact counts as loaded. [-]
+/// Larger: loaded contacts are treated as impacts; smaller: impacts of loaded members are left to the step's scheme. Errors of houses are
+/// the same from 0.1 to 3.
+constexpr double impactLoadShare = 1;
+
 /// Steps for which the response (inverse effective mass) of a contact point is reused. [-]
 /// A member that rotates at 10 rad/s has rotated by 0.03 rad by then; more steps save nothing.
 constexpr int responseSteps = 32;

@@ -28,7 +28,7 @@ inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4 * M_PI)); }
 
 // A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy) [m]. F(0) = 0, F
-// increases, and F is approximately a power of n (impactForce()).
+// increases. F is a power of n (impact.hpp).
 
 /// Timber on timber: Hertz (Eqs. 37-39). overlap n [m].
 struct HertzLaw {
@@ -90,14 +90,11 @@ struct PointHistory : PointSprings<double>, PointResponse {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
 	double closing = 0; ///< closing displacement in the next step, by the velocities after the last one [m]
+	ImpactState impact;
 };
 
-/// Values of one step, from the elastic law to the store phase: not saved.
-struct PointScratch : ShearIncrement<double> {
-	double impactOverlap = 0; ///< closing displacement that created a new point, until its energy is reassigned; 0: none [m]
-};
-
-struct PointRecord : PointHistory, PointScratch { };
+/// History of a contact point, and the increment of the present step, which is not saved.
+struct PointRecord : PointHistory, ShearIncrement<double> { };
 
 /// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic energy can
 /// compress. A stiff contact stops a fast light member within the step.
@@ -150,32 +147,6 @@ template <class Number>
 	                remaining > none, [&] { return sqrt(Number(square / remaining)); }, [&] { return none; });
 }
 
-/// Force of a point that begins or ends within a step: its overlap n [m] is below its displacement d in a step [m]. The trapezoidal sum
-/// of the work over the two steps, F(n) d + F(n + d) d / 2, equals the energy at n + d; with F of the law, impacts of a few steps lose
-/// energy. Exact for a linear law. [N]
-template <class Law, class Number> Number grazingForce(const Law& law, Number n, Number d)
-{
-	if constexpr (std::is_same_v<Number, double>) assert(n >= 0 && d > 0); // unused lanes may have d = 0
-	return max(Number(0.), Number(law.energy(Number(n + d)) / d - law.force(Number(n + d)) / Number(2.)));
-}
-
-/// Elastic force of a new point in the energy balance, once its next displacement d' is known: the force F' at n whose work over the
-/// steps d and d' is the spring's energy after them, F' (d + d') / 2 + F(n + d') d' / 2 = U(n + d'). The rest of the applied force is
-/// dashpot force: dashpots stop a light fast member, for which grazingForce() assumes free flight. With F ~ n^e, e (e + 1) = K n^2 / U.
-/// At n: energy U [J], stiffness K [N/m], overlap n [m]; displacement d >= n, next d' [m]; returns [N].
-inline double impactForce(double energy, double stiffness, double overlap, double displacement, double next)
-{
-	assert(energy >= 0 && stiffness >= 0 && overlap >= 0 && displacement >= 0 && std::isfinite(next));
-	assert(energy == 0 || (stiffness > 0 && overlap > 0));
-	const double end = overlap + next;
-	if (end <= 0 || energy == 0) return 0; // separates within the step, or hardly touches
-	const double power = (std::sqrt(1 + 4 * stiffness * overlap * overlap / energy) - 1) / 2;
-	const double force = stiffness * overlap / power, share = end / overlap;
-	// separates before the end of the next step: grazing force
-	if (end < -next) return 2 * std::max(0., energy + force * next / 2) / (displacement + next);
-	return (2 * energy * std::pow(share, power + 1) - force * std::pow(share, power) * next) / (displacement + next);
-}
-
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.
 enum class NormalForm { Closed, Increment };
 
@@ -195,13 +166,8 @@ template <class Law, class Point, class Number>
 	const Number before = springs.overlap, stiffnessBefore = springs.stiffness, total = point.overlap - springs.excess;
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
-	if (form == NormalForm::Closed) {
-		springs.normalForce = law.force(springs.overlap);
-		const Number displacement = max(closing, Number(-closing));
-		const auto grazes = logicalAnd(none < springs.overlap, springs.overlap < min(displacement, limit));
-		springs.normalForce = selectLazily(
-		        grazes, [&] { return grazingForce(law, springs.overlap, displacement); }, [&] { return springs.normalForce; });
-	} else springs.normalForce = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
+	if (form == NormalForm::Closed) springs.normalForce = law.force(springs.overlap);
+	else springs.normalForce = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	const Number shearStiffness = Number(pair.shearRatio) * springs.stiffness;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_pair.hpp"
+#include "constants.hpp"
 #include <type_traits>
 
 namespace timber {
@@ -49,9 +50,9 @@ namespace {
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
-		if (initial <= std::min(approach, input.pair.overlapLimit) && input.form == NormalForm::Closed)
-			record.impactOverlap = std::max(speed * input.h, record.overlap);
-		return law.energy(initial) - law.energy(std::min(initial, approach));
+		const double taken = law.energy(initial) - law.energy(std::min(initial, approach));
+		if (input.form == NormalForm::Closed) record.impact.expect(taken);
+		return taken;
 	}
 
 	using SpringsOf = PointSprings<double>;
@@ -127,24 +128,6 @@ namespace {
 		return released;
 	}
 
-	/// Moves the part of a new point's impact energy that its spring cannot have stored from the spring to the dashpot: impactForce(). This
-	/// changes energy bookkeeping, not motion.
-	void reassignImpactEnergy(const SolverStep& step, size_t k, Records& records, PairEnergies& energies)
-	{
-		const SolverPair& pair = step.solver.pair(k);
-		const SolverBody &a = step.bodies[pair.bodyA], &b = step.bodies[pair.bodyB];
-		for (size_t i = 0; i < records.size(); ++i) {
-			PointRecord& p = records[i];
-			if (p.impactOverlap == 0) continue;
-			const ContactSolver::Constraint c = step.solver.constraint(k, i);
-			const double before = -relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin).dot(c.normal) * step.h;
-			const double excessForce = p.normalForce - impactForce(p.energy, p.stiffness, p.overlap, p.impactOverlap, p.closing);
-			energies.dashpotNormal += excessForce * (before + p.closing) / 2;
-			energies.elasticPower -= excessForce * p.closing / step.h;
-			p.impactOverlap = 0;
-		}
-	}
-
 	/// Constraints of the k-th pair from a point on, as many as a Number has lanes.
 	template <class Number> decltype(auto) constraintsFrom(const ContactSolver& solver, size_t k, size_t point)
 	{
@@ -173,6 +156,79 @@ namespace {
 		p.normalStiffness = record.get(&PointRecord::stiffness);
 		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
 		return p;
+	}
+
+	/// Velocity of B relative to A along the normal of a constraint, before and after the step. [m/s]
+	struct NormalVelocity {
+		double before, after;
+		NormalVelocity(const ContactSolver::Constraint& c, const SolverBody& a, const SolverBody& b)
+		        : before(relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin).dot(c.normal))
+		        , after(relativeVelocity<double>(c.armA, c.armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin).dot(c.normal))
+		{
+		}
+		double mean() const { return (before + after) / 2; }
+	};
+
+	/// Starts the impact of a point whose surfaces have touched in the last step.
+	void touch(const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h, const ContactPoint& p, PointRecord& r)
+	{
+		const Vec3 v = relativeVelocity<double>(p.position - a.position, p.position - b.position, a.velocity, a.spin, b.velocity, b.spin);
+		const PowerSpring spring { r.overlap, r.normalForce, r.stiffness };
+		startImpact(r.impact, spring, pair.dampingRatio, pair.mass, p.normal.dot(r.normalResponse), -v.dot(p.normal), h);
+	}
+
+	/// Points of a pair in an impact: prepare phase.
+	void prepareImpacts(const SolverStep& step, size_t k, const PairProperties& pair, const Points& points, Records& records)
+	{
+		const SolverPair& ids = step.solver.pair(k);
+		for (size_t i = 0; i < records.size(); ++i) {
+			PointRecord& r = records[i];
+			if (r.impact.isPending() && r.normalForce > 0) touch(step.bodies[ids.bodyA], step.bodies[ids.bodyB], pair, step.h, points[i], r);
+			if (r.impact.isActive()) step.solver.setImpact(k, i, r.impact.rebound, r.overlap / step.h);
+		}
+	}
+
+	/// Whether the other forces on the bodies change the velocity too much for an impact of this point alone. change: velocity of
+	/// separation after the step minus before [m/s]; own: the part of it by the point's impulse [m/s].
+	bool isLoaded(const ImpactState& impact, double change, double own, double h)
+	{
+		return (own - change) / h * impact.duration > impactLoadShare * impact.touchSpeed;
+	}
+
+	/// The normal spring has no force any more. The rest of the overlap, which the step does not resolve, is excess.
+	void endImpact(PointRecord& r)
+	{
+		r.excess = largestSize;
+		r.overlap = r.energy = 0;
+		r.impact.expect(0);
+	}
+
+	/// Impact of a point after a step. Its dashpot dissipates the work that the normal spring does not store. That is at most the energy of the
+	/// law. energies: with those of spring and dashpot without an impact.
+	void followImpact(const ContactSolver::Constraint& c, const NormalVelocity& v, double h, PointRecord& r, PairEnergies& energies)
+	{
+		const double impulse = c.impulse.dot(c.normal), available = r.impact.stored - impulse * v.mean(), energy = r.energy;
+		const double byLaw = energy - r.normalForce * v.after * h / 2;
+		r.impact.timeLeft -= h;
+		double stored = byLaw;
+		if (isLoaded(r.impact, v.after - v.before, impulse / c.inertia, h)) r.impact.cancel();
+		else if (v.after > std::min(r.impact.rebound * (1 - reboundRounding), r.overlap / h)) stored = 0, endImpact(r);
+		else if (r.impact.timeLeft <= 0) r.impact.cancel();
+		else stored = std::max(0., std::min(available, byLaw));
+		r.impact.stored = stored;
+		energies.dashpotNormal += available - stored + (impulse - h * r.normalForce) * v.mean();
+		energies.elasticNormal += stored - energy;
+		energies.elasticPower += r.normalForce * v.after;
+	}
+
+	void followImpacts(const SolverStep& step, size_t k, Records& records, PairEnergies& energies)
+	{
+		const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
+		for (size_t i = 0; i < records.size(); ++i) {
+			if (!records[i].impact.isActive()) continue;
+			const ContactSolver::Constraint c = step.solver.constraint(k, i);
+			followImpact(c, { c, a, b }, step.h, records[i], energies);
+		}
 	}
 
 	[[maybe_unused]] bool isValid(const ElasticInput& input)
@@ -216,6 +272,7 @@ void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pai
 		const Group<Number, const PointRecord> record(&records[i], points.size() - i);
 		step.solver.prepare<Number>(k, i, step.bodies, contactInput<Number>(a, b, pair, step.h, point, record), step.h);
 	});
+	if (!step.solver.isExplicit()) prepareImpacts(step, k, pair, points, records);
 }
 
 PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, Records& records, PairEnergies* energies)
@@ -256,7 +313,7 @@ PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pa
 		        Number(-(elasticNormal * normal + shearForce).dot(after)));
 	});
 	result = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
-	reassignImpactEnergy(step, k, records, result);
+	followImpacts(step, k, records, result);
 	return { forces.vector(0), forces.vector(3), forces.vector(6) };
 }
 

@@ -58,6 +58,8 @@ namespace {
 		c.shearFactor = shear.factor;
 		c.shearMass = shear.mass;
 		c.shearBias = shear.scale * Vec3Of<Number>(Number(h) * p.elasticShear + shear.G * (v - vn * p.normal));
+		c.rebound = c.release = noRebound;
+		c.inertia = Number(1.) / response;
 		c.coupling = shear.mass * Vec3Of<Number>(p.normalResponse - response * p.normal);
 		return c;
 	}
@@ -111,6 +113,14 @@ namespace {
 			if (b.inverseMass > 0) b.newVelocity = velocityB, b.newSpin = spinB;
 		}
 	};
+
+	/// Normal impulse of a point in an impact: (5). pn: by (3).
+	double impactImpulse(const ContactSolver::Constraint& c, double pn0, double un, double pn)
+	{
+		const double after = un + (pn - pn0) / c.inertia;
+		const bool ends = after > std::min(c.rebound, c.release) || (pn == 0 && after > 0);
+		return ends ? std::max(0., pn0 + c.inertia * (c.rebound - un)) : pn;
+	}
 
 	template <class Number> [[maybe_unused]] bool isValid(const ContactInput<Number>& p)
 	{
@@ -178,6 +188,14 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<double>&, double);
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<Lanes>&, double);
 
+void ContactSolver::setImpact(size_t k, size_t point, double rebound, double release)
+{
+	assert(maxSweeps > 0 && k < pairs.size() && point < pairs[k].count && rebound >= 0 && release >= 0);
+	ConstraintGroup& group = groups[pairs[k].first + point / laneCount];
+	setLane(group.rebound, point % laneCount, rebound);
+	setLane(group.release, point % laneCount, release);
+}
+
 /// Applies the impulses of a pair's points to its bodies: PairVelocity::apply(), SIMD-vectorised.
 void ContactSolver::warmStart(std::vector<SolverBody>& bodies, const SolverPair& pair)
 {
@@ -204,7 +222,8 @@ void ContactSolver::solvePair(std::vector<SolverBody>& bodies, SolverPair& pair,
 		const Constraint c = constraintAt(pair, point);
 		const Vec3 u = velocity.at(c);
 		const double un = u.dot(c.normal), pn0 = c.impulse.dot(c.normal);
-		const double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un); // (3)
+		double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un); // (3)
+		if (c.rebound < noRebound) pn = impactImpulse(c, pn0, un, pn); // (5)
 		const Vec3 ps = c.shearFactor * (c.impulse - pn0 * c.normal) + c.shearBias - c.shearMass * (u - un * c.normal);
 		const Vec3 impulse = pn * c.normal + clipped<double>(ps - (pn - pn0) * c.coupling, c.friction * pn); // (4)
 		const Vec3 change = impulse - c.impulse;

@@ -18,6 +18,9 @@
 /// The solver applies (2) to one point after the other, with the limits of the contact:
 ///     normal      p_n = max(0, f_n p_n0 + b_n - M_n u_n)                                        (3)
 ///     tangential  p_s = f_s p_s0 + b_s - M_s u_s - c (p_n - p_n0), shortened to mu p_n           (4)
+/// A point in an impact (impact.hpp) separates with the velocity w: if (3) gives a velocity u' = u_n + a (p_n - p_n0) above w, above r, with
+/// which the overlap ends within the step, or without a force,
+///     impact      p_n = max(0, p_n0 + (w - u_n) / a)                                              (5)
 ///
 /// Glossary (n: normal, s: tangential)
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse [1/kg]
@@ -35,7 +38,9 @@
 ///     mu         friction       Coulomb coefficient [-]
 ///     p          impulse        of the contact on B; p0: before a visit of the point [N s]
 ///     theta      -              weight of the velocity after the step [-]
+///     r          release        velocity of separation with which the overlap ends within the step [m/s]
 ///     u, v, v'   -              velocity of B relative to A: current, before and after the step [m/s]
+///     w          rebound        velocity of separation at the end of an impact [m/s]
 ///     x          -              a h C: decay rate of the dashpot times h [-]
 ///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
@@ -48,6 +53,7 @@
 ///     3. solve(): warm start with the impulses of the last step, then sweeps over the pairs and joints;
 ///     4. constraint() and dashpot() give the impulses (contact_pair.hpp: storeForces(), joint_dashpot.hpp: dashpotForce()).
 #pragma once
+#include "impact.hpp"
 #include "joint_dashpot.hpp"
 #include "kinematics.hpp"
 #include <cassert>
@@ -88,6 +94,7 @@ template <class Number> struct ContactConstraint {
 	Vec3Of<Number> shearBias; ///< b_s
 	Vec3Of<Number> coupling; ///< c
 	Number friction; ///< mu
+	Number rebound, release, inertia; ///< w, r, 1 / a_n
 };
 /// work(member of x, the same member of y) for all members of a constraint.
 template <class ConstraintX, class ConstraintY, class Work> void forMembers(ConstraintX& x, ConstraintY& y, Work work)
@@ -104,6 +111,9 @@ template <class ConstraintX, class ConstraintY, class Work> void forMembers(Cons
 	work(x.shearBias, y.shearBias);
 	work(x.coupling, y.coupling);
 	work(x.friction, y.friction);
+	work(x.rebound, y.rebound);
+	work(x.release, y.release);
+	work(x.inertia, y.inertia);
 }
 
 /// v, shortened to the length if it is longer.
@@ -135,6 +145,8 @@ public:
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
 	/// laneCount, on. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h);
+	/// Phase 2, after prepare(): the point is in an impact; w and r of (5) [m/s]. Not for explicit springs and dashpots.
+	void setImpact(size_t k, size_t point, double rebound, double release);
 	/// Phase 1: reserves the constraint of a joint's dashpots. Returns its index.
 	size_t addDashpot(int bodyA, int bodyB);
 	/// Phase 2: constraint of the k-th joint for a step of h [s]. Thread-safe for different joints.
@@ -148,6 +160,7 @@ public:
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
 	int solve(std::vector<SolverBody>& bodies, double tolerance = 0);
 
+	bool isExplicit() const { return maxSweeps == 0; }
 	const SolverPair& pair(size_t k) const
 	{
 		assert(k < pairs.size());

@@ -112,44 +112,6 @@ TEST(NormalSpring, ForceStaysConstantBeyondTheLimit)
 	EXPECT_NEAR(energy, timberLaw.energy(2e-3) + 6e-3 * timberLaw.force(2e-3), rounding * energy);
 }
 
-TEST(NormalSpring, GrazingForceDoesTheWorkThatIsStored)
-{
-	const double d = 1e-3;
-	for (const double n : { 4e-4, 9e-4 }) {
-		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
-		spring.step(n, d, Vec3::Zero()); // begins within the step
-		const double work = spring.state.normalForce * d + timberLaw.force(n + d) * d / 2; // trapezoid: 0, this force, F(n + d)
-		EXPECT_NEAR(work, timberLaw.energy(n + d), rounding * work);
-		Spring<HertzLaw> leaving { timberLaw, pairOf(0.4) };
-		leaving.step(n, -d, Vec3::Zero()); // will have ended after the next step
-		EXPECT_EQ(leaving.state.normalForce, spring.state.normalForce);
-	}
-	EXPECT_NEAR(grazingForce(LinearLaw { 1e6 }, d, d), 1e6 * d, rounding * 1e3); // joins the law where it ends
-	EXPECT_EQ(grazingForce(timberLaw, 1e-9, d), 0); // never pulls
-}
-
-/// For any next displacement, also when the point separates. Trapezoidal sum over the steps d and d': 0, impactForce(), force of the law.
-template <class Law> void expectWorkOfImpact(const Law& law)
-{
-	const double n = 6e-4, d = 1e-3, energy = law.energy(n), stiffness = law.stiffness(n);
-	for (const double next : { 2e-3, 1e-3, 1e-4, 0., -1e-4, -n / 2 }) {
-		const double work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + law.force(n + next) * next / 2;
-		EXPECT_NEAR(work, law.energy(n + next), 10 * rounding * energy) << next;
-	}
-	for (const double next : { -0.51 * n, -0.6 * n, -0.9 * n }) { // separates in the step after that: the net work of the spring is zero
-		const double grazing = grazingForce(law, n + next, -next), work = impactForce(energy, stiffness, n, d, next) * (d + next) / 2 + grazing * next;
-		EXPECT_NEAR(work, 0, 10 * rounding * energy) << next;
-	}
-	for (const double next : { -n, -2 * n, -2 * d })
-		EXPECT_EQ(impactForce(energy, stiffness, n, d, next), 0);
-	EXPECT_EQ(impactForce(0, 0, 1e-200, 1e-200, 0), 0); // too little to be stored
-}
-TEST(NormalSpring, ImpactForceDoesTheWorkThatIsStored)
-{
-	expectWorkOfImpact(timberLaw);
-	expectWorkOfImpact(LinearLaw { 1e6 });
-}
-
 TEST(ShearSpring, OpposesTheSlide)
 {
 	Spring<LinearLaw> spring { { 1e6 }, pairOf(0.4) };

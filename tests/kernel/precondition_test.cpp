@@ -43,11 +43,8 @@ const Vec3 none = Vec3::Zero();
 
 TEST(Preconditions, OfTheLaws)
 {
-	EXPECT_GT(impactForce(1, 1e6, 1e-3, 1e-3, 0), 0);
-	EXPECT_REFUSED(impactForce(-1, 1e6, 1e-3, 1e-3, 0));
-	EXPECT_REFUSED(impactForce(1, 0, 1e-3, 1e-3, 0));
-	EXPECT_REFUSED(impactForce(1, 1e6, 1e-3, 1e-3, notANumber));
-	EXPECT_REFUSED(grazingForce(law, 1e-3, 0.));
+	EXPECT_REFUSED(restitution(-0.1));
+	EXPECT_REFUSED(restitution(notANumber));
 	EXPECT_REFUSED(approachOverlap(law, 0, 1, 1e-4));
 	EXPECT_REFUSED(initialOverlap(law, 0, 1e-4, 0));
 	EXPECT_REFUSED(rotatedShear<double>(Vec3::UnitX(), Vec3::Constant(notANumber), Vec3::UnitZ()));

@@ -14,7 +14,7 @@ namespace {
 
 const PairProperties properties { 3, 0.4, 1 / 2.8, 4e-3 };
 
-/// A moving pair with points of all kinds: growing and shrinking overlaps, grazing and deep, loaded and free, at rest and sliding.
+/// A moving pair with points of all kinds: growing and shrinking overlaps, short and deep, loaded and free, at rest and sliding.
 struct MovingPair {
 	std::vector<SolverBody> bodies;
 	std::vector<ContactPoint> points;

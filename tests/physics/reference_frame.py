@@ -73,23 +73,13 @@ class FrameMotion:
         arm = at - self.position[part]
         return self.velocity[part] + 1j * self.spin[part] * arm * (1 - 1j * back * self.dt * self.spin[part])
 
-    def touch_or_separate(self, elastic, overlap, displacement):
-        """Normal forces, replaced at points that touch or separate within a step: with F(0) = 0 before and F(n + d) after, the
-        trapezoid sum of the work over the two steps is the energy 2/5 F n at n + d. [N]"""
-        grazing = (overlap > 0) & (displacement > overlap)
-        force = self.frame.normal_law(overlap + displacement)[0]
-        instead = 0.4 * force * (overlap + displacement) / np.where(grazing, displacement, 1) - force / 2
-        return np.where(grazing, np.maximum(0, instead), elastic)
-
     def contact_forces(self, at, overlap, normal):
         """Forces of each contact point on its corner's part (Eqs. 15-24, 37-43), friction included. [N]"""
         f = self.frame
         elastic, stiffness = f.normal_law(overlap)
         relative = (self.velocity_at(at, f.of) - self.velocity_at(at, f.on)) * normal.conj()
         separation, slip = relative.real, relative.imag
-        moved = self.dt * (self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) * normal.conj()
-        sliding_distance = moved.imag
-        elastic = self.touch_or_separate(elastic, overlap, np.abs(moved.real))
+        sliding_distance = (self.dt * (self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) * normal.conj()).imag
         ratio = np.divide(stiffness, self.stiffness, out=np.zeros_like(stiffness), where=self.stiffness > 0)
         shear = np.minimum(1, ratio) * self.shear - f.shear_ratio * stiffness * sliding_distance
         damping = 2 * np.sqrt(f.pair_mass * stiffness)

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Impacts against closed forms: duration, restitution, energy, loads.
+#include <gtest/gtest.h>
+#include <kernel/contact_pair.hpp>
+
+using namespace timber;
+
+namespace {
+
+constexpr double mass = 3; // [kg]
+constexpr double speed = 1; // [m/s]
+const HertzLaw hertz { 5e9, 0.1 };
+const LinearLaw linear { 1e6 };
+
+template <class Law> PowerSpring springOf(const Law& law, double overlap = 1e-5) { return { overlap, law.force(overlap), law.stiffness(overlap) }; }
+double kinetic(double v) { return mass / 2 * v * v; }
+
+/// Restitution of m n'' = -max(0, F + C n'), C = 2 ratio sqrt(m dF/dn), with Hertz's F: scipy's DOP853 to 1e-9, as in
+/// tests/physics/impact_cases.py.
+struct Restitution {
+	double ratio, hertz;
+};
+const Restitution restitutions[] = { { 0, 1 }, { 0.1, 0.7246795 }, { 0.3, 0.4230773 }, { 1, 0.1195831 } };
+
+/// A body hits a fixed plate with `speed`, in the phases of a step.
+class Drop {
+	double h, depth, push;
+	PairProperties pair;
+	std::vector<SolverBody> bodies { 2 };
+	std::vector<PointRecord> records;
+	double dissipated = 0, elastic = 0, released = 0;
+
+public:
+	/// steps: of h in the undamped contact; share: of a step, at the end of which the surfaces touch; push: force on the body [N].
+	Drop(double ratio, double steps, double share, double push_ = 0)
+	        : h(springOf(hertz).duration(mass, speed) / steps)
+	        , depth((share - 1) * speed * h)
+	        , push(push_)
+	        , pair { mass, 0.5, 0.4, 1, ratio }
+	{
+		for (SolverBody& b : bodies) {
+			b.velocity = b.spin = Vec3::Zero();
+			b.inverseInertia = Mat3::Zero();
+		}
+		bodies[0].inverseMass = 0;
+		bodies[1].inverseMass = 1 / mass;
+		bodies[1].velocity = { 0, 0, -speed };
+	}
+	void step(int sweeps = 100)
+	{
+		const Vec3 none = Vec3::Zero();
+		std::vector<ContactPoint> points;
+		if (depth > 0) points.push_back({ FeatureId(FeatureKind::VertexFace, 3, 1), none, Vec3::UnitZ(), depth });
+		released += elasticPair(hertz, { pair, { none, none, none }, { none, bodies[1].velocity, none }, h }, points, records);
+		for (SolverBody& b : bodies)
+			b.newVelocity = b.velocity, b.newSpin = b.spin;
+		if (depth > 0) bodies[1].newVelocity.z() -= h * push / mass;
+		ContactSolver solver;
+		solver.begin(sweeps);
+		solver.addPair(0, 1, points.size());
+		const SolverStep step { solver, bodies, h };
+		prepareContacts(step, 0, pair, true, points, records);
+		solver.solve(bodies, 1e-12);
+		PairEnergies energies;
+		storeForces(step, 0, pair, records, &energies);
+		dissipated += energies.dashpotNormal;
+		elastic = energies.elasticNormal + h / 2 * energies.elasticPower;
+		bodies[1].velocity = bodies[1].newVelocity;
+		depth -= bodies[1].velocity.z() * h;
+	}
+	bool isOver() const { return depth <= 0 && bodies[1].velocity.z() > 0; }
+	double restitution() const { return bodies[1].velocity.z() / speed; }
+	double overlap() const { return depth; }
+	double energy() const { return kinetic(bodies[1].velocity.z()) + elastic + dissipated + released; }
+	double impactTime() const { return records[0].impact.timeLeft; }
+};
+
+} // namespace
+
+/// The closed form against numerical solutions of the equation of motion; the linear law: exp(-2) for a critical dashpot.
+TEST(Impact, RestitutionIsTheClosedForm)
+{
+	for (const Restitution& expected : restitutions)
+		EXPECT_NEAR(restitution(expected.ratio * std::sqrt(1.2)), expected.hertz, 4e-5);
+	EXPECT_EQ(restitution(0), 1);
+	EXPECT_NEAR(restitution(1), std::exp(-2), 1e-12);
+	EXPECT_NEAR(restitution(1 - 1e-5), std::exp(-2), 1e-5);
+	EXPECT_NEAR(restitution(1 + 1e-5), std::exp(-2), 1e-5);
+}
+
+/// t v / d = 2.9432750 for Hertz's law; half a period for the linear one.
+TEST(Impact, DurationIsTheClosedForm)
+{
+	const double depth = std::pow(5 * mass * speed * speed / (4 * hertz.force(1.)), 0.4); // (5 m v^2 / 4 c)^0.4
+	EXPECT_NEAR(springOf(hertz).duration(mass, speed), 2.9432750 * depth / speed, 1e-6 * depth);
+	EXPECT_NEAR(springOf(linear).duration(mass, speed), M_PI * std::sqrt(mass / linear.constant), 1e-12);
+	EXPECT_NEAR(springOf(hertz, 1e-7).duration(mass, speed), springOf(hertz, 1e-3).duration(mass, speed), 1e-12);
+}
+
+/// Contacts of 19 steps to a twentieth of one that begin at any fraction of a step: the exact restitution, to rounding of its closed form.
+TEST(Impact, HasTheExactRestitutionAtAnyStep)
+{
+	for (const Restitution& expected : restitutions)
+		for (const double steps : { 19., 10., 5., 3., 2., 1., 0.5, 0.2, 0.05 })
+			for (double share = 1 / 64.; share < 1; share += 1 / 32.) {
+				Drop drop(expected.ratio, steps, share);
+				for (int k = 0; k < 1000 && !drop.isOver(); ++k)
+					drop.step();
+				EXPECT_NEAR(drop.restitution() / expected.hertz, 1, 1e-3) << expected.ratio << " " << steps << " " << share;
+				EXPECT_LE(drop.restitution(), 1 + 1e-9);
+			}
+}
+
+/// In each step, to rounding: the energy of the law at the first overlap may exceed the kinetic one 400 times.
+TEST(Impact, ClosesTheEnergyBalance)
+{
+	for (const double ratio : { 0., 1. })
+		for (const double steps : { 10., 2., 0.5 })
+			for (const double share : { 0.05, 0.4, 0.95 }) {
+				Drop drop(ratio, steps, share);
+				for (int k = 0; k < 100 && !drop.isOver(); ++k) {
+					drop.step();
+					EXPECT_NEAR(drop.energy() / kinetic(speed), 1, 1e-12) << steps << " " << share;
+				}
+				EXPECT_TRUE(drop.isOver());
+			}
+}
+
+/// A force that stops the body within a small part of the impact makes it a loaded contact: it ends at the overlap of the static force.
+TEST(Impact, IsCancelledByALoad)
+{
+	const double load = 1e6; // [N]
+	Drop drop(1, 2, 0.5, load);
+	drop.step(); // up to the plate
+	drop.step();
+	EXPECT_EQ(drop.impactTime(), 0);
+	for (int k = 0; k < 400; ++k)
+		drop.step();
+	EXPECT_NEAR(hertz.force(drop.overlap()) / load, 1, 1e-3);
+}
+
+/// Explicit dashpots, as in the paper, know no impacts.
+TEST(Impact, IsNoneWithExplicitDashpots)
+{
+	Drop drop(1, 10, 0.5);
+	for (int k = 0; k < 3; ++k)
+		drop.step(0);
+	EXPECT_GT(drop.overlap(), 0);
+	EXPECT_LT(drop.impactTime(), 0);
+}
