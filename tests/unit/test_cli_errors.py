@@ -9,7 +9,7 @@ from yade_timber.run import cli
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
-from yade_timber.run.launch import main
+from yade_timber.api.script import main
 
 
 @pytest.fixture
