@@ -70,7 +70,8 @@ def parser(script):
     made.add_argument("--every-step", action="store_true", help="compute every step (default: steps are skipped while house and ground are at rest)")
     made.add_argument("--joint-damping", type=float, metavar="RATIO",
                       help="damping ratio of all joints, 0 to 1 (default: the house's own); makes wrecks come to rest")
-    made.add_argument("--disturb", type=_whole(1, MOST_SEED), metavar="SEED", help=f"move each vertex by a random vector of at most {LARGEST:g} m (default: none)")
+    made.add_argument("--disturb", type=_whole(1, MOST_SEED), metavar="SEED",
+                      help=f"move each vertex of free members by a random vector of at most {LARGEST:g} m")
     made.add_argument("--ensemble", type=_whole(2, MOST_RUNS), metavar="N",
                       help="run it N times, the second to the last run disturbed by --disturb 2 ... N, and report medians, ranges and shares of outcomes")
     made.add_argument("--jobs", type=_whole(1, MOST_RUNS), metavar="N", help="with --ensemble: runs at a time (default: one per core)")

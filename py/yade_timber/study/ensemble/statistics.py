@@ -85,6 +85,7 @@ def representative(summaries):
     """
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
-    values = {number: found["collapse_time_s"] if found["collapsed"] else largest_drift(found)[0] for number, found in summaries.items() if found["verdict"] == outcome}
+    chosen = {number: found for number, found in summaries.items() if found["verdict"] == outcome}
+    values = {number: found["collapse_time_s"] if found["collapsed"] else largest_drift(found)[0] for number, found in chosen.items()}
     middle = np.median(list(values.values()))
     return min(values, key=lambda number: abs(values[number] - middle))
