@@ -73,7 +73,8 @@ def page(found, steps, done, options):
         "Medians, with the range and the number of runs, are compared by the Mann-Whitney U test, ranges by the Brown-Forsythe test on logarithms, "
         "shares of verdicts by Fisher's exact test. All are two-sided. The interval of a ratio of medians is a bootstrap (percentiles). "
         "Drifts are those of runs that stand. Equal values in all runs, and fewer than "
-        f"{comparison.FEWEST} values, have no test. A difference smaller than the interval cannot be excluded.",
+        f"{comparison.FEWEST} values, have no test. Ratios within the interval cannot be excluded. "
+        "Where chance decides little, a test shows even a small error of the time step; the ratio of medians is its size.",
         "",
         *markdown_table(table[0], table[1:]),
     ]) + "\n"  # fmt: skip

@@ -78,7 +78,7 @@ def compare(case, first, second):
         a, b = ([quantity.value(run) for run in runs if quantity.of(run)] for runs in (first, second))
         if a or b:
             found += _numbers(case, quantity, a, b)
-    return found + _shares(case, first, second)
+    return [*found, *_shares(case, first, second)]
 
 
 def corrected(comparisons):
@@ -153,7 +153,7 @@ def rows(comparisons):
 
 
 def _row(found, p):
-    middle, interval = (f"{found.ratio[0]:.2f}", f"{found.ratio[1]:.2f} to {found.ratio[2]:.2f}") if found.ratio else ("", "")
+    middle, interval = (f"{found.ratio[0]:.3f}", f"{found.ratio[1]:.3f} to {found.ratio[2]:.3f}") if found.ratio else ("", "")
     result = "no test" if p is None else "differ" if p < SIGNIFICANCE else "no difference shown"
     values = ("", "") if p is None else (f"{found.p:.2g}", f"{p:.2g}")
     return (found.case, found.quantity, found.first, found.second, middle, interval, found.test, *values, result)

@@ -64,6 +64,7 @@ def table_text(found, done, planned):
     for number, task in enumerate(planned, 1):
         summary = done.get(number)
         known = {**statistics.words(summary), **statistics.numbers(summary)} if summary else {"error": found["errors"][number]}
+        known = {place: value for place, value in known.items() if value != statistics.NONE}
         place = task.folder.relative_to(task.folder.parents[1])
         rows.append((number, place, *(known.get(column, "") for column in header[2:])))
     return csv_text(header, rows)

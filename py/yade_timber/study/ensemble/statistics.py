@@ -13,6 +13,8 @@ CONFIDENCE = 0.95
 """Of the Clopper-Pearson intervals of shares."""
 FIXED = ("scenario", "model", "sentence", "record", "versions", "made_from")
 """Entries of a summary that describe the run and its origin."""
+NONE = "none"
+"""Word for what has no value, as the time of a collapse that did not happen."""
 
 
 # --- of one summary -----------------------------------------------------------------------------------------------------
@@ -33,7 +35,7 @@ def numbers(found):
 
 
 def words(found):
-    """{path: text} of the flags and texts among the results of a summary, and of what has no value."""
+    """{path: text} of the flags and texts among the results of a summary, NONE for what has no value."""
     results = leaves({key: value for key, value in found.items() if key not in FIXED})
     return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results if isinstance(value, (str, bool)) or value is None}
 
@@ -62,7 +64,7 @@ def counts(summaries):
     for found in summaries:
         for place, text in words(found).items():
             columns.setdefault(place, Counter())[text] += 1
-    return {place: dict(found) for place, found in columns.items() if set(found) != {"none"}}
+    return {place: dict(found) for place, found in columns.items() if set(found) != {NONE}}
 
 
 def outcomes(summaries):
