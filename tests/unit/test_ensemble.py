@@ -200,7 +200,7 @@ def test_lines_for_the_terminal(finished):
     _, _, found = finished
     lines = results.lines(results.content(found, {}), found[1])
     assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)", "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
-    assert [line.split() for line in lines if line.startswith("collapse [s]")] == [["collapse", "[s]", "2.9", "2.9", "to", "2.9", "in", "1", "run"]]
+    assert [line.split() for line in lines if line.startswith("collapse [s]")] == [["collapse", "[s]", "2.9", "2.9", "in", "1", "run"]]
     assert lines[-1] == "shown: run 1, nearest to the median of the peak drift of the unsafe ones"
 
 

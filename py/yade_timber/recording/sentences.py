@@ -33,8 +33,8 @@ def ensemble(found):
         return ""
     outcomes = ", ".join(f"{number} {state}" for state, number in known["outcomes"].items())
     drifts = known["peak_drift_standing"]
-    span = f"; peak drift {ratio(drifts[0])} to {ratio(drifts[1])}{' in those that stand' * (verdict.COLLAPSED in known['outcomes'])}" if drifts else ""
-    return f"{place_in_ensemble(found)} ({outcomes}{span}). "
+    standing = " in those that stand" * (verdict.COLLAPSED in known["outcomes"])
+    return f"{place_in_ensemble(found)} ({outcomes}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
 
 
 def place_in_ensemble(found):
@@ -131,6 +131,11 @@ def direction_name(key):
 def counted(number, noun):
     """'1 run', '3 runs'."""
     return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def span(low, high):
+    """'1/14 to 1/8' from two texts, one of them where they are the same."""
+    return low if low == high else f"{low} to {high}"
 
 
 def directed(drift, direction):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from ...recording.sentences import ratio
+from ...recording.sentences import counted, ratio, span
 from ...recording.verdict import STATES
 from ..claims import damage
 from ..retrofit.race import holm
@@ -101,7 +101,7 @@ def _range(quantity, values):
     if not values:
         return "no run"
     low, middle, high = (quantity.text(value) for value in (min(values), np.median(values), max(values)))
-    return f"{middle} ({low} to {high}), {len(values)} run{'s' * (len(values) != 1)}"
+    return f"{middle} ({span(low, high)}), {counted(len(values), 'run')}"
 
 
 def _shares(case, first, second):

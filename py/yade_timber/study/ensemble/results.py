@@ -8,7 +8,7 @@ from ...base.table import csv_text
 from ...house.disturbance import LARGEST
 from ...recording import frames
 from ...recording.ensemble import NAME, TABLE
-from ...recording.sentences import counted, largest_drift, ratio, sentence
+from ...recording.sentences import counted, largest_drift, ratio, sentence, span
 from ..driver import SUMMARY
 from . import statistics
 
@@ -26,7 +26,7 @@ ROWS = (
     ("energy residual [-]", "energy.residual_fraction", "{:.1g}".format),
 )
 """Lines for the terminal: label, path of a number, its text."""
-COLUMNS = "{:<20}{:>10}   {:<24}{}"
+COLUMNS = "{:<20}{:>13}   {:<30}{}"
 
 
 def content(done, errors):
@@ -120,4 +120,4 @@ def _outcome(item):
 
 def _row(label, known, text, count):
     part = f"in {counted(known['runs'], 'run')}" if known["runs"] < count else ""
-    return COLUMNS.format(label, text(known["median"]), f"{text(known['lowest'])} to {text(known['highest'])}", part).rstrip()
+    return COLUMNS.format(label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])), part).rstrip()
