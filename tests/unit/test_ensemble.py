@@ -276,7 +276,7 @@ def by_test(found, quantity):
 
 def test_p_values_are_those_of_scipy():
     first, second = ensembles(1.2)
-    found = by_test(comparison.compare("A", first, second), "largest drift")
+    found = by_test(comparison.compare("A", first, second), "largest drift [-]")
     a, b = ([run["peak_drift"]["storey1"]["ns"] for run in runs if not run["collapsed"]] for runs in (first, second))
     assert found["Mann-Whitney"].p == stats.mannwhitneyu(a, b).pvalue and len(a) == 12
     assert found["Brown-Forsythe"].p == stats.levene(np.log(a), np.log(b)).pvalue
@@ -299,15 +299,15 @@ def test_equal_distributions_agree_and_others_differ():
     same = comparison.rows(comparison.compare("A", *ensembles()))
     assert {row[-1] for row in same} == {"no difference shown", "no test"}
     found = dict(((row[1], row[6]), row[-1]) for row in comparison.rows(comparison.compare("A", *ensembles(1.5))))
-    assert found["largest drift", "Mann-Whitney"] == "differ" and found["collapsed", "Fisher"] == "no difference shown"
-    assert found["largest drift", "Brown-Forsythe"] == "no difference shown"
+    assert found["largest drift [-]", "Mann-Whitney"] == "differ" and found["collapsed", "Fisher"] == "no difference shown"
+    assert found["largest drift [-]", "Brown-Forsythe"] == "no difference shown"
     fallen = by_test(comparison.compare("A", *ensembles(falls=(1, 15))), "collapsed")["Fisher"]
     assert fallen.p < 1e-4 and (fallen.first, fallen.second) == ("1 of 16", "15 of 16")
 
 
 def test_the_interval_of_the_ratio_contains_it():
     first, second = ensembles(1.5)
-    middle, low, high = by_test(comparison.compare("A", first, second), "largest drift")["Mann-Whitney"].ratio
+    middle, low, high = by_test(comparison.compare("A", first, second), "largest drift [-]")["Mann-Whitney"].ratio
     assert low < middle < high and 1.3 < low < 1.5 < high < 1.7
 
 

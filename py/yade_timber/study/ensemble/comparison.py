@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from ...recording.sentences import counted, ratio, span
+from ...recording.sentences import counted, span
 from ...recording.verdict import STATES
 from ..claims import damage
 from ..retrofit.race import holm
@@ -47,9 +47,9 @@ def _falls(run):
 
 
 QUANTITIES = (
-    Quantity("largest drift", drift, _stands, ratio),
-    Quantity("residual drift", lean, _stands, ratio),
-    Quantity("broken springs + 1", lambda run: 1 + damage(run), _all, "{:.0f}".format),
+    Quantity("largest drift [-]", drift, _stands, "{:.3g}".format),
+    Quantity("residual drift [-]", lean, _stands, "{:.3g}".format),
+    Quantity("broken springs + 1 [-]", lambda run: 1 + damage(run), _all, "{:.0f}".format),
     Quantity("collapse time [s]", lambda run: run["collapse_time_s"], _falls, "{:.2f}".format),
 )
 """Positive numbers, whose logarithms are compared. Drifts are those of runs that stand; the collapses are compared as shares."""
