@@ -9,7 +9,7 @@ from yade_timber.run import cli
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
-from yade_timber.run.launch import main
+from yade_timber.api.script import main
 
 
 @pytest.fixture
@@ -103,6 +103,41 @@ def test_unknown_model(refused):
 )
 def test_motion_options_out_of_range(refused, options, said):
     assert said in refused(*options)
+
+
+@pytest.mark.parametrize("value", ["1", "0", "-3", "x", "", "2.5", "1000", "9" * 5000])
+def test_number_of_runs(refused, value):
+    assert "--ensemble" in refused("--ensemble", value) and "a whole number from 2 to 999" in refused("--ensemble", value)
+
+
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (["--ensemble", "4", "--resume"], "--ensemble and --resume exclude each other: an ensemble always continues"),
+        (["--ensemble", "4", "--or-anew"], "--ensemble and --or-anew exclude each other"),
+        (["--ensemble", "4", "--export", "scene.json"], "--ensemble and --export exclude each other"),
+        (["--ensemble", "4", "--disturb", "2"], "--ensemble and --disturb exclude each other"),
+        (["--ensemble", "4", "--checkpoint", "1"], "--ensemble and --checkpoint exclude each other"),
+        (["--ensemble", "4", "--dt", "1"], "--dt 1: the time step must be"),
+        (["--ensemble", "4"], "no such script"),
+        (["--jobs", "2"], "--jobs 2: belongs to an ensemble"),
+        (["--ensemble", "4", "--jobs", "0"], "a whole number from 1 to 999"),
+        (["--disturb", "0"], "a whole number from 1 to"),
+        (["--disturb", "x"], "--disturb: 'x'"),
+    ],
+)
+def test_options_of_an_ensemble(refused, tmp_path, monkeypatch, options, said):
+    """The script of `refused` is a relative path, here of no file."""
+    monkeypatch.chdir(tmp_path)
+    assert said in refused(*options)
+
+
+def test_runs_of_an_ensemble_have_the_options_that_decide_the_results():
+    argv = ["scripts/modelA_quake.py", "--ensemble", "4", "--jobs=2", "--scale", "2", "--no-views", "--out", "x"]
+    scenario, output = cli.read("A", True, False, argv)
+    assert (output.ensemble, output.jobs, output.options, scenario.disturb) == (4, 2, ("--scale", "2"), None)
+    assert cli.read("A", True, False, [*argv[:1], "--disturb", "7"])[0].disturb == 7
+    assert cli.read("A", True, False, [*argv[:1], "--disturb", "7"])[1].options == ("--disturb", "7")
 
 
 def test_motion_options_reach_the_scenario(record):

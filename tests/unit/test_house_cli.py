@@ -2,7 +2,7 @@
 """scripts/house.py: scenario from options and house file; refusal of bad input in one line."""
 import pytest
 from yade_timber.run import cli
-from yade_timber.run.launch import main_house
+from yade_timber.api.script import main_house
 
 SNOWY = "extends: storehouse\nname: mine\nsnow: {depth: 0.7}\n"
 

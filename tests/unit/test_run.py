@@ -282,7 +282,7 @@ def test_resume_without_the_frames_of_the_run(tmp_path, straight):
 
 INTERRUPTED = """
 import os, signal, threading
-from yade_timber.run.launch import main
+from yade_timber.api.script import main
 for seconds in {times}:
     threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()
 main("A", earthquake=True, argv=["modelA_quake.py", *{options}])

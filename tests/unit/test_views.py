@@ -167,7 +167,7 @@ def coarse(monkeypatch):
 def test_pictures_are_written_whole(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames())
     written = all_pictures.write(tmp_path)
-    names = [name for name in all_pictures.NAMES if not name.startswith(all_pictures.QUANTITIES)]  # the sample has no tables of quantities
+    names = [name for name in all_pictures.NAMES if not name.startswith((all_pictures.QUANTITIES, all_pictures.BANDS))]  # no tables of quantities, no ensemble
     assert [path.name for path in written] == names and {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *names}
     assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF", b"<!DO") for path in written)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..base.errors import RunError
 from ..base.input_file import require_regular
-from ..recording import frames
+from ..recording import ensemble, frames
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.sentences import largest_drift, sentence
@@ -108,6 +108,11 @@ class RunResult:
     def frames(self):
         """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20 times per simulated second."""
         return frames.load(self.folder / frames.NAME)
+
+    @cached_property
+    def ensemble(self):
+        """Medians, ranges and shares over the runs of an ensemble (content of ``ensemble.json``); None for a run on its own."""
+        return ensemble.read(self.folder) if (self.folder / ensemble.NAME).exists() else None
 
     # --- pictures -----------------------------------------------------------------------------------------------------
 

@@ -119,7 +119,7 @@ def _words(options):
     """Options of the command line from keywords: dt=1e-4 -> --dt=0.0001, quiet=True -> --quiet."""
     from ..run import cli
 
-    known = [name for name in vars(cli.house_parser().parse_args(["house"])) if name not in ("file", "quake", "record", "export")]
+    known = [name for name in vars(cli.house_parser().parse_args(["house"])) if name not in ("file", "quake", "record", "export", "ensemble", "jobs")]
     words = []
     for name, value in options.items():
         require_known("run", name, known)

@@ -9,11 +9,11 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
-from ..recording import frames
+from ..recording import ensemble, frames
 
-END, CURVES, QUANTITIES, PLAYER = "end_state", "history", "quantities", "player.html"
+END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
-NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES) for ending in ("png", "pdf")), PLAYER]
+NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
 PROCESSES = 2
 """Largest number that draw at the same time."""
@@ -26,7 +26,7 @@ def write(folder, results=None):
     """
     from matplotlib.backends import backend_pdf  # noqa: F401  (before this process is copied)
 
-    from . import curves, figures, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import bands, curves, figures, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
@@ -36,6 +36,8 @@ def write(folder, results=None):
         tasks.append(partial(curves.write, folder / CURVES, recorded))
         if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
             tasks.append(lambda: quantities.write(folder / QUANTITIES, quantities.read(path.parent)))
+        if ensemble.has_runs(path.parent):
+            tasks.append(partial(bands.write, folder / BANDS, recorded, path.parent))
     tasks += [partial(sheets.write_end, folder / END, recorded), lambda: [player.make([(path, recorded)], folder / PLAYER)]]
     return sorted((path for paths in _results(tasks) for path in paths), key=lambda path: NAMES.index(path.name))
 

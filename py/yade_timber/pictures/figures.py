@@ -26,7 +26,7 @@ TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 """Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
 FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
 """Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
-LONGEST_TEXT = 300
+LONGEST_TEXT = 400
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
 

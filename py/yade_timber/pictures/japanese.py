@@ -8,6 +8,7 @@ DIRECTIONS = {"ns": "南北", "ew": "東西"}
 SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
 STRUCTURES = {"entrance": "玄関"}
 ORIGIN = {"No ground motion": "地動なし", "Ground motion": "地動", "Record ": "記録 ", "JMA intensity": "計測震度", "time step": "時間刻み"}
+OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "collapsed": "倒壊", "failed": "計算失敗"}
 LEVELS = {"1/120": "層間変形角が 1/120 を超える（損傷の始まり）", "1/30": "層間変形角が 1/30 を超える（大きな損傷）"}
 SHAKING = {"the shaking begins": "揺れの始まり", "strongest shaking": "最大の揺れ"}
 
@@ -20,19 +21,26 @@ def title(found):
 
 
 def result(found):
-    """Outcome of a summary: collapse or peak drift, residual drift, joints, columns."""
+    """Outcome of a summary: place in an ensemble, collapse or peak drift, residual drift, joints, columns."""
     broken, columns = found["broken"]["total"], found.get("columns", {})
     parts = [outcome(found), f"接合部 {found['joints']['total']} か所のうち {broken} か所が破断"]
     if columns.get("fallen"):
         parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
-    return "。".join(parts) + "。"
+    return ensemble(found) + "。".join(parts) + "。"
+
+
+def ensemble(found):
+    """'16 回の計算の 7 番目（危険 12 回、倒壊 4 回）。' of a run that is shown for an ensemble, else empty."""
+    known = found.get("ensemble")
+    outcomes = "、".join(f"{OUTCOMES.get(state, state)} {number} 回" for state, number in known["outcomes"].items()) if known else ""
+    return f"{known['runs']} 回の計算の {known['run']} 番目（{outcomes}）。" if known else ""
 
 
 def origin(text):
     """Line of `provenance.provenance` with its words in Japanese."""
     for english, japanese in ORIGIN.items():
         text = text.replace(english, japanese)
-    return text
+    return re.sub(r"Run (\d+) of (\d+)", r"\2 回の計算の \1 番目", text)
 
 
 def outcome(found):

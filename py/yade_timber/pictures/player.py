@@ -32,7 +32,7 @@ POSITION_STEP = 0.5e-3
 """Of positions of elements. [m]"""
 ORIENTATION_STEP = 1 / 32767
 """Of the components of quaternions. [-]"""
-LONGEST_TEXT = 300
+LONGEST_TEXT = 400
 """Letters of a name, title or event that are shown."""
 
 

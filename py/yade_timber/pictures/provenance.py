@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, time step, versions. Needs no YADE."""
+"""Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, place in an ensemble, time step, versions."""
 from ..motion import GroundMotion, jma_intensity, pga
+from ..recording.sentences import place_in_ensemble
 
 SHORTEST = 1.0
 """Duration of a motion that has an intensity. [s]"""
@@ -12,7 +13,7 @@ def provenance(frames):
     record, versions = (part if isinstance(part, dict) else {} for part in (found.get("record"), found.get("versions")))
     step = f"time step {found['dt']:g} s" if isinstance(found.get("dt"), (int, float)) else ""
     programs = [f"yade-timber {frames.version}".strip(), f"YADE {versions['yade']}" if versions.get("yade") else ""]
-    return "; ".join(filter(None, (shaking(frames, record), step, ", ".join(filter(None, programs)))))
+    return "; ".join(filter(None, (shaking(frames, record), place_in_ensemble(found), step, ", ".join(filter(None, programs)))))
 
 
 def shaking(frames, record):

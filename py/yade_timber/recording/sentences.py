@@ -19,11 +19,28 @@ def largest_drift(found, key="peak_drift"):
 
 
 def sentence(found):
-    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow."""
+    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run first its outcomes."""
     onset = (found.get("record") or {}).get("onset_s")
     early = f"the run ends before strong shaking sets in ({onset:.1f} s)" if onset and found.get("duration_s", onset) < onset else ""
     parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), early)
-    return f"House {found['model']} {'; '.join(filter(None, parts))}"
+    return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
+
+
+def ensemble(found):
+    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ' of a run that is shown for an ensemble, else empty."""
+    known = found.get("ensemble")
+    if not known:
+        return ""
+    outcomes = ", ".join(f"{number} {state}" for state, number in known["outcomes"].items())
+    drifts = known["peak_drift_standing"]
+    standing = " in those that stand" * (verdict.COLLAPSED in known["outcomes"])
+    return f"{place_in_ensemble(found)} ({outcomes}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
+
+
+def place_in_ensemble(found):
+    """'Run 7 of 16' of a run that is shown for an ensemble, else empty."""
+    known = found.get("ensemble")
+    return f"Run {known['run']} of {known['runs']}" if known else ""
 
 
 def main_structure(found):
@@ -109,6 +126,16 @@ def snow(found):
 def direction_name(key):
     """'ns' -> 'N-S'."""
     return {"ns": "N-S", "ew": "E-W"}.get(key, key)
+
+
+def counted(number, noun):
+    """'1 run', '3 runs'."""
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def span(low, high):
+    """'1/14 to 1/8' from two texts, one of them where they are the same."""
+    return low if low == high else f"{low} to {high}"
 
 
 def directed(drift, direction):

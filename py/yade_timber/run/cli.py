@@ -10,6 +10,7 @@ from pathlib import Path
 from ..base.errors import RunError
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import load_house, shipped_houses
+from ..house.disturbance import LARGEST
 from ..motion import GroundMotion, add_motion_options, motion_request
 from ..scene.scenario import Scenario
 from .identity import of_arrays
@@ -20,6 +21,10 @@ QUIET_DURATION = 30.0
 """Simulated time of runs without an earthquake. [s] (paper, section 4.2)"""
 CHECKPOINT_INTERVAL = 2.0
 """Simulated time between checkpoints. [s]"""
+MOST_RUNS = 999
+"""Largest number of runs of an ensemble."""
+MOST_SEED = 2**32 - 1
+"""Largest seed of a disturbance."""
 
 
 @dataclass
@@ -35,6 +40,8 @@ class Output:
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
     options: tuple = ()  # arguments of the command line that decide the results
+    ensemble: int = None  # number of runs of an ensemble, None: a run of its own
+    jobs: int = None  # runs of an ensemble at a time, None: one per core
 
 
 class _Parser(argparse.ArgumentParser):
@@ -63,9 +70,25 @@ def parser(script):
     made.add_argument("--every-step", action="store_true", help="compute every step (default: steps are skipped while house and ground are at rest)")
     made.add_argument("--joint-damping", type=float, metavar="RATIO",
                       help="damping ratio of all joints, 0 to 1 (default: the house's own); makes wrecks come to rest")
+    made.add_argument("--disturb", type=_whole(1, MOST_SEED), metavar="SEED",
+                      help=f"move each vertex of free members by a random vector of at most {LARGEST:g} m")
+    made.add_argument("--ensemble", type=_whole(2, MOST_RUNS), metavar="N",
+                      help="run it N times, the second to the last run disturbed by --disturb 2 ... N, and report medians, ranges and shares of outcomes")
+    made.add_argument("--jobs", type=_whole(1, MOST_RUNS), metavar="N", help="with --ensemble: runs at a time (default: one per core)")
     made.add_argument("--quiet", action="store_true", help="print errors only")
     add_motion_options(made)
     return made
+
+
+def _whole(low, high):
+    """Type of an option: a whole number from low to high."""
+
+    def read(text):
+        if not (text.isdecimal() and len(text) <= 20 and low <= int(text) <= high):
+            raise argparse.ArgumentTypeError(f"'{text[:40]}': must be a whole number from {low} to {high}")
+        return int(text)
+
+    return read
 
 
 def house_parser():
@@ -78,7 +101,10 @@ def house_parser():
     return made
 
 
-OUTPUT_OPTIONS = {"--out": 1, "--checkpoint": 1, "--export": 1, "--resume": 0, "--or-anew": 0, "--no-views": 0, "--no-frames": 0, "--quiet": 0}
+OUTPUT_OPTIONS = {
+    **dict.fromkeys(("--out", "--checkpoint", "--export", "--ensemble", "--jobs"), 1),
+    **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--quiet"), 0),
+}
 """Options that do not decide the results, with the number of their values."""
 
 
@@ -129,12 +155,14 @@ class Request:
 def _run(given, arguments, request):
     """(Scenario, Output). given: parsed options; arguments: of the command line; request: Request."""
     _check_numbers(given)
+    _check_ensemble(given)
     shaking = motion_request(given)
     motion = _motion(shaking, request, given.dt)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
     scale = 1.0 if shaking.scale is None else shaking.scale
     options = {"skip_rest": 0} if given.every_step else {}
-    times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse, "joint_damping": given.joint_damping}
+    times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse, "joint_damping": given.joint_damping,
+             "disturb": given.disturb}
     scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, **times, options=options)
     return scenario, Output(
         folder=_path("--out", given.out) or Path("results") / request.name,
@@ -145,6 +173,8 @@ def _run(given, arguments, request):
         export=_path("--export", given.export),
         quiet=given.quiet,
         checkpoint_interval=given.checkpoint,
+        ensemble=given.ensemble,
+        jobs=given.jobs,
         options=decisive(arguments) + (() if request.motion is None else (f"motion {of_arrays([request.motion.acceleration])}",)),
     )
 
@@ -186,6 +216,28 @@ def _check_numbers(given):
     for option, value, noun in times:
         if value is not None and not 0 <= value <= MAX_DURATION:
             raise RunError(f"{option} {value:g}: the {noun} must be >= 0 and at most {MAX_DURATION:g} s")
+
+
+ALONE = {
+    "resume": "an ensemble always continues",
+    "or_anew": "an ensemble repeats runs that cannot be continued",
+    "export": "it writes the scene of one run",
+    "disturb": "the runs of an ensemble have the seeds 2 to N",
+}
+"""Options of a run of its own, and why an ensemble excludes them."""
+
+
+def _check_ensemble(given):
+    """Raise RunError for options that do not combine."""
+    if given.ensemble is None:
+        if given.jobs is not None:
+            raise RunError(f"--jobs {given.jobs}: belongs to an ensemble; give --ensemble N")
+        return
+    for name, reason in ALONE.items():
+        if getattr(given, name):
+            raise RunError(f"--ensemble and --{name.replace('_', '-')} exclude each other: {reason}")
+    if given.checkpoint != CHECKPOINT_INTERVAL:
+        raise RunError(f"--ensemble and --checkpoint exclude each other: its runs save checkpoints every {CHECKPOINT_INTERVAL:g} s")
 
 
 def _motion(shaking, request, dt):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Start of a run script: `main` and `main_house` turn the command line into a run.
+"""Start of a run: the command line of a script -> a Run.
 
 With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the background, and the user has
 the prompt. The other modules are imported inside `launch`, so that Ctrl-C during their import ends in a line, too.
@@ -10,21 +10,8 @@ import sys
 from ..base.interrupt import deferred_interrupt
 
 
-def main(house, earthquake=False, snow=False, argv=None):
-    """Run a house (name of a shipped one, or path of a YAML file); returns the Run.
-
-    earthquake, snow: loads of the script; argv: command line (default: sys.argv)
-    """
-    return launch(lambda cli, arguments: cli.read(house, earthquake, snow, arguments), argv)
-
-
-def main_house(argv=None):
-    """Run the house that the command line names; returns the Run."""
-    return launch(lambda cli, arguments: cli.read_house(arguments), argv)
-
-
-def launch(read, argv=None):
-    """Run the (Scenario, Output) that `read(cli, argv)` returns; returns the Run.
+def launch(read, ensemble, argv=None):
+    """Run the (Scenario, Output) that `read(cli, argv)` returns; returns the Run, or that of `ensemble(scenario, output)` where one is asked for.
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
@@ -39,7 +26,7 @@ def launch(read, argv=None):
     try:
         with deferred_interrupt():
             scenario, output = read(cli, sys.argv if argv is None else argv)
-        return _run(session, scenario, output)
+        return _run(session, scenario, output) if output.ensemble is None else ensemble(scenario, output)
     except InputError as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
@@ -56,9 +43,9 @@ def _run(session, scenario, output):
 
     if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
         return session.complete(scenario, output)
-    run = session.start(scenario, output)
-    print(f"{run}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {run.output.folder} at the end")
-    return run
+    started = session.start(scenario, output)
+    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {output.folder} at the end")
+    return started
 
 
 def leave(line, status):

@@ -10,7 +10,7 @@ import yade.wrapper as yw
 from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
 from ..pictures import all_pictures
-from ..recording import frames
+from ..recording import ensemble, frames
 from ..recording.sentences import sentence
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
@@ -61,7 +61,7 @@ class Run:
             self._export()
         if self.only_export:
             return
-        self._clear(frames.NAME, checkpoint.NAME)
+        clear(self.output.folder, frames.NAME, checkpoint.NAME)
         self._observe()
         self.observer.observe(O.time)
         if self.recorder:
@@ -80,7 +80,7 @@ class Run:
             return False
         if self.recorder:
             self.recorder.save(self.frames_path)  # without the results of an earlier end
-        self._clear(*([] if self.recorder else [frames.NAME]))
+        clear(self.output.folder, *([] if self.recorder else [frames.NAME]))
         self.report(f"resuming from {O.time:.2f} s")
         return True
 
@@ -100,15 +100,6 @@ class Run:
         self.observer = Observer(self.model, known)
         recorded = self.output.frames
         self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if recorded else None
-
-    def _clear(self, *more):
-        """Remove results of an earlier run and the files `more`: they must not be taken for results of this run."""
-        try:
-            for name in (*summary.NAMES, *all_pictures.NAMES, *more):
-                (self.output.folder / name).unlink(missing_ok=True)
-            remove_parts(self.output.folder)
-        except OSError as problem:
-            raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
 
     def _export(self):
         try:
@@ -236,6 +227,16 @@ class Run:
         except OSError as problem:
             fault = f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them"
             raise RunError(f"{self.output.folder}: {fault}") from None
+
+
+def clear(folder, *more):
+    """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises RunError."""
+    try:
+        for name in (*summary.NAMES, *all_pictures.NAMES, *ensemble.NAMES, *more):
+            (folder / name).unlink(missing_ok=True)
+        remove_parts(folder)
+    except OSError as problem:
+        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
 
 
 def title(scenario, model):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a folder."""
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 
 import yade.runtime
 import yade.wrapper as yw
@@ -32,13 +32,21 @@ def start(scenario, output):
 
 def _built(kind, scenario, output, stack):
     """A Run or LiveRun with its scene in YADE. stack: ExitStack that gets the lock of the folder."""
-    if yade.runtime.opts.exitAfter:
-        host.close_servers()
-    elif yw.Omega().running:  # a live run: the new one takes its place
+    if yw.Omega().running and not yade.runtime.opts.exitAfter:  # a live run: the new one takes its place
         yw.Omega().pause()
         yw.Omega().wait()
-    prepare_folder(output.folder)
-    if not stack.enter_context(locked(output.folder)):
-        raise RunError(f"{output.folder}: another process computes a run there; wait for it, or choose another folder with --out")
+    stack.enter_context(reserved(output.folder))
     with deferred_interrupt():
         return kind(scenario, output)
+
+
+@contextmanager
+def reserved(folder):
+    """Make the folder of the results, which this process alone has until the end of the block. Raises RunError."""
+    if yade.runtime.opts.exitAfter:
+        host.close_servers()
+    prepare_folder(folder)
+    with locked(folder) as free:
+        if not free:
+            raise RunError(f"{folder}: another process computes a run there; wait for it, or choose another folder with --out")
+        yield

@@ -7,6 +7,7 @@ import yade.wrapper as yw
 from ..base.colors import KINDS
 from ..base.time_step import DEFAULT_DT
 from ..house import build_house, load_house
+from ..house.disturbance import disturb
 from ..house.errors import StepError
 from ..house.friction import own_coefficient
 from . import bodies, engines
@@ -24,7 +25,7 @@ class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
     scale: factor on the motion [-]; dt, duration [s]; until_collapse: whether a collapse ends the run; joint_damping: damping ratio of all
-    joints [-], None: the house's own; options: of `engines.engines`.
+    joints [-], None: the house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Scenario:
     duration: float = 30.0
     until_collapse: bool = False
     joint_damping: float = None
+    disturb: int = None
     options: dict = field(default_factory=dict)
 
     def build_model(self):
@@ -44,6 +46,8 @@ class Scenario:
         if self.joint_damping is not None:
             for joint in model.joints:
                 joint.damping_ratio = self.joint_damping
+        if self.disturb is not None:
+            disturb(model, self.disturb)
         return model
 
 

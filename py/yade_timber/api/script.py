@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The run scripts: `main` and `main_house` turn the command line into a run in this process, or into an ensemble of processes of the same script."""
+import signal
+import sys
+from pathlib import Path
+
+from ..run.launch import launch, leave
+
+
+def main(house, earthquake=False, snow=False, argv=None):
+    """Run a house (name of a shipped one, or path of a YAML file); returns the Run.
+
+    earthquake, snow: loads of the script; argv: command line (default: sys.argv)
+    """
+    return _launch(lambda cli, arguments: cli.read(house, earthquake, snow, arguments), argv)
+
+
+def main_house(argv=None):
+    """Run the house that the command line names; returns the Run."""
+    return _launch(lambda cli, arguments: cli.read_house(arguments), argv)
+
+
+def _launch(read, argv):
+    script = Path((sys.argv if argv is None else argv)[0])
+    return launch(read, lambda scenario, output: _ensemble(script, scenario, output), argv)
+
+
+def _ensemble(script, scenario, output):
+    """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
+    from ..recording import frames
+    from ..run import checkpoint, runner, session
+    from ..study import ensemble
+    from .result import RunResult
+
+    scenario.build_model()  # a fault of the house is reported once
+    try:
+        with session.reserved(output.folder):
+            runner.clear(output.folder, frames.NAME, checkpoint.NAME)
+            ensemble.complete(script, output)
+    except KeyboardInterrupt:
+        leave("stopped; the same command continues", 128 + signal.SIGINT)
+    return RunResult(output.folder)

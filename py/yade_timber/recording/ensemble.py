@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m. Needs no YADE.
+
+The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for each run: runs/001, runs/002, ...
+Run 1 is undisturbed; run k is disturbed with the seed k.
+"""
+import json
+
+from ..base.errors import RunError
+from ..base.input_file import require_regular
+from .history import NAME as HISTORY
+from .history import History
+
+NAME, TABLE, RUNS = "ensemble.json", "ensemble.csv", "runs"
+NAMES = (NAME, TABLE)
+"""Files beside the results of the run that is shown."""
+
+
+def run_folder(folder, number):
+    """Folder of a run of the ensemble in `folder`."""
+    return folder / RUNS / f"{number:03d}"
+
+
+def has_runs(folder):
+    """Whether a folder holds an ensemble with the histories of all its finished runs."""
+    return (folder / NAME).is_file() and all((run_folder(folder, number) / HISTORY).is_file() for number in read(folder)["finished"])
+
+
+def read(folder):
+    """Content of ensemble.json. Raises RunError."""
+    path = folder / NAME
+    require_regular(path)
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        return {**found, "finished": list(map(int, found["finished"])), "shown": int(found["shown"])}
+    except (OSError, ValueError, LookupError, TypeError) as problem:
+        raise RunError(f"{path}: cannot be read as the results of an ensemble: {problem}") from None
+
+
+def histories(folder):
+    """{number: History} of the finished runs. Raises RunError."""
+    return {number: History.read(run_folder(folder, number) / HISTORY) for number in read(folder)["finished"]}

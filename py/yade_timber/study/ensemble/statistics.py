@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Medians, ranges and shares over the runs of an ensemble, and the run that stands for it. A summary is the content of summary.json."""
+from collections import Counter
+from numbers import Real
+
+import numpy as np
+from scipy import stats
+
+from ...recording.sentences import largest_drift
+from ...recording.verdict import STATES
+
+CONFIDENCE = 0.95
+"""Of the Clopper-Pearson intervals of shares."""
+FIXED = ("scenario", "model", "sentence", "record", "versions", "made_from")
+"""Entries of a summary that describe the run and its origin."""
+NONE = "none"
+"""Word for what has no value, as the time of a collapse that did not happen."""
+
+
+# --- of one summary -----------------------------------------------------------------------------------------------------
+
+
+def leaves(found, path=""):
+    """(path, value) of all entries of nested tables that are no tables themselves: ('energy.dissipated.friction', 98605.2)."""
+    for key, value in found.items():
+        place = f"{path}.{key}".lstrip(".")
+        yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
+
+
+def numbers(found):
+    """{path: number} of a summary, with the largest of its peak drifts and of its residual drifts. Lists have no numbers."""
+    own = {place: value for place, value in leaves(found) if isinstance(value, Real) and not isinstance(value, bool)}
+    largest = {f"largest_{key}": largest_drift(found, key)[0] for key in ("peak_drift", "residual_drift")}
+    return {**largest, **own}
+
+
+def words(found):
+    """{path: text} of the flags and texts among the results of a summary, NONE for what has no value."""
+    results = leaves({key: value for key, value in found.items() if key not in FIXED})
+    return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results if isinstance(value, (str, bool)) or value is None}
+
+
+# --- of all summaries ---------------------------------------------------------------------------------------------------
+
+
+def spread(values):
+    """Number, median, quartiles (linear interpolation between ordered values) and range of some values."""
+    quantiles = np.quantile(np.array(values, float), (0, 0.25, 0.5, 0.75, 1)).tolist()
+    return {"runs": len(values), **dict(zip(("lowest", "lower_quartile", "median", "upper_quartile", "highest"), quantiles))}
+
+
+def spreads(summaries):
+    """{path: spread} of every number that a summary has."""
+    columns = {}
+    for found in summaries:
+        for place, value in numbers(found).items():
+            columns.setdefault(place, []).append(value)
+    return {place: spread(values) for place, values in columns.items()}
+
+
+def counts(summaries):
+    """{path: {text: number of runs}} of the flags and texts."""
+    columns = {}
+    for found in summaries:
+        for place, text in words(found).items():
+            columns.setdefault(place, Counter())[text] += 1
+    return {place: dict(found) for place, found in columns.items() if set(found) != {NONE}}
+
+
+def outcomes(summaries):
+    """{verdict: number of runs} of the verdicts that occur, from the best to the worst."""
+    found = Counter(summary["verdict"] for summary in summaries)
+    return {state: found[state] for state in STATES if found[state]}
+
+
+def share(count, runs):
+    """Share of `count` of some runs, with its Clopper-Pearson interval."""
+    low, high = stats.binomtest(count, runs).proportion_ci(CONFIDENCE, "exact")
+    return {"runs": count, "share": count / runs, "low": float(low), "high": float(high)}
+
+
+def representative(summaries):
+    """Number of the run that stands for the ensemble. summaries: {number: summary}
+
+    Among the runs of the most frequent outcome, of equally frequent ones the worst: that nearest to their median of the largest drift; of collapsed
+    runs, whose drifts are those of a wreck, of the collapse time. Of equally near ones the first.
+    """
+    frequent = outcomes(summaries.values())
+    outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
+    chosen = {number: found for number, found in summaries.items() if found["verdict"] == outcome}
+    values = {number: found["collapse_time_s"] if found["collapsed"] else largest_drift(found)[0] for number, found in chosen.items()}
+    middle = np.median(list(values.values()))
+    return min(values, key=lambda number: abs(values[number] - middle))

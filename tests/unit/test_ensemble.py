@@ -1,0 +1,317 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Disturbance of a house; medians, ranges and shares of an ensemble; its files, sentences and picture; tests between two ensembles."""
+import csv
+import io
+import json
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import small_frames
+from frames_sample import DURATION
+from frames_sample import run as sample
+from frames_sample import summary as sample_summary
+from scipy import stats
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "py"))
+
+from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.house import build_house, load_house  # noqa: E402
+from yade_timber.house.disturbance import LARGEST, disturb  # noqa: E402
+from yade_timber.pictures import bands, japanese, provenance  # noqa: E402
+from yade_timber.recording import ensemble, frames  # noqa: E402
+from yade_timber.recording.history import History  # noqa: E402
+from yade_timber.recording.sentences import sentence  # noqa: E402
+from yade_timber.run.identity import made_from  # noqa: E402
+from yade_timber.study.ensemble import comparison, results, runs, statistics  # noqa: E402
+
+
+def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):
+    """Summary of a run with a largest drift [-]; falls: collapse time [s]"""
+    drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
+    return {**sample_summary("A"), "verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts, "residual_drift": drifts,
+            "broken": {"total": 1, "springs": springs, "damaged_at_start": {"total": 0}}, **more}  # fmt: skip
+
+
+# --- disturbance --------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def houses():
+    """House C2 with snow as built, disturbed with seeds 2, 2 and 3."""
+    built = [build_house(load_house("C2"), snow_depth=1.0) for _ in range(4)]
+    for model, seed in zip(built[1:], (2, 2, 3)):
+        disturb(model, seed)
+    return built
+
+
+def shifts(model, plain):
+    """{name: (n, 3) displacements of the vertices [m]} of the free elements."""
+    return {e.name: e.vertices - other.vertices for e, other in zip(model.elements, plain.elements) if not e.fixed}
+
+
+def test_free_elements_are_disturbed_by_at_most_the_limit(houses):
+    """The vectors fill the cube: the largest is within 2 % of the limit (1400 vertices), the mean component is 0 within five standard errors."""
+    moved = np.vstack(list(shifts(houses[1], houses[0]).values()))
+    sizes = np.linalg.norm(moved, axis=1)
+    # an addition rounds a coordinate of up to 8 m to 1e-15 m
+    assert 0.85 * LARGEST < sizes.max() <= LARGEST + 2e-15 and (sizes > 0).all()
+    assert abs(moved.mean()) < 5 * LARGEST / 3 / np.sqrt(moved.size)
+    for element, plain in zip(houses[1].elements, houses[0].elements):
+        assert not element.fixed or np.array_equal(element.vertices, plain.vertices)
+
+
+def test_the_seed_decides(houses):
+    _, first, same, other = houses
+    for a, b, c in zip(first.elements, same.elements, other.elements):
+        assert np.array_equal(a.vertices, b.vertices) and (a.fixed or not np.array_equal(a.vertices, c.vertices))
+
+
+def test_joints_and_shapes_stay(houses):
+    """Joints have their points; each element has as many faces as before."""
+    plain, moved = houses[:2]
+    assert all(np.array_equal(a.points, b.points) and a.name == b.name for a, b in zip(plain.joints, moved.joints))
+    for a, b in zip(plain.elements, moved.elements):
+        vars(b).pop("solid", None)
+        assert len(a.solid.faces) == len(b.solid.faces)
+
+
+# --- statistics ---------------------------------------------------------------------------------------------------------
+
+
+def test_spread_by_hand():
+    assert statistics.spread([4, 1, 3, 2, 10]) == {"runs": 5, "lowest": 1, "lower_quartile": 2, "median": 3, "upper_quartile": 4, "highest": 10}
+    assert statistics.spread([2])["median"] == 2
+
+
+def test_numbers_and_words_of_a_summary():
+    """Flags are no numbers; what has no value is the word 'none'."""
+    found = {"dt": 1e-4, "collapsed": True, "tilt_direction": None, "energy": {"input": 5}, "events": [1], "versions": {"yade": "x"}, "peak_drift": {"storey1": {"ns": 0.2, "ew": 0.1}}}
+    assert statistics.numbers(found) == {"largest_peak_drift": 0.2, "largest_residual_drift": 0.0, "dt": 1e-4, "energy.input": 5, "peak_drift.storey1.ns": 0.2,
+                                         "peak_drift.storey1.ew": 0.1}  # fmt: skip
+    assert statistics.words(found) == {"collapsed": "true", "tilt_direction": "none"}
+
+
+def test_spreads_count_the_runs_that_have_a_number():
+    found = statistics.spreads([summary(falls=5.0), summary(falls=7.0), summary()])
+    assert found["collapse_time_s"] == {"runs": 2, "lowest": 5.0, "lower_quartile": 5.5, "median": 6.0, "upper_quartile": 6.5, "highest": 7.0}
+    assert found["largest_peak_drift"]["runs"] == 3
+    assert statistics.counts([summary(falls=5.0), summary()])["collapsed"] == {"true": 1, "false": 1}
+
+
+def test_share_has_its_interval():
+    """3 of 10: Clopper and Pearson (1934) give 0.0667 to 0.6525 at 95 %; 4 digits."""
+    found = statistics.share(3, 10)
+    assert found["share"] == 0.3 and (found["low"], found["high"]) == pytest.approx((0.0667, 0.6525), abs=5e-5)
+
+
+def test_outcomes_from_the_best_to_the_worst():
+    assert list(statistics.outcomes([summary("collapsed"), summary(), summary("collapsed")]).items()) == [("unsafe", 1), ("collapsed", 2)]
+
+
+@pytest.mark.parametrize(
+    "found, number",
+    [
+        ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
+        ([summary(drift=0.125), summary(drift=0.375), summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
+        ([summary(), *(summary("collapsed", d, t) for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
+        ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
+    ],
+)
+def test_the_run_that_is_shown(found, number):
+    assert statistics.representative(dict(enumerate(found, 1))) == number
+
+
+# --- files --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def finished(tmp_path):
+    """(output, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
+    output = SimpleNamespace(folder=tmp_path, ensemble=3, jobs=None, quiet=True, views=True, frames=True, options=("--scale", "2"))  # run.cli.Output
+    planned = runs.tasks("modelA_quake", tmp_path, output.options, 3)
+    found = [summary(drift=0.1), summary(drift=0.12), summary("collapsed", 1.3, 2.9)]
+    for number, (task, one) in enumerate(zip(planned, found)):
+        one["made_from"] = made_from(task.options)
+        task.folder.mkdir(parents=True)
+        recorded = small_frames.frames()
+        recorded.summary = one
+        drifts = [1 + 0.1 * number * name.startswith("drift") for name in recorded.history.columns]
+        recorded.history = History(recorded.history.columns, recorded.history.rows * drifts)
+        frames.save(task.folder / frames.NAME, recorded)
+        recorded.history.write(task.folder / "history.csv")
+        (task.folder / "summary.json").write_text(json.dumps(one))
+    return output, planned, dict(enumerate(found, 1))
+
+
+def test_tasks_are_disturbed_but_the_first(finished):
+    """Run k has the seed k, whatever the number of runs: an ensemble can be extended."""
+    output, planned, _ = finished
+    assert [task.options for task in planned] == [("--scale", "2"), ("--scale", "2", "--disturb", "2"), ("--scale", "2", "--disturb", "3")]
+    assert [task.folder.relative_to(output.folder).as_posix() for task in planned] == ["runs/001", "runs/002", "runs/003"]
+    assert runs.tasks("modelA_quake", output.folder, output.options, 5)[:3] == planned
+
+
+def complete(output, planned, monkeypatch):
+    """`complete` in which no run is started."""
+    monkeypatch.setattr(runs, "run_missing", lambda tasks, *_: {task: task.summary for task in tasks})
+    runs.complete(ROOT / "scripts" / "modelA_quake.py", output)
+
+
+def test_files_of_an_ensemble(finished, monkeypatch):
+    """One row a run; the folder has the results of the run that is shown, with its place in the ensemble."""
+    output, planned, _ = finished
+    complete(output, planned, monkeypatch)
+    found = ensemble.read(output.folder)
+    assert (found["runs"], found["finished"], found["shown"], found["disturbance_m"]) == (3, [1, 2, 3], 1, LARGEST)
+    assert found["outcomes"]["unsafe"]["runs"] == 2 and found["outcomes"]["collapsed"]["share"] == pytest.approx(1 / 3)
+    rows = list(csv.DictReader(io.StringIO((output.folder / "ensemble.csv").read_text())))
+    assert [(row["run"], row["folder"], row["verdict"], row["collapse_time_s"]) for row in rows] == [
+        ("1", "runs/001", "unsafe", ""), ("2", "runs/002", "unsafe", ""), ("3", "runs/003", "collapsed", "2.9")]  # fmt: skip
+    shown = json.loads((output.folder / "summary.json").read_text())
+    assert shown["ensemble"] == {"run": 1, "runs": 3, "outcomes": {"unsafe": 2, "collapsed": 1}, "peak_drift_standing": [0.1, 0.12]}
+    assert frames.load(output.folder / frames.NAME).summary == shown
+    assert (output.folder / "history.csv").read_bytes() == (planned[0].folder / "history.csv").read_bytes()
+    assert (output.folder / "ensemble.png").stat().st_size > 10000 and (output.folder / "player.html").exists()
+
+
+def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
+    output, planned, _ = finished
+    output.views = False
+    (planned[1].folder / "summary.json").unlink()
+    (planned[1].folder / "run.json").write_text('{"status": "failed", "error": "too fast"}')
+    with pytest.raises(RunError, match="^1 of 3 runs have no results; run 2: too fast$"):
+        complete(output, planned, monkeypatch)
+    assert ensemble.read(output.folder)["finished"] == [1, 3]
+    assert json.loads((output.folder / "summary.json").read_text())["ensemble"]["outcomes"] == {"unsafe": 1, "collapsed": 1, "failed": 1}
+    assert list(csv.DictReader(io.StringIO((output.folder / "ensemble.csv").read_text())))[1]["error"] == "too fast"
+    (planned[2].folder / "summary.json").unlink()
+    (output.folder / "summary.json").unlink()
+    with pytest.raises(RunError, match="^2 of 3"):
+        complete(output, planned, monkeypatch)
+    assert not (output.folder / "summary.json").exists()  # one run has no distribution
+
+
+def test_lines_for_the_terminal(finished):
+    _, _, found = finished
+    lines = results.lines(results.content(found, {}), found[1])
+    assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)", "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
+    assert [line.split() for line in lines if line.startswith("collapse [s]")] == [["collapse", "[s]", "2.9", "2.9", "in", "1", "run"]]
+    assert lines[-1] == "shown: run 1, nearest to the median of the peak drift of the unsafe ones"
+
+
+@pytest.mark.parametrize("content", ["", "[]", "{}", '{"finished": [1], "shown": "x"}'])
+def test_a_damaged_file_is_refused(tmp_path, content):
+    (tmp_path / "ensemble.json").write_text(content)
+    with pytest.raises(RunError, match="ensemble.json"):
+        ensemble.read(tmp_path)
+
+
+# --- sentences and picture ----------------------------------------------------------------------------------------------
+
+
+def place(**more):
+    return {"ensemble": {"run": 2, "runs": 3, "outcomes": {"unsafe": 2, "collapsed": 1}, "peak_drift_standing": [1 / 14, 1 / 8], **more}}
+
+
+def test_sentences_name_the_run_and_the_outcomes():
+    plain, shown = summary(), summary(**place())
+    assert sentence(shown) == f"Run 2 of 3 (2 unsafe, 1 collapsed; peak drift 1/14 to 1/8 in those that stand). {sentence(plain)}"
+    none = summary(**place(outcomes={"collapsed": 3}, peak_drift_standing=None))
+    assert sentence(none).startswith("Run 2 of 3 (3 collapsed). House A ")
+    assert japanese.result(shown) == f"3 回の計算の 2 番目（危険 2 回、倒壊 1 回）。{japanese.result(plain)}"
+
+
+def test_origin_names_the_run():
+    recorded = sample()
+    plain = provenance.provenance(recorded)
+    recorded.summary = {**recorded.summary, **place()}
+    assert provenance.provenance(recorded) == plain.replace("; yade", "; Run 2 of 3; yade") and "3 回の計算の 2 番目" in japanese.origin(provenance.provenance(recorded))
+
+
+def histories():
+    """Histories of three runs of one storey; the second ends after half the time."""
+    time = np.arange(0, DURATION, 0.01)
+    columns = ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]"]
+    return [History(columns, np.column_stack([time[:n], k * time[:n], 0 * time[:n]])) for n, k in ((400, 1), (200, 5), (400, 2))]
+
+
+def test_bands_of_three_runs():
+    """At 1 s the drifts are 1, 5 and 2, at 3 s 3, 9.95 and 6: the run that has ended keeps its last drift."""
+    found = bands.quantiles(histories(), np.array([1.0, 3.0]), 1, "ns")
+    assert found == pytest.approx(np.array([[1, 1.5, 2, 3.5, 5], [3, 4.5, 6, 7.975, 9.95]]).T)
+    assert bands.longest(histories()).time[-1] == pytest.approx(3.99)
+
+
+def test_page_of_bands():
+    """A panel for each storey and direction; run 2 is the line."""
+    recorded = sample()
+    recorded.summary = {**recorded.summary, **place()}
+    figure = bands.page(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
+    assert len(figure.axes) == 2 and [text.get_text() for text in figure.legends[0].texts] == ["range", "middle half", "median", "run 2, which is shown"]
+    (line,) = [line for line in figure.axes[0].lines if line.get_label().startswith("run 2")]
+    assert np.array_equal(line.get_ydata(), recorded.history.drift(1, "ns"))
+
+
+# --- two ensembles ------------------------------------------------------------------------------------------------------
+
+
+def ensembles(shift=1.0, spread=0.1, falls=(4, 4)):
+    """Two lists of 16 summaries: lognormal drifts, those of the second times `shift`; the first runs collapse."""
+    random = np.random.default_rng(5)
+    made = []
+    for factor, fallen in zip((1.0, shift), falls):
+        drifts = 0.05 * factor * np.exp(spread * random.standard_normal(16))
+        made.append([summary("collapsed", 1.0, 9.0 + 0.1 * k) if k < fallen else summary(drift=float(d)) for k, d in enumerate(drifts)])
+    return made
+
+
+def by_test(found, quantity):
+    return {entry.test: entry for entry in found if entry.quantity == quantity}
+
+
+def test_p_values_are_those_of_scipy():
+    first, second = ensembles(1.2)
+    found = by_test(comparison.compare("A", first, second), "largest drift [-]")
+    a, b = ([run["peak_drift"]["storey1"]["ns"] for run in runs if not run["collapsed"]] for runs in (first, second))
+    assert found["Mann-Whitney"].p == stats.mannwhitneyu(a, b).pvalue and len(a) == 12
+    assert found["Brown-Forsythe"].p == stats.levene(np.log(a), np.log(b)).pvalue
+    assert found["Mann-Whitney"].ratio[0] == pytest.approx(np.median(b) / np.median(a))
+
+
+def test_mann_whitney_by_hand():
+    """4 values below 4 others: 2 of the 70 arrangements are as extreme."""
+    assert comparison.mann_whitney([1, 2, 3, 4], [5, 6, 7, 8]) == pytest.approx(2 / 70)
+    assert comparison.mann_whitney([1, 1], [1, 1]) is None and comparison.brown_forsythe([1, 1], [2, 2]) is None
+
+
+def test_fisher_by_hand():
+    """0 of 4 and 4 of 4: 2 of the 70 tables with these margins are as extreme."""
+    assert comparison.fisher((0, 4), (4, 4)) == pytest.approx(2 / 70)
+
+
+def test_equal_distributions_agree_and_others_differ():
+    """A median 1.5 times as large at a scatter of 10 %, and 15 collapses instead of 1, are found in 16 runs; the same distribution gives none."""
+    same = comparison.rows(comparison.compare("A", *ensembles()))
+    assert {row[-1] for row in same} == {"no difference shown", "no test"}
+    found = dict(((row[1], row[6]), row[-1]) for row in comparison.rows(comparison.compare("A", *ensembles(1.5))))
+    assert found["largest drift [-]", "Mann-Whitney"] == "differ" and found["collapsed", "Fisher"] == "no difference shown"
+    assert found["largest drift [-]", "Brown-Forsythe"] == "no difference shown"
+    fallen = by_test(comparison.compare("A", *ensembles(falls=(1, 15))), "collapsed")["Fisher"]
+    assert fallen.p < 1e-4 and (fallen.first, fallen.second) == ("1 of 16", "15 of 16")
+
+
+def test_the_interval_of_the_ratio_contains_it():
+    first, second = ensembles(1.5)
+    middle, low, high = by_test(comparison.compare("A", first, second), "largest drift [-]")["Mann-Whitney"].ratio
+    assert low < middle < high and 1.3 < low < 1.5 < high < 1.7
+
+
+def test_few_or_equal_values_have_no_test():
+    found = comparison.compare("A", [summary()] * 3, [summary()] * 3)
+    assert {entry.p for entry in found} == {None} and set(comparison.corrected(found)) == {None}
+    assert comparison.compare("A", [], []) == []
