@@ -38,12 +38,12 @@ double PowerSpring::duration(double mass, double speed) const
 void startImpact(ImpactState& impact, const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h)
 {
 	assert(spring.force > 0 && spring.stiffness > 0 && spring.overlap > 0 && mass > 0 && response > 0 && h > 0);
-	impact.touchSpeed = speed;
-	impact.duration = speed > 0 ? spring.duration(1 / response, speed) : 0;
-	if (speed <= 0 || impact.duration > impactSteps * h) return impact.cancel();
+	if (speed <= 0) return impact.cancel();
 	const double q = spring.power();
+	impact.touchSpeed = speed;
+	impact.duration = spring.duration(1 / response, speed);
 	impact.timeLeft = impactDurations * impact.duration + h;
-	impact.rebound = speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1)));
+	if (impact.duration <= impactSteps * h) impact.rebound = speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1)));
 }
 
 } // namespace timber

@@ -7,8 +7,8 @@
 /// Its velocity n' = dx/dt' is largest where the force ends:
 ///     restitution e = exp(-2 D acos(D) / sqrt(1 - D^2)),  D > 1: exp(-2 D acosh(D) / sqrt(D^2 - 1))     (2)
 /// at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
-/// For impacts of few steps, down to fractions of one, the solver takes the velocity of separation from (2): contact_solver.hpp. Longer ones
-/// are resolved by the steps.
+/// For impacts of few steps, down to fractions of one, the solver takes the velocity of separation from (2): contact_solver.hpp. In longer ones,
+/// which the steps resolve, only the energy is followed.
 /// Loads that change the velocity within the duration by more than the touch speed end the impact: the contact is then a loaded one.
 ///
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz: 1.5) [-].
@@ -25,7 +25,7 @@ struct ImpactState {
 	double touchSpeed = 0; ///< closing velocity at the touch [m/s]
 	double duration = 0; ///< without dashpots and other forces [s]
 	double timeLeft = 0; ///< in which the impact must end; 0: no impact; < 0: the surfaces have not touched yet [s]
-	double rebound = noRebound; ///< velocity of separation at the end [m/s]
+	double rebound = noRebound; ///< velocity of separation at the end of a short impact [m/s]
 	double stored = 0; ///< energy of the normal spring after the last step [J]
 
 	bool isPending() const { return timeLeft < 0; }
@@ -49,7 +49,7 @@ struct PowerSpring {
 	double duration(double mass, double speed) const;
 };
 
-/// Starts the impact of a point whose surfaces have touched in the last step, if it is a short one. dampingRatio: C / (2 sqrt(m K)) [-]; mass: m [kg]; response: a
+/// Starts the impact of a point whose surfaces have touched in the last step. dampingRatio: C / (2 sqrt(m K)) [-]; mass: m [kg]; response: a
 /// [1/kg]; speed: of closing [m/s]; h: step [s].
 void startImpact(ImpactState& impact, const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h);
 
