@@ -23,8 +23,13 @@ def main_house(argv=None):
     return launch(lambda cli, arguments: cli.read_house(arguments), argv)
 
 
+def main_town(argv=None):
+    """Run the town that the command line names; returns the TownRun."""
+    return launch(lambda cli, arguments: cli.read_town(arguments), argv)
+
+
 def launch(read, argv=None):
-    """Run the (Scenario, Output) that `read(cli, argv)` returns; returns the Run.
+    """Run the (Scenario or TownPlan, Output) that `read(cli, argv)` returns; returns the Run or TownRun.
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
@@ -54,6 +59,8 @@ def _run(session, scenario, output):
     """Run to the end, or start a live run; returns the Run."""
     import yade.runtime
 
+    if isinstance(scenario, session.TownPlan):
+        return session.complete_town(scenario, output)
     if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
         return session.complete(scenario, output)
     run = session.start(scenario, output)
