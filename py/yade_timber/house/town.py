@@ -81,10 +81,10 @@ class Town:
     direction: float = 0.0
 
     def delays(self):
-        """Time after which the motion reaches each lot; 0 for the first one. [s]"""
+        """Time after which the motion reaches each lot, to the nanosecond; 0 for the first one. [s]"""
         azimuth = math.radians(self.direction)
         along = np.array([lot.x * math.sin(azimuth) + lot.y * math.cos(azimuth) for lot in self.lots])
-        return [float(delay) for delay in (along - along.min()) / self.velocity]
+        return [round(float(delay), 9) for delay in (along - along.min()) / self.velocity]
 
 
 def load_town(path):
