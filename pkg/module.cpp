@@ -80,8 +80,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
-	boost::python::def(
-	        "advance_scenes", &yade::advanceScenes, (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
+	boost::python::def("advance_scenes", &yade::advanceScenes, (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

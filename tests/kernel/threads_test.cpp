@@ -11,30 +11,30 @@
 using namespace timber;
 
 namespace {
-	/// A team of that size for one test.
-	struct TeamOf {
-		const int before = threadCount();
-		explicit TeamOf(int count) { setThreadCount(count); }
-		~TeamOf() { setThreadCount(before); }
-	};
+/// A team of that size for one test.
+struct TeamOf {
+	const int before = threadCount();
+	explicit TeamOf(int count) { setThreadCount(count); }
+	~TeamOf() { setThreadCount(before); }
+};
 
-	/// Share of the steps with all threads among `steps` steps, and the time of all steps over that with one thread. [-]
-	struct Outcome {
-		double shareOfAll, time;
-	};
-	/// one, all: time of a step with one thread and with all [s]
-	Outcome choose(ThreadChoice& choice, int steps, double one, double all)
-	{
-		int withAll = 0;
-		double time = 0;
-		for (int k = 0; k < steps; ++k) {
-			const bool usesAll = choice.usesAll();
-			withAll += usesAll;
-			time += usesAll ? all : one;
-			choice.add(usesAll ? all : one);
-		}
-		return { double(withAll) / steps, time / (steps * one) };
+/// Share of the steps with all threads among `steps` steps, and the time of all steps over that with one thread. [-]
+struct Outcome {
+	double shareOfAll, time;
+};
+/// one, all: time of a step with one thread and with all [s]
+Outcome choose(ThreadChoice& choice, int steps, double one, double all)
+{
+	int withAll = 0;
+	double time = 0;
+	for (int k = 0; k < steps; ++k) {
+		const bool usesAll = choice.usesAll();
+		withAll += usesAll;
+		time += usesAll ? all : one;
+		choice.add(usesAll ? all : one);
 	}
+	return { double(withAll) / steps, time / (steps * one) };
+}
 }
 
 TEST(Threads, EachItemOnce)

@@ -59,7 +59,9 @@ def _run(session, scenario, output):
     """Run to the end, or start a live run; returns the Run."""
     import yade.runtime
 
-    if isinstance(scenario, session.TownPlan):
+    from .cli import TownPlan
+
+    if isinstance(scenario, TownPlan):
         return session.complete_town(scenario, output)
     if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
         return session.complete(scenario, output)

@@ -10,7 +10,7 @@ from .. import _plugin, host
 from ..base.errors import RunError
 from ..base.interrupt import deferred_interrupt
 from ..base.lock import locked
-from .cli import TownPlan, prepare_folder
+from .cli import prepare_folder
 from .live import LiveRun
 from .runner import Run
 from .town import TownRun

@@ -159,7 +159,8 @@ class TownRun:
             drift, residual = largest_drift(found)[0], largest_drift(found, "residual_drift")[0]
             place = lot.name, found["model"], lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
             times = ["" if found[key] is None else found[key] for key in ("tilt_time_s", "collapse_time_s")]
-            rows.append((*place, found["verdict"], drift, residual, *times, found["broken"]["total"], found["joints"]["total"], round(run.wall_s, 3), sentence(found)))
+            joints = found["broken"]["total"], found["joints"]["total"]
+            rows.append((*place, found["verdict"], drift, residual, *times, *joints, round(run.wall_s, 3), sentence(found)))
         return csv_text(COLUMNS, rows)
 
 

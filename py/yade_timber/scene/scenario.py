@@ -23,7 +23,8 @@ JOINT_SAFETY = 0.98
 class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
-    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run; joint_damping: damping ratio of all
+    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run;
+    joint_damping: damping ratio of all
     joints [-], None: the house's own; options: of `engines.engines`.
     """
 
