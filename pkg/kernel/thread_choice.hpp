@@ -26,7 +26,6 @@ private:
 	double recent = 0; ///< moving mean of the usual steps [s]
 	Mean trial;
 	double logRatio = 0; ///< of the time with all threads to that with one, moving mean of the trials
-	bool isFirst = true; ///< no trial has ended yet
 
 	void addUsual(double seconds);
 	void addTrial(double seconds);

@@ -8,9 +8,14 @@ from .history import History
 MOST_PLACEMENTS = 4_000_000
 """Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has some 30 MB."""
 
+SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
+"""Kinds of events of a lot that are events of the town."""
+
 
 def summary(name, found):
-    """Summary of a town for sentences and pictures. found: summaries of its lots"""
+    """Summary of a town for sentences and pictures. found: {name of a lot: its summary}"""
+    events = [{**event, "what": f"{lot}: {event['what']}"} for lot, one in found.items() for event in one["events"] if event["kind"] in SHOWN]
+    found = list(found.values())
     worst = max((verdict.STATES.index(lot["verdict"]) for lot in found), default=0)
     return {
         "model": name,
@@ -22,7 +27,7 @@ def summary(name, found):
         "dt": found[0]["dt"],
         "record": found[0]["record"],
         "versions": found[0]["versions"],
-        "events": [],
+        "events": sorted(events, key=lambda event: event["time_s"]),
     }
 
 
@@ -44,7 +49,7 @@ def town_frames(name, lots):
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(made, key).append(values)
     made.motion = _motion(placed)
-    made.summary = summary(name, [lot.run.summary for lot in placed])
+    made.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
     made.history = History(("time [s]",), np.empty((0, 1)))
     made.breaks = _breaks(placed, first_joints)
     return made

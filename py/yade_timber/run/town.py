@@ -129,7 +129,7 @@ class TownRun:
         for lot, run in zip(self.town.lots, self.runs):
             self.report(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.report(sentence(recording.summary(self.town.name, [run.summary for run in self.runs])))
+        self.report(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
         self.report("written: " + ", ".join(map(str, [*written, self.output.folder / "lots"])))
 
     def report(self, text):
