@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <CollisionTrigger.hpp>
 #include <Shape.hpp>
+#include <bodies.hpp>
 #include <kernel/rotation.hpp>
 #include <kernel/threads.hpp>
 #include <pkg/common/Collider.hpp>
@@ -63,6 +64,7 @@ void CollisionTrigger::action()
 	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort; // doSort: bodies were added
 	if (!changed && !mayHaveLeftBox()) return;
 	collider->scene = scene;
+	const OneThread serial;
 	collider->action();
 	takeSnapshots();
 	motions.assign(snapshots.size(), { Vector3r::Zero(), 0 });

@@ -83,7 +83,7 @@ void ContactForces::collectBodies()
 	const int count = int(scene->bodies->size());
 	bodies.resize(count);
 	sums.clear(count);
-	scene->forces.sync();
+	syncForces(*scene);
 	timber::forAll(count, [this](int id) { collectBody(id); });
 }
 

@@ -36,7 +36,10 @@ void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
 {
 	if (!loop) throw std::invalid_argument("ContactLoop.loop: an InteractionLoop is required");
 	loop->scene = scene;
-	loop->action();
+	{
+		const OneThread serial;
+		loop->action();
+	}
 	++runs;
 	tracked.clear();
 	fixedPairs.clear();

@@ -73,10 +73,11 @@ void SymplecticIntegrator::moveGroup(Body::id_t first) const
 
 void SymplecticIntegrator::action()
 {
-	scene->forces.sync();
+	syncForces(*scene);
 	const int groups = int(timber::groupsOf(scene->bodies->size()));
 	timber::forAll(
 	        groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);
+	timber::endStep();
 }
 
 } // namespace yade

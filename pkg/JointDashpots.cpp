@@ -19,7 +19,7 @@ void findDampedJoints(const Scene& scene, const std::vector<timber::SolverBody>&
 void prepareJoint(const timber::SolverStep& step, size_t k, TimberJoint& joint, const Scene& scene)
 {
 	const timber::SolverBody &a = step.bodies[joint.id1], &b = step.bodies[joint.id2];
-	const Matrix3r axes = Body::byId(joint.id1)->state->ori.toRotationMatrix();
+	const Matrix3r axes = bodyAt(scene, joint.id1)->state->ori.toRotationMatrix();
 	const timber::SpringGroup springs { joint.anchors1, joint.broken, joint.stiffness(), joint.normal };
 	if (scene.iter % timber::modeSteps == 0 || !joint.modes.holdFor(springs, timber::pairInverseMass(a, b)))
 		joint.modes = timber::jointModes(a, b, axes, springs);

@@ -2,6 +2,7 @@
 /// Helpers for YADE's bodies and engines, and sums of forces.
 #pragma once
 #include <pch.hpp>
+#include <omp.h>
 
 namespace yade {
 
@@ -21,6 +22,25 @@ template <class E> E* findEngine(const Scene& scene)
 	for (const shared_ptr<Engine>& e : scene.engines)
 		if (E* found = dynamic_cast<E*>(e.get())) return found;
 	return nullptr;
+}
+
+/// YADE's own parallel loops run on one thread while an object of this class exists: they are short, and OpenMP's threads spin for milliseconds
+/// after each of them (kernel/threads.hpp).
+class OneThread {
+	const int before = omp_get_max_threads();
+
+public:
+	OneThread() { omp_set_num_threads(1); }
+	~OneThread() { omp_set_num_threads(before); }
+	OneThread(const OneThread&) = delete;
+	OneThread& operator=(const OneThread&) = delete;
+};
+
+/// Sums the forces that the engines have added so far.
+inline void syncForces(Scene& scene)
+{
+	const OneThread serial;
+	scene.forces.sync();
 }
 
 /// Adds mass times acceleration [m/s2] to every free body.

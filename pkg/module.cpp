@@ -4,9 +4,11 @@
 
 #include <Gl1_RoundedPolyhedron.hpp>
 #include <PackedScene.hpp>
+#include <SceneAdvance.hpp>
 #include <SceneCheck.hpp>
 #include <build_info.hpp>
 #include <chrono>
+#include <kernel/threads.hpp>
 #include <layout_guard.hpp>
 #include <thread>
 
@@ -58,6 +60,12 @@ void checkReplacedPart(const yade::Body& body)
 	yade::Omega::instance().getScene()->doSort = true;
 }
 
+void setThreadCount(int count)
+{
+	if (count < 1) throw std::invalid_argument("set_thread_count: count = " + std::to_string(count) + ": it must be >= 1");
+	timber::setThreadCount(count);
+}
+
 std::string buildRecord() { return TIMBER_BUILD_RECORD; }
 
 } // namespace
@@ -70,6 +78,9 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("await_step", &awaitStep, (boost::python::arg("before")));
 	boost::python::def("finish_step", &finishStep);
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
+	boost::python::def("thread_count", &timber::threadCount);
+	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
+	boost::python::def("advance_scenes", &yade::advanceScenes, (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

@@ -1,57 +1,61 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Parallel loops with OpenMP. Results do not depend on the number of threads.
+/// Parallel loops. Results do not depend on the number of threads, nor on their use.
+///
+/// * The calling thread takes items until none is left, and then waits only for items that another thread has begun: a thread that the
+///   system does not run at the moment delays nothing.
+/// * Idle threads spin for some microseconds, then sleep. Those of OpenMP spin for milliseconds and take the processor from other work.
+/// * thread_choice.hpp decides by measured time whether the loops of a step use more than one thread.
 #pragma once
-#if defined(_OPENMP)
-#include <omp.h>
-#endif
 
 namespace timber {
 
 /// Loops over at most this many bodies, pairs or joints are serial: starting other threads would cost more. [-]
 constexpr int smallLoop = 100;
+/// Bodies, pairs or joints that a thread takes at a time. [-]
+constexpr int itemsAtOnce = 24;
 
-/// Threads of a parallel loop.
-inline int threadCount()
-{
-#if defined(_OPENMP)
-	return omp_get_max_threads();
-#else
-	return 1;
-#endif
-}
-
+/// Threads of a parallel loop, the calling one included: by default OpenMP's number when the program is loaded.
+int threadCount();
+/// count >= 1. Not within a parallel loop.
+void setThreadCount(int count);
 /// Index of this thread in a parallel loop.
-inline int threadNumber()
-{
-#if defined(_OPENMP)
-	return omp_get_thread_num();
-#else
-	return 0;
-#endif
-}
+int threadNumber();
+/// Whether this thread may start a parallel loop: there are others, and it is not within a parallel loop.
+bool hasThreads();
+/// Ends a step of the simulation: its loops have been timed together.
+void endStep();
 
-/// Whether a loop runs in parallel: not with one thread (a parallel region costs as much as a contact), and not within a parallel loop.
-inline bool hasThreads()
-{
-#if defined(_OPENMP)
-	return threadCount() > 1 && !omp_in_parallel();
-#else
-	return false;
-#endif
-}
+namespace detail {
+	/// Begins a timed loop; returns whether it is to run on several threads.
+	bool beginLoop();
+	void endLoop();
+	/// body(context, k) for all k < count on several threads; a thread takes `chunk` at a time. The first exception is thrown again.
+	void runOnThreads(int count, int chunk, void (*body)(void*, int), void* context);
 
-/// work(k) for all k < count, each of which covers `each` bodies, pairs or joints. The schedule is static: a thread has the same items in
-/// each step, and they stay in its cache.
-template <class Work> void forAll(int count, Work work, int each = 1)
-{
-	if (count == 1 || count * each <= smallLoop || !hasThreads()) {
-		for (int k = 0; k < count; ++k)
-			work(k);
-		return;
+	template <class Work> void onThreads(int count, int chunk, Work& work)
+	{
+		runOnThreads(
+		        count, chunk, [](void* context, int k) { (*static_cast<Work*>(context))(k); }, &work);
 	}
-#pragma omp parallel for schedule(static)
+}
+
+/// work(k) for all k < count, each of which is long: on all threads.
+template <class Work> void forAllLong(int count, Work work)
+{
+	if (count > 1 && hasThreads()) return detail::onThreads(count, 1, work);
 	for (int k = 0; k < count; ++k)
 		work(k);
+}
+
+/// work(k) for all k < count, each of which covers `each` bodies, pairs or joints.
+template <class Work> void forAll(int count, Work work, int each = 1)
+{
+	const bool isTimed = count > 1 && count * each > smallLoop && hasThreads();
+	if (isTimed && detail::beginLoop()) detail::onThreads(count, each < itemsAtOnce ? itemsAtOnce / each : 1, work);
+	else
+		for (int k = 0; k < count; ++k)
+			work(k);
+	if (isTimed) detail::endLoop();
 }
 
 } // namespace timber

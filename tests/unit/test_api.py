@@ -75,11 +75,11 @@ def test_interrupted_run_continues(monkeypatch):
         advance(run, step)
         kill(getpid(), signal.SIGINT)
 
-    advance = Run._advance
+    advance = Run.advance
     before = signal.getsignal(signal.SIGINT)
     options = {**SHORT, "duration": 2, "every_step": True, "out": "stopped"}
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt, match="resume=True"):
-        patch.setattr(Run, "_advance", interrupted)
+        patch.setattr(Run, "advance", interrupted)
         yt.run("A", **options)
     assert signal.getsignal(signal.SIGINT) is before
     reached = O.time

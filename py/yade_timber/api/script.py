@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The run scripts: `main` and `main_house` turn the command line into a run in this process, or into an ensemble of processes of the same script."""
+"""The run scripts: `main`, `main_house` and `main_town` turn the command line into a run in this process, or into an ensemble of processes of the
+same script."""
 import signal
 import sys
 from pathlib import Path
@@ -18,6 +19,11 @@ def main(house, earthquake=False, snow=False, argv=None):
 def main_house(argv=None):
     """Run the house that the command line names; returns the Run."""
     return _launch(lambda cli, arguments: cli.read_house(arguments), argv)
+
+
+def main_town(argv=None):
+    """Run the town that the command line names; returns the TownRun."""
+    return _launch(lambda cli, arguments: cli.read_town(arguments), argv)
 
 
 def _launch(read, argv):

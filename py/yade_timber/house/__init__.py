@@ -12,8 +12,9 @@ from .description import Description, load_house, shipped_houses
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
 from .overlay import brace_parts, changed_house, wall_parts
+from .town import Lot, Town, load_town
 from .weight import weigh
 
-__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec",
-           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "overlaps", "shipped_houses",
+__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec", "Lot", "Town",
+           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "load_town", "overlaps", "shipped_houses",
            "wall_parts", "weigh"]

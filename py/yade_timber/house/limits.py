@@ -19,6 +19,8 @@ MAX_ITEMS = 1000
 """Items of a list, where the schema states no smaller limit."""
 MAX_NAMES = 200
 """Entries of a table whose keys the user chooses (materials, structures, joint types)."""
+MAX_LOTS = 1000
+"""Lots of a town."""
 MAX_LINES = 400
 """Lines of one list of lines, each position of `at` counted."""
 MAX_ELEMENTS = 1000

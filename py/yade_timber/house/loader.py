@@ -27,8 +27,8 @@ def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
     path = Path(path)
     known = _known_chains.get(path)
-    if known is None or any(not is_file(file) or _text(file) != text for file, text in known):
-        known = _known_chains[path] = [(file, _text(file)) for file, _ in _chain(path)]
+    if known is None or any(not is_file(file) or text_of(file) != text for file, text in known):
+        known = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
     return [file for file, _ in known]
 
 
@@ -41,14 +41,14 @@ def _chain(path):
             raise HouseError(f"{where}: extends: the file extends itself through {' -> '.join(file.name for file in files)}; remove one 'extends'")
         if len(links) == MAX_FILES:
             raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
-        table, nodes = parse_table(_text(path), path.name, nodes_left)
+        table, nodes = parse_table(text_of(path), path.name, nodes_left)
         links.append((path, table))
         nodes_left, where = nodes_left - nodes, table.at("extends")
         path = _extended(path, table)
     return links
 
 
-def _text(path):
+def text_of(path):
     try:
         return read_bytes(path, MAX_FILE_SIZE).decode("utf-8")
     except UnicodeDecodeError:

@@ -143,16 +143,17 @@ class ListOf:
 
 @dataclass(frozen=True)
 class MapOf:
-    """A table whose keys the user chooses; every entry follows `item`."""
+    """A table whose keys the user chooses; every entry follows `item`. `most` limits their number."""
 
     item: object
     default: object = REQUIRED
+    most: int = MAX_NAMES
 
     def check(self, value, where, name):
         if not isinstance(value, Table):
             fail(where, name, f"expected a table of names (name: ...), got {shown(value)}")
-        if len(value) > MAX_NAMES:
-            fail(where, name, f"{len(value)} entries; at most {MAX_NAMES}")
+        if len(value) > self.most:
+            fail(where, name, f"{len(value)} entries; at most {self.most}")
         for key in value:
             if len(key) > MAX_NAME or not re.fullmatch(NAME, key):
                 fail(value.at(key), name, f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -")

@@ -91,7 +91,7 @@ def info(run):
     return {
         "title": plain(run.title),
         "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
-        "japanese": japanese_texts(found, origin) if found else None,
+        "japanese": japanese_texts(found, origin) if found and "verdicts" not in found else None,
         "origin": plain(origin),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],

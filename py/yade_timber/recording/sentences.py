@@ -19,7 +19,12 @@ def largest_drift(found, key="peak_drift"):
 
 
 def sentence(found):
-    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run first its outcomes."""
+    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run first its outcomes.
+
+    Of a town: the numbers of its houses by verdict.
+    """
+    if "verdicts" in found:
+        return town(found)
     onset = (found.get("record") or {}).get("onset_s")
     early = f"the run ends before strong shaking sets in ({onset:.1f} s)" if onset and found.get("duration_s", onset) < onset else ""
     parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), early)
@@ -41,6 +46,12 @@ def place_in_ensemble(found):
     """'Run 7 of 16' of a run that is shown for an ensemble, else empty."""
     known = found.get("ensemble")
     return f"Run {known['run']} of {known['runs']}" if known else ""
+
+
+def town(found):
+    """'Town harbour: 6 houses, 3 undamaged, 2 unsafe, 1 collapsed'. found: summary of a town"""
+    counts = [f"{found['verdicts'].count(state)} {state}" for state in verdict.STATES if state in found["verdicts"]]
+    return f"Town {found['model']}: {len(found['verdicts'])} houses, {', '.join(counts)}"
 
 
 def main_structure(found):

@@ -4,12 +4,12 @@ import argparse
 import sys
 import tempfile
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..base.errors import RunError
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
-from ..house import load_house, shipped_houses
+from ..house import Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
 from ..motion import GroundMotion, add_motion_options, motion_request
 from ..scene.scenario import Scenario
@@ -101,6 +101,16 @@ def house_parser():
     return made
 
 
+def town_parser():
+    """ArgumentParser of scripts/town.py, which runs a town."""
+    made = parser("town")
+    made.description = "Results go to results/<name of the town file>/, or to the folder of --out; those of a lot to its folder lots/<lot>/."
+    made.add_argument("file", metavar="TOWN", help="town file")
+    made.add_argument("--quake", action="store_true", help="with the default earthquake; --record gives a recorded one")
+    made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs of lots without `snow` [m] (default: the house files')")
+    return made
+
+
 OUTPUT_OPTIONS = {
     **dict.fromkeys(("--out", "--checkpoint", "--export", "--ensemble", "--jobs"), 1),
     **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--quiet"), 0),
@@ -138,6 +148,37 @@ def read_house(argv, motion=None):
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
     shaken = motion is not None or given.quake or given.record is not None or given.seed is not None
     return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
+
+
+@dataclass(frozen=True)
+class TownPlan:
+    """A Town, and (Scenario, Output) of each lot."""
+
+    town: Town
+    lots: list
+
+
+def read_town(argv):
+    """Command line (as sys.argv) of scripts/town.py -> (TownPlan, Output). Raises RunError, RecordError, HouseError."""
+    given = town_parser().parse_args(_joined(argv[1:]))
+    if given.export:
+        raise RunError("--export: a scene has one house; use scripts/house.py")
+    town = load_town(given.file)
+    shaken = given.quake or given.record is not None or given.seed is not None
+    scenario, output = _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
+    delays = town.delays()
+    if given.duration is None and scenario.motion:
+        scenario.duration += max(delays)
+    plans = [_lot(scenario, output, lot, delay, given.snow) for lot, delay in zip(town.lots, delays)]
+    return TownPlan(town, plans), output
+
+
+def _lot(scenario, output, lot, delay, snow):
+    """(Scenario, Output) of a lot. scenario, output: of the town; delay [s]; snow: depth where neither lot nor house file gives one [m]"""
+    depth = lot.snow if lot.snow is not None else snow if snow is not None else load_house(lot.house).data["snow"]["depth"]
+    motion = scenario.motion and lot.motion(scenario.motion)
+    own = replace(scenario, name=f"{scenario.name}.{lot.name}", house=lot.house, motion=motion, snow_depth=depth, delay=delay if motion else 0.0)
+    return own, replace(output, folder=output.folder / "lots" / lot.name, views=False, quiet=True, options=(*output.options, f"lot {lot.name}"))
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,7 @@ def identity(scenario, model):
         "motion": motion,
         "snow_depth": scenario.snow_depth,
         "scale": scenario.scale,
+        "delay": scenario.delay,
         "dt": scenario.dt,
         "until collapse": scenario.until_collapse,
         "options": {key: str(value) for key, value in scenario.options.items()},

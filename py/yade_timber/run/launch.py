@@ -11,7 +11,8 @@ from ..base.interrupt import deferred_interrupt
 
 
 def launch(read, ensemble, argv=None):
-    """Run the (Scenario, Output) that `read(cli, argv)` returns; returns the Run, or that of `ensemble(scenario, output)` where one is asked for.
+    """Run the (Scenario or TownPlan, Output) that `read(cli, argv)` returns; returns the Run or TownRun, or the result of
+    `ensemble(scenario, output)` where one is asked for.
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
@@ -41,6 +42,10 @@ def _run(session, scenario, output):
     """Run to the end, or start a live run; returns the Run."""
     import yade.runtime
 
+    from .cli import TownPlan
+
+    if isinstance(scenario, TownPlan):
+        return session.complete_town(scenario, output)
     if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
         return session.complete(scenario, output)
     started = session.start(scenario, output)

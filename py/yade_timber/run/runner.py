@@ -44,6 +44,7 @@ class Run:
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
         self.signal = None
+        self.summary = None  # once the results are written
         self.only_export = bool(output.export) and self.steps == 0  # results in the folder are left alone
         self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
         if not (output.resume and self.checkpoint_path.exists() and self._resume()):
@@ -138,13 +139,21 @@ class Run:
         self.signal = number
 
     def _chunk(self):
-        """The steps to the next frame, and a checkpoint when it is due.
+        """The steps to the next frame, and a checkpoint when it is due."""
+        self.advance(self.next_stop())
+        self.after_chunk()
+
+    def next_stop(self):
+        """Step of the next frame.
 
         The last checkpoint is one step before the end, and the last step is a chunk of its own: energies and contact points are known
         only after a step, so a resumed run always has one to make.
         """
         left = self.steps - O.iter
-        self._advance(O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk))
+        return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
+
+    def after_chunk(self):
+        """End the run after a collapse, record a frame, save a checkpoint when it is due. Raises Interrupted after a signal."""
         if self.collapse_ends_it():
             self.steps = O.iter
         if O.iter == self.steps:
@@ -166,7 +175,7 @@ class Run:
         if self.recorder:
             self.recorder.take(time, last)
 
-    def _advance(self, step):
+    def advance(self, step):
         """Advance to that step. Unlike `O.run`, `O.step` raises errors here, reuses the OpenMP threads, and does not wait in slices of 40 ms."""
         since = time.perf_counter()
         try:
@@ -203,7 +212,7 @@ class Run:
             return
         self.take(O.time, last=True)
         tables = quantities.tables(self.observer)
-        found = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": made_from(self.output.options)}
+        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": made_from(self.output.options)}
         written = self._results(found, tables)
         if self.output.views:
             written += self._pictures()

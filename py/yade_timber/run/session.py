@@ -1,23 +1,35 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a folder."""
+import os
 from contextlib import ExitStack, contextmanager
 
 import yade.runtime
 import yade.wrapper as yw
 
-from .. import host
+from .. import _plugin, host
 from ..base.errors import RunError
 from ..base.interrupt import deferred_interrupt
 from ..base.lock import locked
 from .cli import prepare_folder
 from .live import LiveRun
 from .runner import Run
+from .town import TownRun
 
 
 def complete(scenario, output):
     """Run a scenario to its end and write its results; returns the Run. Raises InputError, runner.Interrupted."""
     with ExitStack() as stack:
         run = _built(Run, scenario, output, stack)
+        run.complete()
+    return run
+
+
+def complete_town(plan, output):
+    """Run a town to its end, on all processors unless YADE's -j says otherwise; returns the TownRun. Raises InputError, runner.Interrupted."""
+    if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
+        _plugin.set_thread_count(len(os.sched_getaffinity(0)))
+    with ExitStack() as stack:
+        run = _built(lambda *_: TownRun(plan.town, plan.lots, output), plan, output, stack)
         run.complete()
     return run
 
@@ -31,7 +43,7 @@ def start(scenario, output):
 
 
 def _built(kind, scenario, output, stack):
-    """A Run or LiveRun with its scene in YADE. stack: ExitStack that gets the lock of the folder."""
+    """A Run, LiveRun or TownRun with its scenes in YADE. stack: ExitStack that gets the lock of the folder."""
     if yw.Omega().running and not yade.runtime.opts.exitAfter:  # a live run: the new one takes its place
         yw.Omega().pause()
         yw.Omega().wait()

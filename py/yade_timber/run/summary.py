@@ -5,6 +5,7 @@ import math
 
 import yade.wrapper as yw
 
+from .. import _plugin
 from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..house import weigh
@@ -57,7 +58,7 @@ def summary(scenario, observed, tables, wall_s):
         "wall_s": round(wall_s, 3),
         "skipped_s": round(skipper.skipped if skipper else 0.0, 3),
         "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
-        "threads": O.numThreads,
+        "threads": _plugin.thread_count(),
         "elements": len(O.bodies),
         "joints": survey.count_joints(),
         "broken": survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
@@ -110,7 +111,7 @@ def record(scenario):
         "scale": scenario.scale,
         "dt": motion.dt,
         "interpolation_error": round(error, 6),
-        "onset_s": onset(motion),
+        "onset_s": onset(motion) + scenario.delay,
         "sequence": [part_of_record(part, scenario.scale) for part in motion.parts] or None,
     }
 

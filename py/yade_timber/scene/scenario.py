@@ -24,8 +24,9 @@ JOINT_SAFETY = 0.98
 class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
-    scale: factor on the motion [-]; dt, duration [s]; until_collapse: whether a collapse ends the run; joint_damping: damping ratio of all
-    joints [-], None: the house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`.
+    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run;
+    joint_damping: damping ratio of all joints [-], None: the house's own; disturb: seed of the house's disturbance, None: none; options: of
+    `engines.engines`.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Scenario:
     motion: object = None
     snow_depth: float = 0.0
     scale: float = 1.0
+    delay: float = 0.0
     dt: float = DEFAULT_DT
     duration: float = 30.0
     until_collapse: bool = False
@@ -62,7 +64,7 @@ def build(scenario, stride=yw.RestSkipper().stride):
     joints = add_joints(model, ids)
     motion = None
     if scenario.motion is not None:
-        motion = engines.ground_motion_engine(scenario.motion, scale=scenario.scale)
+        motion = engines.ground_motion_engine(scenario.motion, scale=scenario.scale, start=scenario.delay)
     options = {**law_options(model.law), "skip_rest": stride, **scenario.options}
     monitors = [house_monitor(model, ids), structure_monitor(model, ids)]
     O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=monitors, **options)

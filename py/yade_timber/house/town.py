@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Town files: houses at places under one ground motion, which reaches them as a wave. Needs no YADE."""
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..base.input_file import is_file
+from .description import house_path, require_snow_depth
+from .errors import HouseError
+from .layout import MAX_SNOW, word
+from .limits import MAX_LOTS, MAX_NODES
+from .loader import text_of
+from .parser import parse_table
+from .schema import MapOf, Number, Record, fail
+
+FAR = 20_000.0
+"""Largest coordinate of a lot. [m]"""
+LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR), "rotation": Number("degrees", -360, 360, default=0.0),
+              "snow": Number("m", 0, MAX_SNOW, default=None)})
+WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)
+TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOTS)})
+
+
+@dataclass(frozen=True)
+class Lot:
+    """A house at a place. house: file or name of a shipped house; x, y: of the middle of its plan, east and north [m];
+    rotation: of the house, counter-clockwise seen from above [degrees]; snow: depth [m], None: the house file's; where: file and line.
+    """
+
+    name: str
+    house: str
+    x: float
+    y: float
+    rotation: float = 0.0
+    snow: float = None
+    where: str = ""
+
+    @property
+    def axes(self):
+        """(3, 3) directions of the house's axes as columns, exact for multiples of 90 degrees."""
+        quarters, rest = divmod(self.rotation, 90)
+        turn = {0: (1, 0), 1: (0, 1), 2: (-1, 0), 3: (0, -1)}
+        angle = math.radians(self.rotation)
+        c, s = turn[quarters % 4] if rest == 0 else (math.cos(angle), math.sin(angle))
+        return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], float)
+
+    def motion(self, given):
+        """GroundMotion in the axes of the house."""
+        return given if np.array_equal(self.axes, np.eye(3)) else replace(given, acceleration=given.acceleration @ self.axes)
+
+    def outline(self, model):
+        """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
+        low, high = plan(model)
+        corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]]) - (low + high) / 2
+        return corners @ self.axes[:2, :2].T + (self.x, self.y)
+
+    def origin(self, model):
+        """(3,) place of the origin of its HouseModel in the town [m]."""
+        low, high = plan(model)
+        return np.array([self.x, self.y, 0]) - self.axes @ [*(low + high) / 2, 0]
+
+
+def plan(model):
+    """(lowest, highest) x and y of a HouseModel without its ground [m]."""
+    points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"])[:, :2]
+    return points.min(0), points.max(0)
+
+
+@dataclass(frozen=True)
+class Town:
+    """Lots in the order of the file. velocity: apparent velocity of the wave [m/s], infinite without a wave; direction: azimuth towards which it
+    travels, clockwise from north [degrees].
+    """
+
+    name: str
+    path: Path
+    lots: tuple
+    velocity: float = math.inf
+    direction: float = 0.0
+
+    def delays(self):
+        """Time after which the motion reaches each lot, to the nanosecond; 0 for the first one. [s]"""
+        azimuth = math.radians(self.direction)
+        along = np.array([lot.x * math.sin(azimuth) + lot.y * math.cos(azimuth) for lot in self.lots])
+        return [round(float(delay), 9) for delay in (along - along.min()) / self.velocity]
+
+
+def load_town(path):
+    """Town of a YAML file. House files are looked for beside it, then as for `load_house`. Raises HouseError (one line, file:line)."""
+    path = Path(path)
+    if not is_file(path):
+        raise HouseError(f"{path}: no such regular file; give a town file")
+    table, _ = parse_table(text_of(path), path.name, MAX_NODES)
+    data = TOWN.check(table, f"{path.name}:1", "town")
+    if not data["lots"]:
+        fail(data.at("lots"), "town.lots", "a town needs at least one lot")
+    wave = data["wave"] or {}
+    return Town(data["name"] or path.stem, path, tuple(_lot(name, lot, path) for name, lot in data["lots"].items()), **wave)
+
+
+def _lot(name, entry, path):
+    where = f"{entry.at('house')}: town.lots.{name}.house"
+    if entry["snow"] is not None:
+        require_snow_depth(entry["snow"], f"{entry.at('snow')}: town.lots.{name}.snow")
+    beside = path.parent / entry["house"]
+    try:
+        found = beside if is_file(beside) else house_path(entry["house"])
+    except HouseError as problem:
+        raise HouseError(f"{where}: {problem}") from None
+    return Lot(name, str(found), entry["x"], entry["y"], entry["rotation"], entry["snow"], where)
+
+
+def check_places(placed):
+    """Raise HouseError when two houses overlap in plan. placed: list of (Lot, HouseModel)"""
+    outlines = [(lot, lot.outline(model)) for lot, model in placed]
+    reach = [(corners.mean(0), np.linalg.norm(corners - corners.mean(0), axis=1).max()) for _, corners in outlines]
+    for k, (lot, corners) in enumerate(outlines):
+        for (other, others), (centre, radius) in zip(outlines[:k], reach[:k]):
+            near = np.linalg.norm(reach[k][0] - centre) < reach[k][1] + radius
+            if near and _overlap(corners, others):
+                raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}: move it by x or y, or turn it")
+
+
+def _overlap(a, b):
+    """Whether two rectangles (4, 2) overlap: no direction of their sides separates them."""
+    for corners in (a, b):
+        for side in (corners[1] - corners[0], corners[2] - corners[1]):
+            if (a @ side).max() <= (b @ side).min() or (b @ side).max() <= (a @ side).min():
+                return False
+    return True

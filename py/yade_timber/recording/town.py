@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Recorded frames of the lots of a town -> frames of the town, for its pictures and its player. Needs no YADE."""
+import numpy as np
+
+from . import frames, verdict
+from .history import History
+
+MOST_PLACEMENTS = 4_000_000
+"""Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has some 30 MB."""
+
+SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
+"""Kinds of events of a lot that are events of the town."""
+
+
+def summary(name, found):
+    """Summary of a town for sentences and pictures. found: {name of a lot: its summary}"""
+    events = [{**event, "what": f"{lot}: {event['what']}"} for lot, one in found.items() for event in one["events"] if event["kind"] in SHOWN]
+    found = list(found.values())
+    worst = max((verdict.STATES.index(lot["verdict"]) for lot in found), default=0)
+    return {
+        "model": name,
+        "verdict": verdict.STATES[worst],
+        "verdicts": [lot["verdict"] for lot in found],
+        "collapsed": any(lot["collapsed"] for lot in found),
+        "collapse_time_s": min((lot["collapse_time_s"] for lot in found if lot["collapsed"]), default=None),
+        "tilt_time_s": min((lot["tilt_time_s"] for lot in found if lot["tilt_time_s"] is not None), default=None),
+        "dt": found[0]["dt"],
+        "record": found[0]["record"],
+        "versions": found[0]["versions"],
+        "events": sorted(events, key=lambda event: event["time_s"]),
+    }
+
+
+def town_frames(name, lots):
+    """Frames of a town, without the grounds and contacts of its lots.
+
+    lots: list of (name, (3, 3) axes of the house as columns, (3,) place [m], Frames of an ended run)
+    """
+    placed = [_Lot(*lot) for lot in lots]
+    longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
+    count = sum(len(lot.kept) for lot in placed)
+    stride = -(-count * len(longest.time) // MOST_PLACEMENTS)
+    numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
+    offsets, first_joints = ([0, *np.cumsum(sizes)] for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed]))
+    made = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    made.time = [longest.time[k] for k in numbers]
+    for k in numbers:
+        states = [lot.state(k) for lot in placed]
+        for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
+            getattr(made, key).append(values)
+    made.motion = _motion(placed)
+    made.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
+    made.history = History(("time [s]",), np.empty((0, 1)))
+    made.breaks = _breaks(placed, first_joints)
+    return made
+
+
+class _Lot:
+    """A lot with the elements that the town keeps: all but the ground."""
+
+    def __init__(self, name, axes, place, run):
+        self.name, self.axes, self.place, self.run = name, np.asarray(axes), np.asarray(place, float), run
+        held = {*map(int, run.joints.a), *map(int, run.joints.b)}
+        self.kept = [k for k, kind in enumerate(run.elements.kind) if kind != "ground" or k in held]
+        half = np.arctan2(self.axes[1, 0], self.axes[0, 0]) / 2
+        self.turn = np.cos(half), np.sin(half)  # w, z of the quaternion
+
+    def placed(self, position):
+        return np.asarray(position, float)[self.kept] @ self.axes.T + self.place
+
+    def turned(self, orientation):
+        """Quaternions w, x, y, z, turned about the vertical."""
+        w, x, y, z = np.asarray(orientation, float)[self.kept].T
+        c, s = self.turn
+        return np.column_stack([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w])
+
+    def state(self, k):
+        """Positions, orientations, loads and broken springs in a frame; the last frame of a run that ended earlier."""
+        run, k = self.run, min(k, len(self.run.time) - 1)
+        return self.placed(run.position[k]).astype("f4"), self.turned(run.orientation[k]).astype("f4"), run.load[k], run.broken[k]
+
+
+def _elements(lots):
+    parts = [(lot, lot.run.elements) for lot in lots]
+
+    def taken(key):
+        return [getattr(e, key)[k] for lot, e in parts for k in lot.kept]
+
+    return frames.Elements(
+        name=[f"{lot.name}.{e.name[k]}" for lot, e in parts for k in lot.kept],
+        group=[f"{lot.name}.{e.group[k]}" for lot, e in parts for k in lot.kept],
+        **{key: taken(key) for key in ("kind", "material", "vertices", "faces")},
+        **{key: np.array(taken(key)) for key in ("storey", "fixed")},
+        position=np.concatenate([lot.placed(e.position) for lot, e in parts]),
+        orientation=np.concatenate([lot.turned(e.orientation) for lot, e in parts]),
+    )
+
+
+def _joints(lots, offsets):
+    """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
+    parts = [lot.run.joints for lot in lots]
+    ends = {key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)] for key in ("a", "b")}
+    return frames.Joints(
+        name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
+        **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey", "side")},
+        **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
+        **{key: np.concatenate([getattr(j, key) for j in parts]) for key in ("anchor", "springs", "damaged", "strength")},
+    )
+
+
+def _motion(lots):
+    """Motion of the lot that the wave reaches first, in the axes of the town; None without an earthquake."""
+    first = min((lot for lot in lots if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
+    if first is None:
+        return None
+    given = first.run.motion
+    return frames.Motion(given.dt, given.start, given.acceleration @ first.axes.T, given.displacement @ first.axes.T)
+
+
+def _breaks(lots, first_joints):
+    """Breaks of all lots in the order of time. first_joints: number of the first joint of each lot"""
+    columns = list(lots[0].run.breaks)
+    rows = [[value + first if key == "joint" else value for key, value in zip(columns, row)]
+            for lot, first in zip(lots, first_joints) for row in zip(*(lot.run.breaks[key] for key in columns))]
+    rows.sort(key=lambda row: row[columns.index("time")])
+    return {key: [row[k] for row in rows] for k, key in enumerate(columns)}

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A town in this YADE process: a Run for each lot, in a scene and a folder of its own, on all threads.
+
+The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data stay in the processor's cache:
+time and memory per element do not depend on the number of houses.
+"""
+import signal
+import time
+from contextlib import contextmanager
+
+import yade.wrapper as yw
+
+from .. import _plugin
+from ..base.atomic_write import write_text
+from ..base.errors import InputError, RunError
+from ..base.table import csv_text
+from ..house.town import check_places
+from ..pictures import all_pictures
+from ..recording import frames
+from ..recording import town as recording
+from ..recording.sentences import largest_drift, sentence
+from .cli import prepare_folder
+from .runner import STOP_SIGNALS, Interrupted, Run
+from .town_progress import TownProgress
+
+HOUSES = "houses.csv"
+NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
+"""Files in the folder of a town; those of a lot are in the folder lots/<name of the lot>."""
+
+O = yw.Omega()
+
+
+class TownRun:
+    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, Output), one a lot; output: Output of the town"""
+
+    def __init__(self, town, plans, output):
+        self.town, self.output = town, output
+        self.signal = None
+        self.wall_s = 0.0  # [s] of all steps since the start of this process
+        self.runs, self.scenes = [], []
+        for lot, (scenario, lot_output) in zip(town.lots, plans):
+            prepare_folder(lot_output.folder)
+            with named(lot):
+                self.runs.append(Run(scenario, lot_output))
+            self.scenes.append(O._sceneObj)
+        check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
+        O.reset()
+        self.idle = O._sceneObj
+        try:
+            for name in NAMES:
+                (output.folder / name).unlink(missing_ok=True)
+        except OSError as problem:
+            raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
+
+    @contextmanager
+    def _of(self, number):
+        """Context in which the scene of a lot is YADE's current one; gives its Run."""
+        before = _plugin.swap_scene(self.scenes[number])
+        try:
+            with named(self.town.lots[number]):
+                yield self.runs[number]
+        finally:
+            _plugin.swap_scene(before)
+
+    # --- steps --------------------------------------------------------------------------------------------------------
+
+    def complete(self):
+        """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
+        handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
+        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.output.quiet) as progress:
+            active = self._first_steps()
+            while active:
+                active = self._chunk(active)
+                progress.update([scene.time for scene in self.scenes])
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        self.write()
+
+    def _on_signal(self, number, _frame):
+        self.signal = number
+
+    def _first_steps(self):
+        """The first step of each lot, in which its engines check the scene; returns the numbers of the lots that have more."""
+        active = []
+        for number in range(len(self.runs)):
+            with self._of(number) as run:
+                if O.iter < run.steps:
+                    active.append(number)
+                if O.iter + 1 < run.next_stop():
+                    run.advance(O.iter + 1)
+        return active
+
+    def _chunk(self, active):
+        """The steps of some lots to their next frames; returns the numbers of those that have more."""
+        stops = []
+        for number in active:
+            with self._of(number) as run:
+                stops.append(run.next_stop())
+        since = time.perf_counter()
+        made = _plugin.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
+        self.wall_s += time.perf_counter() - since
+        left = []
+        for number, (seconds, error) in zip(active, made):
+            with self._of(number) as run:
+                if error:
+                    raise RunError(f"{error}; the run stops at {O.time:.4f} s without results")
+                run.wall_s += seconds
+                run.after_chunk()
+                if O.iter < run.steps:
+                    left.append(number)
+        if self.signal:
+            self._stop(left)
+        return left
+
+    def _stop(self, active):
+        """Save the lots that have more steps and end the run."""
+        for number in active:
+            with self._of(number) as run:
+                run.save()
+        raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
+
+    # --- results ------------------------------------------------------------------------------------------------------
+
+    def write(self):
+        """Write the results of all lots, the table of houses, and the pictures of the town."""
+        for number in range(len(self.runs)):
+            with self._of(number) as run:
+                run.write()
+        for lot, run in zip(self.town.lots, self.runs):
+            self.report(f"{lot.name}: {sentence(run.summary)}")
+        written = self._results()
+        self.report(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
+        self.report("written: " + ", ".join(map(str, [*written, self.output.folder / "lots"])))
+
+    def report(self, text):
+        """Print a line, unless the run is quiet."""
+        if not self.output.quiet:
+            print(text, flush=True)
+
+    def _results(self):
+        folder = self.output.folder
+        try:
+            written = [folder / HOUSES]
+            write_text(written[0], self.table())
+            if not self.output.frames:
+                return written
+            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in zip(self.town.lots, self.runs)]
+            written.append(folder / frames.NAME)
+            frames.save(written[-1], recording.town_frames(self.town.name, recorded))
+            return written + (all_pictures.write(folder) if self.output.views else [])
+        except OSError as problem:
+            raise RunError(f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
+
+    def table(self):
+        """Text of houses.csv."""
+        rows = []
+        for lot, run in zip(self.town.lots, self.runs):
+            found, scenario = run.summary, run.scenario
+            drift, residual = largest_drift(found)[0], largest_drift(found, "residual_drift")[0]
+            place = lot.name, found["model"], lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
+            times = ["" if found[key] is None else found[key] for key in ("tilt_time_s", "collapse_time_s")]
+            joints = found["broken"]["total"], found["joints"]["total"]
+            rows.append((*place, found["verdict"], drift, residual, *times, *joints, round(run.wall_s, 3), sentence(found)))
+        return csv_text(COLUMNS, rows)
+
+
+COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "peak drift [-]", "residual drift [-]", "tilt [s]",
+           "collapse [s]", "broken joints", "joints", "computing time [s]", "sentence")
+"""Of houses.csv."""
+
+
+@contextmanager
+def named(lot):
+    """Context in which errors name the lot."""
+    try:
+        yield
+    except InputError as problem:
+        text = str(problem)
+        if text.startswith(lot.where.rpartition(": ")[0]):
+            raise
+        raise RunError(f"lot {lot.name}: {text}") from None

@@ -1,0 +1,116 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Town files: places, delays, rotation, misuse. Needs no YADE."""
+import numpy as np
+import pytest
+
+from yade_timber.house import HouseError, build_house, load_house, load_town
+from yade_timber.house.town import Lot, check_places
+from yade_timber.motion import GroundMotion
+
+GOOD = """name: harbour
+wave: {velocity: 500, direction: 90}
+lots:
+  west: {house: A, x: -100, y: 3}
+  east: {house: own.yaml, x: 150, y: 0, rotation: 90, snow: 0.5}
+"""
+
+
+@pytest.fixture
+def town(tmp_path):
+    """Writes a town file beside own.yaml and returns its path."""
+    (tmp_path / "own.yaml").write_text("extends: B\nname: own\n")
+
+    def write(text):
+        path = tmp_path / "town.yaml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def test_lots_in_the_order_of_the_file(town):
+    found = load_town(town(GOOD))
+    west, east = found.lots
+    assert (found.name, west.name, east.name) == ("harbour", "west", "east")
+    assert (west.x, west.y, west.rotation, west.snow) == (-100, 3, 0, None)
+    assert (east.rotation, east.snow) == (90, 0.5)
+    assert load_house(east.house).name == "own"
+
+
+def test_delay_is_distance_along_the_direction_over_velocity(town):
+    assert load_town(town(GOOD)).delays() == [0, pytest.approx(250 / 500)]
+    north = GOOD.replace("direction: 90", "direction: 0")
+    assert load_town(town(north)).delays() == [pytest.approx(3 / 500), 0]
+    west = GOOD.replace("direction: 90", "direction: 270")
+    assert load_town(town(west)).delays() == [pytest.approx(250 / 500), pytest.approx(0, abs=1e-12)]
+
+
+def test_without_a_wave_all_houses_shake_at_once(town):
+    assert load_town(town(GOOD.replace("wave: {velocity: 500, direction: 90}\n", ""))).delays() == [0, 0]
+
+
+def test_motion_in_the_axes_of_a_turned_house():
+    """A house turned by 90 degrees counter-clockwise: its x axis points north, so the town's north component acts along x."""
+    motion = GroundMotion(0.01, [[1.0, 2.0, 3.0]] * 4)
+    assert Lot("", "A", 0, 0, 0).motion(motion) is motion
+    for rotation, expected in ((90, (2, -1, 3)), (180, (-1, -2, 3)), (-90, (-2, 1, 3)), (360, (1, 2, 3)), (-270, (2, -1, 3))):
+        assert Lot("", "A", 0, 0, rotation).motion(motion).acceleration.tolist() == [list(expected)] * 4  # exact for right angles
+    turned = Lot("", "A", 0, 0, 30).motion(motion).acceleration
+    assert np.linalg.norm(turned[0]) == pytest.approx(np.sqrt(14))
+
+
+def test_the_middle_of_the_plan_is_at_the_place():
+    model = build_house(load_house("l_house"))
+    for rotation in (0, 90, 37):
+        lot = Lot("", "l_house", 5, -7, rotation)
+        assert lot.outline(model).mean(0) == pytest.approx([5, -7])
+        points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"]) @ lot.axes.T + lot.origin(model)
+        assert (points[:, :2].min(0) > lot.outline(model).min(0) - 1e-9).all()  # rounding
+        assert (points[:, :2].max(0) < lot.outline(model).max(0) + 1e-9).all()
+
+
+def test_overlapping_houses_are_refused(town):
+    model = build_house(load_house("A"))
+
+    def place(x, rotation=0):
+        return Lot("b", "A", x, 0, rotation, where="town.yaml:3: town.lots.b.house"), model
+
+    first = (Lot("a", "A", 0, 0), model)
+    width = np.ptp(first[0].outline(model)[:, 0])
+    check_places([first, place(width + 0.01)])
+    with pytest.raises(HouseError, match="^town.yaml:3: town.lots.b: the house overlaps that of lot a"):
+        check_places([first, place(width - 0.01)])
+    with pytest.raises(HouseError, match="overlaps"):
+        check_places([first, place(width + 0.01, rotation=45)])
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("velocity: 500", "velocity: 5", r"town.yaml:2: town.wave.velocity: must be a number in \[50, 20000\] m/s, got 5$"),
+        ("direction: 90", "direction: north", r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
+        (", direction: 90", "", r"town.yaml:2: town.wave: key 'direction' is missing$"),
+        ("x: -100", "x: 1e6", r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
+        ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*shipped houses are A, B"),
+        ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
+        ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),
+        ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 20\] m, got 1e-09$"),
+        ("  west:", "  ../west:", r"town.yaml:4: town.lots: '../west' is not a valid name"),
+        ("  east:", "  west:", r"town.yaml:5: key 'west' is given twice \(first in line 4\); remove one$"),
+        ("lots:", "houses:", r"town.yaml:3: town: unknown key 'houses', known: name, wave, lots$"),
+    ],
+)
+def test_misuse_is_one_line_with_file_and_line(town, old, new, message):
+    with pytest.raises(HouseError, match=message) as problem:
+        load_town(town(GOOD.replace(old, new)))
+    assert "\n" not in str(problem.value)
+
+
+def test_no_lots_and_no_file(town, tmp_path):
+    with pytest.raises(HouseError, match="town.lots: a town needs at least one lot"):
+        load_town(town("lots: {}\n"))
+    with pytest.raises(HouseError, match="no such regular file; give a town file"):
+        load_town(tmp_path / "none.yaml")
+    with pytest.raises(HouseError, match="1001 entries; at most 1000"):
+        load_town(town("lots:\n" + "".join(f"  h{k}: {{house: A, x: {20 * k % 19000}, y: 0}}\n" for k in range(1001))))
