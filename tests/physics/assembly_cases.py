@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 6: weight, equilibrium, arches and frames, against statics and the linear model of planar_frame.py, at the default time step."""
+"""Item 6: weight, equilibrium, arches and frames, against statics and the linear model of planar_frame.py.
+
+At half the default time step: with the default, stacks and wedges keep 1e-8 J, as the sweeps end before they converge.
+"""
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
@@ -10,11 +13,12 @@ from rows import Registry, Row
 from scipy.optimize import brentq
 from undamped import undamp
 from yade.minieigenHP import Vector3
-from yade_timber.base.time_step import DEFAULT_DT as DT
+from yade_timber.base.time_step import DEFAULT_DT
 from yade_timber.scene import engines, scenario
 
 case = Registry()
 O = yw.Omega()
+DT = DEFAULT_DT / 2
 
 
 def weight():

@@ -161,8 +161,9 @@ class TownPlan:
 def read_town(argv):
     """Command line (as sys.argv) of scripts/town.py -> (TownPlan, Output). Raises RunError, RecordError, HouseError."""
     given = town_parser().parse_args(_joined(argv[1:]))
-    if given.export:
-        raise RunError("--export: a scene has one house; use scripts/house.py")
+    for option in ("export", "ensemble", "disturb"):
+        if getattr(given, option) is not None:
+            raise RunError(f"--{option}: not for towns; run a house with scripts/house.py")
     town = load_town(given.file)
     shaken = given.quake or given.record is not None or given.seed is not None
     scenario, output = _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
