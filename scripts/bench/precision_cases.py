@@ -142,7 +142,7 @@ STEP_CASES = {
     "rocking block": StepCase(build_rocking, path, 1.0, 2e-6, 5e-5, SAMPLE / 64, False),
     "jointed frame": StepCase(build_frame, drifts, 1.0, 2e-6, 5e-5, SAMPLE / 8, True),
     "standing house C": StepCase(build_house("C", UNBREAKABLE, start=17.2), drifts, 1.2, 2.5e-5, 2e-5, SAMPLE / 8, True),
-    "collapsing house A": StepCase(build_house("A"), drifts, 2.0, 2.5e-5, 2e-5, SAMPLE / 8, False),
+    "collapsing house A": StepCase(build_house("A"), drifts, 1.6, 5e-5, 2e-5, SAMPLE / 8, False),
     "falling house C": StepCase(build_fall, height, 0.7, 2.5e-5, 2e-5, SAMPLE / 8, False),
 }
 
