@@ -47,9 +47,10 @@ SHAKEN = 1.5
 """Duration of strong shaking for the energy balance [s]."""
 CONCLUSION = (
     "The package keeps the fixed step: for houses, the chosen one is slower at equal error. "
+    "The runs of houses last 0.7 to 1.6 s; the reference of house A has an error of 0.24 % itself. "
     "A longer step needs more sweeps: doubling the default step saves a part of the work only (factors above). "
     "The stability of the joints' springs limits every step to 1e-3 s, and changes from and to such long steps gain energy (last table). "
-    "The time before the shaking needs no longer step either: RestSkipper computes one of many steps at rest. "
+    "Before the shaking RestSkipper computes one of many steps anyway. "
     "A block, a frame and a falling house gain from steps that shorten before the impact, but the estimate of the last millisecond shortens them after it."
 )
 COLORS = {"fixed": "tab:blue", "chosen": "tab:orange", "foreseen": "tab:green", "explicit": "tab:red"}
@@ -249,7 +250,7 @@ def verdict(rows):
             spread = f"median of {len(found)} runs of houses, {min(found):.2f} to {max(found):.2f}"
             text.append(f"At equal error, {kind} steps are {statistics.median(found):.2f} times as fast as fixed ones ({spread}).")
     bounds = ", ".join(f"{bound(rows, case):.2f} ({case})" for case in houses)
-    return " ".join(text) + f" Steps of {FIXED[-1]:g} s throughout are faster than the default step by a factor of {bounds}: no choice between these two gains more."
+    return " ".join(text) + f" Steps of {FIXED[-1]:g} s throughout are faster than the default step by a factor of {bounds}: a choice between these two steps can gain little more."
 
 
 def section(rows, changes):
