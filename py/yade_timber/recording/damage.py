@@ -2,6 +2,7 @@
 """Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no YADE.
 
 A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are counted apart, never as broken.
+A wall sheet is two joints of one spring each. It is broken when both are, partly broken when one is.
 A column is lost when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
 """
 import math
@@ -13,6 +14,7 @@ import numpy as np
 
 from .frames import Elements, Joints, rotated
 from .verdict import TILT
+from .walls import wall_sheets
 
 SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
@@ -54,6 +56,10 @@ class DamageSurvey:
         kinds = [kind for kind, counts in zip(self.joints.kind, np.ones(len(self.joints.kind), bool) if chosen is None else chosen) if counts]
         return {"total": len(kinds), "column_beam": 0, "brace_beam": 0, **Counter(kinds)}
 
+    def count_all(self):
+        """The part `joints` of the summary: `count_joints` of all joints, and 'wall_sheets'."""
+        return {**self.count_joints(), "wall_sheets": len(wall_sheets(self.joints))}
+
     def _broken_joints(self, state):
         """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
         damaged = np.asarray(self.joints.damaged, bool)
@@ -61,9 +67,10 @@ class DamageSurvey:
         return broken, ~damaged & ~broken & (state.broken > 0)
 
     def count_broken(self, state, springs):
-        """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
+        """The part `broken` of the summary. springs: number of springs that broke. A joint of two sides of the house counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
         broken, partly = self._broken_joints(state)
+        halves = [broken[sheet] for sheet in wall_sheets(self.joints)]
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         return {
@@ -74,6 +81,8 @@ class DamageSurvey:
                 name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()
             },
             "partly_broken": int(partly.sum()),
+            "wall_sheets": sum(bool(pair.all()) for pair in halves),
+            "wall_sheets_partly": sum(bool(pair.any() and not pair.all()) for pair in halves),
             "springs": springs,
             "damaged_at_start": self.count_joints(damaged),
         }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results as sentences for people. A summary is the content of summary.json. Needs no YADE."""
 from . import verdict
+from .walls import WALL_KINDS
 
 DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
 """Limits of storey drifts and their meaning. [-]"""
@@ -107,14 +108,33 @@ def structure(name, facts, found):
 
 
 def joints(found):
-    """Broken and partly broken joints."""
+    """Broken and partly broken joints and wall sheets."""
     broken = found["broken"]
-    text = f"{broken['total']} of {found['joints']['total']} joints broken"
-    if broken.get("partly_broken"):
-        text += f", {broken['partly_broken']} partly"
+    text = broken_of(*joints_and_sheets(found))
+    partly = broken.get("partly_broken", 0) + broken.get("wall_sheets_partly", 0)
+    if partly:
+        text += f", {partly} partly"
     if broken["damaged_at_start"]["total"]:
         text += f" ({broken['damaged_at_start']['total']} more from the start)"
     return text
+
+
+def joints_and_sheets(found):
+    """((broken, all) of the joints without those of walls, (broken, all) of the wall sheets) of a summary."""
+    counts = found["broken"], found["joints"]
+    return tuple(map(_without_walls, counts)), tuple(part.get("wall_sheets", 0) for part in counts)
+
+
+def _without_walls(counts):
+    """Number of joints without those of walls. counts: `joints` or `broken` of a summary; one without `wall_sheets` has them among the joints."""
+    walls = sum(counts.get(kind, 0) for kind in WALL_KINDS) if "wall_sheets" in counts else 0
+    return counts["total"] - walls
+
+
+def broken_of(joints, sheets):
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some."""
+    walls = f" and {sheets[0]} of {counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
+    return f"{joints[0]} of {joints[1]} joints{walls} broken"
 
 
 def columns(found):
