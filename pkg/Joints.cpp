@@ -56,6 +56,7 @@ void TimberJoint::validateLaw() const
 
 void TimberJoint::postLoad(TimberJoint&)
 {
+	isSlip = law == "slip";
 	validate();
 	if (anchors1.empty() || anchors2.empty()) return;
 	broken.resize(anchors1.size(), 0);

@@ -20,6 +20,8 @@ namespace serialization {
 namespace yade {
 
 class TimberJoint : public Serializable {
+	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
+
 public:
 	void postLoad(TimberJoint&);
 	void validate() const;
@@ -32,7 +34,7 @@ public:
 	boost::python::list pySprings() const;
 	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
 	timber::JointSprings springs() { return { anchors1, anchors2, broken, stretches, forces }; }
-	bool yields() const { return law == "slip"; }
+	bool yields() const { return isSlip; }
 	/// Law of a spring that yields; perJoint: with its share of the joint's stiffness and strength.
 	timber::SlipLaw slipLaw() const;
 	/// Axis of springs that yield along the normal only (ks = 0), else zero. [-]

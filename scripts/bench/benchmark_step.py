@@ -26,7 +26,7 @@ O = yw.Omega()
 
 EMPTY, HOUSE, DEFAULT = "empty step", "whole step", "empty step, collider in each step"
 SKIPPED = "at rest, as in runs (RestSkipper)"
-REST = 4.0
+REST = 8.0
 """Simulated time until RestSkipper skips steps [s]."""
 STRIDES = 100
 """Strides of RestSkipper in a block. The last one, in which YADE stops, is not skipped."""
