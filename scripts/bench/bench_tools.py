@@ -31,7 +31,7 @@ SETTLING = 1.0
 """Simulated time before the measurement in one of STATES [s]."""
 STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """{state: start of the run in the time of the ground motion [s]}."""
-SECTIONS = ("step", "profile", "skips", "peers", "street", "town", "precision")
+SECTIONS = ("step", "profile", "skips", "peers", "street", "town", "precision", "chosen")
 """Sections of the page, in order."""
 
 

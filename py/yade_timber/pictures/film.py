@@ -136,7 +136,8 @@ class Reel(Image.Image):
         """Draw a picture."""
         if frame != self.number:
             image = Image.fromarray(np.ascontiguousarray(self.drawn.at(self.times[frame])))
-            self.im, self._size, self._mode, self.mode, self.number = image.im, image.size, "RGB", "RGB", frame
+            self.__dict__.update(image.__dict__)  # pixels, size and mode, which are read-only properties since Pillow 10.1
+            self.number = frame
 
     def tell(self):
         return self.number

@@ -150,7 +150,7 @@ class Canvas:
 
     def depths(self):
         """(height, width) float32, 0 near to 1 far, the first row at the top."""
-        return np.frombuffer(self.frame.read(attachment=-1, dtype="f4", alignment=1), "f4").reshape(self.size[::-1])[::-1]
+        return np.frombuffer(self.frame.read(components=1, attachment=-1, dtype="f4", alignment=1), "f4").reshape(self.size[::-1])[::-1]
 
 
 @once_per_thread
