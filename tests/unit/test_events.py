@@ -165,22 +165,22 @@ def test_sentence(changes, expected, absent):
 
 def test_wall_sheets_are_counted_apart():
     """Three sheets: one has lost both springs, one half of them, one none; and a joint with four springs is broken."""
-    run = frames_sample.run(until=1.0)
-    run.joints.kind[:6] = ["wall_beam", "wall_column"] * 3
-    run.joints.name[:6] = [f"main.wall1.NS.x{bay}.0-1.plywood.{half}" for bay in range(3) for half in ("beams", "columns")]
-    run.joints.springs[:6], run.joints.damaged[:] = 1, False
+    run = frames_sample.walled_run()
     broken = np.array([1, 1, 1, 0, 0, 0, 4, 0])
     state = State(run.position[0], run.orientation[0], broken)
     found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=7)}
-    assert (found["joints"]["total"], found["joints"]["wall_sheets"]) == (8, 3)
-    assert [found["broken"][key] for key in ("total", "wall_sheets", "wall_sheets_partly", "partly_broken")] == [4, 1, 1, 0]
+    assert (found["joints"]["total"], found["joints"]["wall_sheets"]) == (2, 3)
+    assert [found["broken"][key] for key in ("total", "wall_sheets", "wall_sheets_partly", "partly_broken")] == [1, 1, 1, 0]
     assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence({**copy.deepcopy(STANDING), **found})
     assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
-def test_a_summary_without_wall_sheets_counts_all_as_joints():
-    found = {"joints": {"total": 8, "wall_beam": 3, "wall_column": 3}, "broken": {**STANDING["broken"], "total": 3, "wall_beam": 2, "wall_column": 1}}
-    assert "; 3 of 8 joints broken" in sentence({**copy.deepcopy(STANDING), **found})
+def test_a_house_without_walls_has_no_wall_sheets():
+    run = frames_sample.run(until=1.0)
+    state = State(run.position[0], run.orientation[0], np.array([0, 4, 4, 0, 0, 0, 0, 0]))
+    found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=8)}
+    assert "wall_sheets" not in found["joints"] and not any("wall" in key for key in found["broken"])
+    assert "; 2 of 8 joints broken (1 more from the start)" in sentence({**copy.deepcopy(STANDING), **found})
 
 
 @pytest.mark.parametrize("changes, state", [

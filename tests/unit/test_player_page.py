@@ -125,6 +125,18 @@ def test_it_plays_by_itself_unless_the_user_wants_no_motion(driver, pages):
     assert errors(driver) == []
 
 
+def test_wall_sheets_are_counted_apart(driver, tmp_path):
+    page = player.make([("walled", frames_sample.walled_run())], tmp_path / "walled.html")
+    load(driver, f"file://{page}#t=2.45", motion=False)
+    now = driver.find_element("class name", "now")
+    assert now.text.endswith("0 of 2 joints and 2 of 3 wall sheets broken, 1 partly")
+    ask(driver, "player.seek(2.65)")
+    assert now.text.endswith("1 of 2 joints and 3 of 3 wall sheets broken")
+    assert "joint or wall broken" in driver.find_element("tag name", "body").text
+    assert driver.find_element("class name", "result").text.count("2 of 2 joints and 3 of 3 wall sheets broken") == 1
+    assert errors(driver) == []
+
+
 def test_two_runs_in_step(driver, pages):
     load(driver, pages[1] + "#t=2.5", motion=False)
     for time in (2.5, 2.875, 3.6):

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
 from .members import DIRECTION, column_plan
@@ -31,8 +32,6 @@ OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (JBDPA, precise diagnosis of 2004). [-]"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
-KINDS = ("wall_beam", "wall_column")
-"""Kinds of joints: between beams, between columns."""
 
 
 @dataclass(frozen=True)
@@ -155,8 +154,8 @@ def _joints(bay, name, members, data):
     columns = _values(bay, data["wall_types"][name], bay.length, bay.height / bay.length)
     common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side,
                   group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"])
-    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=KINDS[0], label=f"{label}.beams", **beams, **common),
-            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=KINDS[1], label=f"{label}.columns", **columns, **common)]
+    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams", **beams, **common),
+            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=WALL_COLUMN, label=f"{label}.columns", **columns, **common)]
 
 
 def _values(bay, table, lever, ratio):

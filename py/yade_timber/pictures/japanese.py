@@ -23,7 +23,7 @@ def title(found):
 def result(found):
     """Outcome of a summary: place in an ensemble, collapse or peak drift, residual drift, joints, columns."""
     (broken, joints), (torn, sheets) = joints_and_sheets(found)
-    columns, walls = found.get("columns", {}), f"、壁の面材 {sheets} 枚のうち {torn} 枚" if sheets else ""
+    columns, walls = found.get("columns", {}), f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
     parts = [outcome(found), f"接合部 {joints} か所のうち {broken} か所{walls}が破断"]
     if columns.get("fallen"):
         parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")

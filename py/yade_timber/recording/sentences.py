@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results as sentences for people. A summary is the content of summary.json. Needs no YADE."""
 from . import verdict
-from .walls import WALL_KINDS
 
 DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
 """Limits of storey drifts and their meaning. [-]"""
@@ -120,21 +119,15 @@ def joints(found):
 
 
 def joints_and_sheets(found):
-    """((broken, all) of the joints without those of walls, (broken, all) of the wall sheets) of a summary."""
+    """((broken, all) of the joints, (broken, all) of the wall sheets) of a summary; (0, 0) in a house without walls."""
     counts = found["broken"], found["joints"]
-    return tuple(map(_without_walls, counts)), tuple(part.get("wall_sheets", 0) for part in counts)
+    return tuple(tuple(part.get(key, 0) for part in counts) for key in ("total", "wall_sheets"))
 
 
-def _without_walls(counts):
-    """Number of joints without those of walls. counts: `joints` or `broken` of a summary; one without `wall_sheets` has them among the joints."""
-    walls = sum(counts.get(kind, 0) for kind in WALL_KINDS) if "wall_sheets" in counts else 0
-    return counts["total"] - walls
-
-
-def broken_of(joints, sheets):
-    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some."""
-    walls = f" and {sheets[0]} of {counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
-    return f"{joints[0]} of {joints[1]} joints{walls} broken"
+def broken_of(joints, sheets, of=" of "):
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of: between two numbers"""
+    walls = f" and {sheets[0]}{of}{counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
+    return f"{joints[0]}{of}{joints[1]} joints{walls} broken"
 
 
 def columns(found):

@@ -43,5 +43,5 @@ class Progress:
         known = self.log.survey.joints
         broken = np.array([joint.isBroken for joint in joints[:len(known.damaged)]], bool) & ~known.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken_of(*count_apart(known, broken))}", refresh=False)
+        self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken_of(*count_apart(known, broken), of='/')}", refresh=False)
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)
