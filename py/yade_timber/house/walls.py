@@ -25,11 +25,12 @@ ALLOWABLE = 1960.0
 """Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article 46)"""
 STRENGTH_RATIO, STIFFNESS_RATIO = 1.5, 150.0
 """Least strength over the allowable shear [-], least stiffness over it [1/rad], by which wall tests give a multiplier: two thirds of the largest
-load, and the load at a drift of 1/150."""
+load, and the load at a drift of 1/150 (sources and assumptions: docs/house_files.md)."""
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
-"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (JBDPA, precise diagnosis of 2004). [-]"""
+"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA, precise diagnosis of 2004;
+stiffness: assumed to be the same). [-]"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
 
