@@ -38,19 +38,32 @@ export class Panel {
 
   /** Show the state at a time: drift, broken joints, past events, direction of north. */
   update(t, view) {
-    const { info, joints } = this.run;
+    const { info } = this.run;
     const down = info.collapse !== null && t >= info.collapse;
     const drift = info.drifts.length ? ratio(driftAt(this.run, t)) : "";
-    const [partly, broken, end] = [this.run.count(STATE.partly), this.run.count(STATE.broken), this.run.end.toFixed(1)];
+    const end = this.run.end.toFixed(1);
+    const broken = brokenParts(this.run);
     const over = t > this.run.end + 1e-6;
     const enlarged = this.run.exaggeration === 1 ? "" : `${tr("Movement")} ${this.run.exaggeration}×, `;
-    const english = `${enlarged}${over ? `recorded up to ${end} s: ` : ""}${down ? "collapsed, " : drift && `storey drift ${drift}, `}${broken} of ${joints} joints broken${partly ? `, ${partly} partly` : ""}`;
-    const japanese = `${enlarged}${over ? `記録は ${end} 秒まで：` : ""}${down ? "倒壊、" : drift && `層間変形角 ${drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上")}、`}接合部 ${joints} のうち ${broken} が破断${partly ? `、一部破断 ${partly}` : ""}`;
+    const english = `${enlarged}${over ? `recorded up to ${end} s: ` : ""}${down ? "collapsed, " : drift && `storey drift ${drift}, `}${broken.english}`;
+    const japanese = `${enlarged}${over ? `記録は ${end} 秒まで：` : ""}${down ? "倒壊、" : drift && `層間変形角 ${drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上")}、`}${broken.japanese}`;
     setText(this.now, current() === "ja" ? japanese : english);
     setText(this["camera-name"], tr(view.title));
     this.needle.style.transform = `rotate(${(view.azimuth + Math.PI / 2).toFixed(3)}rad)`;
     for (const { time, button } of this.events) button.classList.toggle("past", time <= t + 1e-6);
   }
+}
+
+/** Texts about the broken joints and wall sheets of a run at its current time, as recording/sentences.py has them: { english, japanese }. */
+function brokenParts(run) {
+  const [joints, broken, sheets, torn] = [run.joints - run.apart.size, run.count(STATE.broken), run.sheets.length, run.countSheets()];
+  const partly = run.count(STATE.partly) + run.countSheetsPartly();
+  const walls = sheets ? ` and ${torn} of ${sheets} wall sheet${sheets === 1 ? "" : "s"}` : "";
+  const wallsJapanese = sheets ? `、壁面 ${sheets} のうち ${torn}` : "";
+  return {
+    english: `${broken} of ${joints} joints${walls} broken${partly ? `, ${partly} partly` : ""}`,
+    japanese: `接合部 ${joints} のうち ${broken}${wallsJapanese} が破断${partly ? `、一部破断 ${partly}` : ""}`,
+  };
 }
 
 function setText(place, text) {
@@ -63,9 +76,10 @@ function ratio(drift) {
   return drift > 0.5 ? "over 1/2" : `1/${Math.round(1 / drift)}`;
 }
 
+const [BROKEN_JOINT, BROKEN_WALL] = ["joint broken (pale: hidden)", "joint or wall broken (pale: hidden)"];
 const MARKS = {
   partly: ["joint partly broken", "path", { d: "M8 2.5 14.5 13.5H1.5Z", fill: DAMAGE_COLORS.partly, stroke: "#141414", "stroke-width": 1.4 }],
-  broken: ["joint broken (pale: hidden)", "path", { d: "M3 3 13 13M13 3 3 13", stroke: DAMAGE_COLORS.broken, "stroke-width": 4 }],
+  broken: [BROKEN_JOINT, "path", { d: "M3 3 13 13M13 3 3 13", stroke: DAMAGE_COLORS.broken, "stroke-width": 4 }],
   before: ["broken before the start", "circle", { cx: 8, cy: 8, r: 5, fill: DAMAGE_COLORS.before, stroke: "#141414", "stroke-width": 2.4 }],
 };
 
@@ -75,9 +89,10 @@ export function legend(place, runs) {
   kinds.delete("ground");
   const boxes = Array.from(kinds, ([kind, color]) => [kind, "rect", { x: 1, y: 1, width: 14, height: 14, rx: 2, fill: color, stroke: "#4a4a4a" }]);
   const marks = Object.keys(MARKS).filter((name) => runs.some((run) => run.occurs(STATE[name])));
+  const walls = runs.some((run) => run.sheets.length);
   const bar = element("span", { className: "bar" });
   bar.style.background = `linear-gradient(90deg, ${LOAD_COLORS.join()})`;
   place.replaceChildren(element("li", { className: "loads" }, bar, tr("force in a joint: none … strength")));
   for (const [label, tag, attributes] of [...boxes, ...marks.map((name) => MARKS[name])])
-    place.append(element("li", {}, svg("svg", { width: 16, height: 16, "aria-hidden": "true" }, svg(tag, attributes)), tr(label)));
+    place.append(element("li", {}, svg("svg", { width: 16, height: 16, "aria-hidden": "true" }, svg(tag, attributes)), tr(label === BROKEN_JOINT && walls ? BROKEN_WALL : label)));
 }

@@ -53,6 +53,8 @@ export class Run {
     this.info = info;
     this.elements = info.elements.length;
     this.joints = info.joints;
+    this.sheets = info.sheets;
+    this.apart = new Set(info.sheets.flat());
     this.end = this.time.at(-1);
     this.position = new Float32Array(3 * this.elements); // at the time of the last call of `at` [m], frame of the ground
     this.orientation = new Float32Array(4 * this.elements); // x, y, z, w
@@ -152,11 +154,21 @@ export class Run {
     return Array.from({ length: to - from }, (_, i) => this.placed(k, new Vector3().fromArray(this.vertices, 3 * (from + i))));
   }
 
-  /** Current number of joints in a state. */
+  /** Current number of joints in a state, without those of wall sheets. */
   count(state) {
     let found = 0;
-    for (const one of this.joint.state) found += one === state;
+    for (let j = 0; j < this.joints; j++) found += this.joint.state[j] === state && !this.apart.has(j);
     return found;
+  }
+
+  /** Current number of wall sheets of which all joints are broken. */
+  countSheets() {
+    return this.sheets.filter((sheet) => sheet.every((j) => this.joint.state[j] === STATE.broken)).length;
+  }
+
+  /** Current number of wall sheets of which some joints are broken, but not all. */
+  countSheetsPartly() {
+    return this.sheets.filter((sheet) => sheet.some((j) => this.joint.state[j] === STATE.broken)).length - this.countSheets();
   }
 
   moveGround(t) {

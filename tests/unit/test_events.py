@@ -10,6 +10,7 @@ from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import EventLog
 from yade_timber.recording.sentences import joint_place, sentence
 from yade_timber.recording.verdict import judge, leans, passed
+from yade_timber.recording.walls import count_apart
 
 ROOF = list(frames_sample.PARTS).index("roof")
 
@@ -160,6 +161,26 @@ def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
     text = sentence({**copy.deepcopy(STANDING), **changes})
     assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
+
+
+def test_wall_sheets_are_counted_apart():
+    """Three sheets: one has lost both springs, one half of them, one none; and a joint with four springs is broken."""
+    run = frames_sample.walled_run()
+    broken = np.array([1, 1, 1, 0, 0, 0, 4, 0])
+    state = State(run.position[0], run.orientation[0], broken)
+    found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=7)}
+    assert (found["joints"]["total"], found["joints"]["wall_sheets"]) == (2, 3)
+    assert [found["broken"][key] for key in ("total", "wall_sheets", "wall_sheets_partly", "partly_broken")] == [1, 1, 1, 0]
+    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence({**copy.deepcopy(STANDING), **found})
+    assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
+
+
+def test_a_house_without_walls_has_no_wall_sheets():
+    run = frames_sample.run(until=1.0)
+    state = State(run.position[0], run.orientation[0], np.array([0, 4, 4, 0, 0, 0, 0, 0]))
+    found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=8)}
+    assert "wall_sheets" not in found["joints"] and not any("wall" in key for key in found["broken"])
+    assert "; 2 of 8 joints broken (1 more from the start)" in sentence({**copy.deepcopy(STANDING), **found})
 
 
 @pytest.mark.parametrize("changes, state", [

@@ -93,6 +93,12 @@ def test_captions_state_time_drift_and_joints():
     assert "collapsed" in words.state(3.9) and words.state(3.9).endswith("7 of 8 joints broken")
 
 
+def test_captions_count_wall_sheets_apart():
+    words = caption.Caption(frames_sample.walled_run(), (640, 360), "space", 1.0)
+    assert words.state(2.45).endswith("0 of 2 joints and 2 of 3 wall sheets broken")  # of the third sheet one joint
+    assert words.state(3.9).endswith("2 of 2 joints and 3 of 3 wall sheets broken")
+
+
 def test_webp_has_every_picture_and_time(tmp_path):
     run = frames_sample.run()
     count = film.write(tmp_path / "x.webp", [run], "front", SMALL, 1.0, 3.0)

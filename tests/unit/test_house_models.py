@@ -15,7 +15,8 @@ from scipy.integrate import quad
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, check_house, load_house, overlaps, shipped_houses, walls  # noqa: E402
+from yade_timber.base.joint_kinds import WALL_KINDS  # noqa: E402
+from yade_timber.house import build_house, check_house, load_house, overlaps, shipped_houses  # noqa: E402
 
 HOUSES = ["A", "B", "C", "B1", "B2", "C1", "C2"]
 EXAMPLES = ["storehouse", "l_house", "tiled_house"]
@@ -61,7 +62,7 @@ def test_no_overlap_and_every_joint_on_both_surfaces(name):
     model = house(name)
     report = check_house(model)
     assert report["deepest"] < 1e-9  # rounding only; observed 1e-13
-    for joint in (joint for joint in model.joints if joint.kind not in walls.KINDS):
+    for joint in (joint for joint in model.joints if joint.kind not in WALL_KINDS):
         for end, sign in ((joint.a, 1), (joint.b, -1)):
             solid = model.element(end).solid
             normals, offsets = np.array([f.normal for f in solid.faces]), np.array([f.offset for f in solid.faces])

@@ -76,6 +76,9 @@ def test_the_tiled_house():
     model = build_house(load_house("tiled_house"))
     assert 2.5 < weigh(model)["per_floor_area_kn_m2"] < 3.0
     assert model.counts()["braces"] == 0 and model.counts()["walls"] == 64
+    layers = len(sheets(model))
+    assert model.counts()["joints"] == len(model.joints) - 2 * layers and f" joints, {layers} wall sheets, " in repr(model)
+    assert "wall" not in build_house(load_house("C")).joints_text
 
 
 def test_walls_are_added_by_name(tmp_path):

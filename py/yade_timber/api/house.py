@@ -39,7 +39,7 @@ class House:
     def __repr__(self):
         model = self.model()
         mass = sum(element.mass for element in model.elements if not element.fixed and element.kind != "snow") / 1000
-        return f"<House {self.name}: {len(model.elements)} elements, {len(model.joints)} joints, {mass:.1f} t of timber; {self.path.name}>"
+        return f"<House {self.name}: {len(model.elements)} elements, {model.joints_text}, {mass:.1f} t of timber; {self.path.name}>"
 
     @property
     def name(self):

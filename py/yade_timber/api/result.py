@@ -66,7 +66,7 @@ class RunResult:
 
     @property
     def broken(self):
-        """Number of joints that broke during the run."""
+        """Number of joints that broke during the run, without those of walls."""
         return self.summary["broken"]["total"]
 
     @property

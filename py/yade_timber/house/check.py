@@ -3,11 +3,11 @@
 
 import numpy as np
 
+from ..base.joint_kinds import WALL_KINDS
 from .errors import HouseError
 from .geometry import contact_polygon, separation
 from .joint_values import END_JOINED
 from .joints import near_pairs
-from .walls import KINDS as WALLS
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
 LYING = 0.1  # vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees
@@ -72,7 +72,7 @@ def _lying_at(member, end, touching):
 def _check_supports(model, touching):
     """Each element must be connected to a fixed one by joints or by lying on supported elements."""
     supports = {element.name: set() for element in model.elements}  # name -> names of the elements that it supports
-    for joint in (joint for joint in model.joints if joint.kind not in WALLS):
+    for joint in (joint for joint in model.joints if joint.kind not in WALL_KINDS):
         supports[joint.a].add(joint.b)
         supports[joint.b].add(joint.a)
     for a, b in touching:

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from .errors import HouseError
 from .geometry import Polyhedron
 
@@ -110,7 +111,7 @@ class HouseModel:
     grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}
 
     def __repr__(self):
-        return f"<HouseModel {self.name}: {len(self.elements)} elements, {len(self.joints)} joints, {self.snow_depth:g} m of snow>"
+        return f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of snow>"
 
     @cached_property
     def by_name(self):
@@ -124,8 +125,15 @@ class HouseModel:
         """Elements of these kinds, in building order, of one structure or of all."""
         return [e for e in self.elements if e.kind in kinds and group in (None, e.group)]
 
+    @property
+    def joints_text(self):
+        """'412 joints, 16 wall sheets': joints without those of walls; sheets only where there are some."""
+        counts = self.counts()
+        sheets = counts["joints_by_kind"].get(WALL_COLUMN, 0)
+        return f"{counts['joints']} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
+
     def counts(self):
-        """Numbers to check a house: elements, columns by section, braces, joints, broken joints, masses [kg]."""
+        """Numbers to check a house: elements, columns by section, braces, joints without those of walls, joints by kind, masses [kg]."""
         columns, braces = self.of_kind("column"), self.of_kind("brace")
         return {
             "elements": len(self.elements),
@@ -134,9 +142,9 @@ class HouseModel:
             "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
             "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)),
             "braces": len(braces),
-            "walls": len({(j.a, j.b) for j in self.joints if j.kind == "wall_column"}),
+            "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
             "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
-            "joints": len(self.joints),
+            "joints": sum(j.kind not in WALL_KINDS for j in self.joints),
             "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
             "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
             "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
 from .members import DIRECTION, column_plan
@@ -24,15 +25,14 @@ ALLOWABLE = 1960.0
 """Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article 46)"""
 STRENGTH_RATIO, STIFFNESS_RATIO = 1.5, 150.0
 """Least strength over the allowable shear [-], least stiffness over it [1/rad], by which wall tests give a multiplier: two thirds of the largest
-load, and the load at a drift of 1/150."""
+load, and the load at a drift of 1/150 (sources and assumptions: docs/house_files.md)."""
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
-"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (JBDPA, precise diagnosis of 2004). [-]"""
+"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA, precise diagnosis of 2004;
+stiffness: assumed to be the same). [-]"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
-KINDS = ("wall_beam", "wall_column")
-"""Kinds of joints: between beams, between columns."""
 
 
 @dataclass(frozen=True)
@@ -155,8 +155,8 @@ def _joints(bay, name, members, data):
     columns = _values(bay, data["wall_types"][name], bay.length, bay.height / bay.length)
     common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side,
                   group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"])
-    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=KINDS[0], label=f"{label}.beams", **beams, **common),
-            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=KINDS[1], label=f"{label}.columns", **columns, **common)]
+    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams", **beams, **common),
+            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=WALL_COLUMN, label=f"{label}.columns", **columns, **common)]
 
 
 def _values(bay, table, lever, ratio):

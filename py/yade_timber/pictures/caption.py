@@ -4,7 +4,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
-from ..recording.sentences import ratio
+from ..recording.sentences import broken_of, ratio
+from ..recording.walls import count_apart
 from . import fonts
 from .figures import drawable
 from .provenance import provenance
@@ -63,8 +64,7 @@ class Caption:
         elif self.drifts is not None:
             row = max(0, np.searchsorted(run.history.time, shown, side="right") - 1)
             parts.append(f"storey drift {ratio(self.drifts[row])}")
-        states = run.joint_states(frame_before(run, shown))
-        parts.append(f"{(states == 'broken').sum()} of {len(states)} joints broken")
+        parts.append(broken_of(*count_apart(run.joints, run.joint_states(frame_before(run, shown)) == "broken")))
         return "     ".join(parts)
 
     def _font(self, size, text, bold=False):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..base import colors
 from ..recording.sentences import DRIFT_LINES
+from ..recording.walls import of_walls, sheet_states
 from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
 from .key_times import first_shown
 from .provenance import provenance
@@ -114,17 +115,21 @@ def draw_levels(axis, levels, reach):
 
 
 def draw_breaks(axis, frames):
-    """Number of joints broken during the run by kind, and of partly broken joints."""
+    """Numbers of joints broken during the run by kind, of broken wall sheets, and of partly broken joints and sheets."""
     kinds = np.array(frames.joints.kind)
     states = np.array([frames.joint_states(k) for k in range(len(frames.time))])
-    for kind in dict.fromkeys(kinds):
+    sheets = [sheet_states(frames.joints, row == "broken") for row in states]
+    for kind in dict.fromkeys(kinds[~of_walls(frames.joints)]):
         broken = (states[:, kinds == kind] == "broken").sum(1)
         name = drawable(kind.replace("_", "-"), 20)
         axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, colors.GREY), label=name)
-    axis.step(frames.time, (states == "partly").sum(1), where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
+    if any(sheets):
+        axis.step(frames.time, [row.count("broken") for row in sheets], where="post", lw=1.3, color="black", label="wall sheets")
+    partly = (states == "partly").sum(1) + [row.count("partly") for row in sheets]
+    axis.step(frames.time, partly, where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
     axis.yaxis.get_major_locator().set_params(integer=True)
     axis.set_ylim(0, max(1, axis.get_ylim()[1]))
-    label(axis, "broken joints")
+    label(axis, "broken joints\nand wall sheets" if any(sheets) else "broken joints")
     legend(axis)
 
 

@@ -5,6 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 
 from ..base import colors
+from ..base.joint_kinds import WALL_COLUMN
 from ..house import weigh
 from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
@@ -65,7 +66,7 @@ def describe(model):
     columns = " and ".join(f"{count} columns of {100 * size:g} cm" for size, count in sorted(found["columns_by_section"].items(), reverse=True))
     walls = f", {found['walls']} bays with walls" if found["walls"] else ""
     description = " ".join(model.description.split())
-    return f"{description}\n{columns}, {found['braces']} braces{walls}, {found['joints']} joints{snow}\n{sentence(weigh(model))}"
+    return f"{description}\n{columns}, {found['braces']} braces{walls}, {model.joints_text}{snow}\n{sentence(weigh(model))}"
 
 
 def density(ax, box, dpi):
@@ -132,7 +133,7 @@ def draw_plan(ax, model):
         if element.storey == 1:
             draw_brace(ax, element)
     for joint in model.joints:
-        if joint.kind == "wall_column" and joint.storey == 1:
+        if joint.kind == WALL_COLUMN and joint.storey == 1:
             draw_wall(ax, model, joint)
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
@@ -213,7 +214,7 @@ def legend(figure, solids, model):
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
         entries.append(Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE, label="brace (plan; thin end: foot)"))
-    if any(j.kind == "wall_column" and j.storey == 1 for j in model.joints):
+    if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black",

@@ -2,7 +2,7 @@
 """Texts of the player in Japanese: title, result and events of a run. Numbers and names are the same as in English. Needs no YADE."""
 import re
 
-from ..recording.sentences import SMALL, largest_drift, ratio
+from ..recording.sentences import SMALL, joints_and_sheets, largest_drift, ratio
 
 DIRECTIONS = {"ns": "南北", "ew": "東西"}
 SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
@@ -22,8 +22,9 @@ def title(found):
 
 def result(found):
     """Outcome of a summary: place in an ensemble, collapse or peak drift, residual drift, joints, columns."""
-    broken, columns = found["broken"]["total"], found.get("columns", {})
-    parts = [outcome(found), f"接合部 {found['joints']['total']} か所のうち {broken} か所が破断"]
+    (broken, joints), (torn, sheets) = joints_and_sheets(found)
+    columns, walls = found.get("columns", {}), f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
+    parts = [outcome(found), f"接合部 {joints} か所のうち {broken} か所{walls}が破断"]
     if columns.get("fallen"):
         parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
     return ensemble(found) + "。".join(parts) + "。"

@@ -6,6 +6,8 @@ import numpy as np
 from matplotlib.patches import Polygon
 
 from ..base import colors
+from ..base.joint_kinds import WALL_COLUMN
+from ..recording.walls import state, wall_sheets
 
 FACING = {(1, 0, 0): "east", (0, 1, 0): "north"}
 """Outer walls that face the viewer: direction towards the viewer -> side."""
@@ -42,25 +44,25 @@ class Panel:
 
 @dataclass
 class Sheet:
-    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint."""
+    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint; broken: bool of its joints."""
 
     bay: tuple
     ends: list
     sides: tuple
     name: str
     storey: int
-    broken: bool
+    broken: list
 
 
 def panels(frames, frame):
     """Panels of all walls in a frame; their corners are the ends of the axes of the bays' columns."""
-    joints, states = frames.joints, frames.joint_states(frame)
+    joints, broken = frames.joints, frames.joint_states(frame) != "whole"
     sheets = []
-    for k, kind in enumerate(joints.kind):
-        if kind == "wall_column":
-            bay = joints.a[k], joints.b[k]
-            ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
-            sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]), states[k] != "whole"))
+    for halves in wall_sheets(joints):
+        k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)
+        bay = joints.a[k], joints.b[k]
+        ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
+        sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]), list(broken[halves])))
     return of_sheets(sheets)
 
 
@@ -68,9 +70,9 @@ def panels_as_built(model):
     """Panels of all walls of a HouseModel."""
     sheets = []
     for joint in model.joints:
-        if joint.kind == "wall_column":
+        if joint.kind == WALL_COLUMN:
             ends = [axis_ends(vertices, vertices) for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
-            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey, joint.broken))
+            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey, [joint.broken]))
     return of_sheets(sheets)
 
 
@@ -82,10 +84,9 @@ def of_sheets(sheets):
     found = []
     for layers in bays.values():
         (foot, head), (other_foot, other_head) = layers[0].ends
-        broken = [sheet.broken for sheet in layers]
-        state = "broken" if all(broken) else "partly" if any(broken) else "whole"
+        broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state, opening))
+        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken), opening))
     return found
 
 

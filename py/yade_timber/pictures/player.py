@@ -20,6 +20,7 @@ from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..recording import frames
 from ..recording.sentences import DRIFT_LINES, joint_place, sentence
+from ..recording.walls import wall_sheets
 from . import japanese
 from .key_times import largest_drift, onset, strongest_shaking
 from .packing import pack
@@ -96,6 +97,7 @@ def info(run):
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
+        "sheets": wall_sheets(j),
         "joint_list": [{"kind": plain(kind), "place": plain(joint_place(kind, storey, side))} for kind, storey, side in zip(j.kind, j.storey, j.side)],
         "breaks": breaks(run),
         "kinds": kinds({plain(kind) for kind in e.kind}),

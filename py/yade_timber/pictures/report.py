@@ -18,7 +18,7 @@ from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.lines import lines, main_mode, period_text
-from ..recording.sentences import direction_name, sentence
+from ..recording.sentences import counted, direction_name, joints_and_sheets, sentence
 from . import quantities, report_pictures
 from .panels import panels
 
@@ -108,7 +108,8 @@ def house(frames, found):
         f"<td class=number>{coefficients(storey)}</td></tr>"
         for name, storey in known["storeys"].items()
     )
-    numbers = ", ".join(f"{count} {kind}s" for kind, count in counts.items() if count) + f", {found['joints']['total']} joints"
+    (_, counts["joint"]), (_, counts["wall sheet"]) = joints_and_sheets(found)
+    numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
     braces += "; orange: joints broken from the start" * any(frames.joints.damaged)
     return (

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """From recorded frames to plain data for pictures. Needs no YADE."""
 from ..base import colors
+from ..base.joint_kinds import WALL_KINDS
 from .panels import panels
 from .views import Mark, Snapshot, Solid
 
@@ -20,4 +21,4 @@ def solids(frames, frame=None):
 def marks(frames, frame):
     """Mark of every joint that is broken or partly broken in a frame, without those of walls, which are drawn as panels."""
     positions, kinds = frames.joint_places(frame), frames.joints.kind
-    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame)) if state != "whole" and not kinds[j].startswith("wall_")]
+    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame)) if state != "whole" and kinds[j] not in WALL_KINDS]

@@ -2,6 +2,7 @@
 """Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no YADE.
 
 A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are counted apart, never as broken.
+Totals leave out the joints of walls, of which the sheets are counted.
 A column is lost when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
 """
 import math
@@ -13,6 +14,7 @@ import numpy as np
 
 from .frames import Elements, Joints, rotated
 from .verdict import TILT
+from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
@@ -50,9 +52,24 @@ class DamageSurvey:
     # --- joints -------------------------------------------------------------------------------------------------------
 
     def count_joints(self, chosen=None):
-        """{'total', 'column_beam', 'brace_beam', other kinds that occur}: numbers of joints; chosen: (J,) bool, default all."""
-        kinds = [kind for kind, counts in zip(self.joints.kind, np.ones(len(self.joints.kind), bool) if chosen is None else chosen) if counts]
-        return {"total": len(kinds), "column_beam": 0, "brace_beam": 0, **Counter(kinds)}
+        """{'total' without those of walls, 'column_beam', 'brace_beam', other kinds that occur}: numbers of joints; chosen: (J,) bool, default all."""
+        chosen = np.ones(len(self.joints.kind), bool) if chosen is None else chosen
+        kinds = Counter(kind for kind, counts in zip(self.joints.kind, chosen) if counts)
+        return {"total": int((chosen & ~self._of_walls).sum()), "column_beam": 0, "brace_beam": 0, **kinds}
+
+    def count_sheets(self, broken):
+        """{'wall_sheets', 'wall_sheets_partly'}: numbers of broken and partly broken wall sheets; empty without walls. broken: (J,) bool"""
+        states = sheet_states(self.joints, broken)
+        return {"wall_sheets": states.count("broken"), "wall_sheets_partly": states.count("partly")} if states else {}
+
+    def count_all(self):
+        """The part `joints` of the summary: `count_joints` of all joints, and 'wall_sheets' of a house with walls."""
+        states = sheet_states(self.joints, self._of_walls)
+        return {**self.count_joints(), **({"wall_sheets": len(states)} if states else {})}
+
+    @cached_property
+    def _of_walls(self):
+        return of_walls(self.joints)
 
     def _broken_joints(self, state):
         """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
@@ -61,19 +78,21 @@ class DamageSurvey:
         return broken, ~damaged & ~broken & (state.broken > 0)
 
     def count_broken(self, state, springs):
-        """The part `broken` of the summary. springs: number of springs that broke. A joint of two walls counts for both."""
+        """The part `broken` of the summary. springs: number of springs that broke. A joint of two sides of the house counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
         broken, partly = self._broken_joints(state)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
+        counted = broken & ~self._of_walls
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         return {
             **self.count_joints(broken),
-            "by_side": {side: int((broken & there).sum()) for side, there in on_side.items()},
-            "by_storey": {name: int((broken & there).sum()) for name, there in in_storey.items()},
+            "by_side": {side: int((counted & there).sum()) for side, there in on_side.items()},
+            "by_storey": {name: int((counted & there).sum()) for name, there in in_storey.items()},
             "by_place": {
                 name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()
             },
             "partly_broken": int(partly.sum()),
+            **self.count_sheets(broken),
             "springs": springs,
             "damaged_at_start": self.count_joints(damaged),
         }

@@ -107,14 +107,27 @@ def structure(name, facts, found):
 
 
 def joints(found):
-    """Broken and partly broken joints."""
+    """Broken and partly broken joints and wall sheets."""
     broken = found["broken"]
-    text = f"{broken['total']} of {found['joints']['total']} joints broken"
-    if broken.get("partly_broken"):
-        text += f", {broken['partly_broken']} partly"
+    text = broken_of(*joints_and_sheets(found))
+    partly = broken.get("partly_broken", 0) + broken.get("wall_sheets_partly", 0)
+    if partly:
+        text += f", {partly} partly"
     if broken["damaged_at_start"]["total"]:
         text += f" ({broken['damaged_at_start']['total']} more from the start)"
     return text
+
+
+def joints_and_sheets(found):
+    """((broken, all) of the joints, (broken, all) of the wall sheets) of a summary; (0, 0) in a house without walls."""
+    counts = found["broken"], found["joints"]
+    return tuple(tuple(part.get(key, 0) for part in counts) for key in ("total", "wall_sheets"))
+
+
+def broken_of(joints, sheets, of=" of "):
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of: between two numbers"""
+    walls = f" and {sheets[0]}{of}{counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
+    return f"{joints[0]}{of}{joints[1]} joints{walls} broken"
 
 
 def columns(found):

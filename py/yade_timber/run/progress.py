@@ -2,10 +2,12 @@
 """Progress of a run on standard error: a bar, and a line for each event."""
 import sys
 
+import numpy as np
 import yade.wrapper as yw
 from tqdm import tqdm
 
-from ..recording.sentences import ratio
+from ..recording.sentences import broken_of, ratio
+from ..recording.walls import count_apart
 from ..scene.engines import find_engine
 
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
@@ -38,7 +40,8 @@ class Progress:
             self.bar.write(f"{event.time_s:7.2f} s  {event.what}", file=sys.stderr)
         self.shown = len(self.log.events)
         joints = find_engine(yw.JointEngine).joints
-        broken = sum(joint.isBroken for joint in joints) - int(self.log.survey.joints.damaged.sum())
+        known = self.log.survey.joints
+        broken = np.array([joint.isBroken for joint in joints[:len(known.damaged)]], bool) & ~known.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken}/{len(joints)} joints broken", refresh=False)
+        self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken_of(*count_apart(known, broken), of='/')}", refresh=False)
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)

@@ -60,7 +60,7 @@ def summary(scenario, observed, tables, wall_s):
         "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
         "threads": _plugin.thread_count(),
         "elements": len(O.bodies),
-        "joints": survey.count_joints(),
+        "joints": survey.count_all(),
         "broken": survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
         "columns": survey.count_columns(state),
         "leans_from_s": drift.lean_start(history, tilt, monitor.tiltDirection),

@@ -18,7 +18,7 @@ from ..house.town import check_places
 from ..pictures import all_pictures
 from ..recording import frames
 from ..recording import town as recording
-from ..recording.sentences import largest_drift, sentence
+from ..recording.sentences import joints_and_sheets, largest_drift, sentence
 from .cli import prepare_folder
 from .runner import STOP_SIGNALS, Interrupted, Run
 from .town_progress import TownProgress
@@ -159,13 +159,13 @@ class TownRun:
             drift, residual = largest_drift(found)[0], largest_drift(found, "residual_drift")[0]
             place = lot.name, found["model"], lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
             times = ["" if found[key] is None else found[key] for key in ("tilt_time_s", "collapse_time_s")]
-            joints = found["broken"]["total"], found["joints"]["total"]
-            rows.append((*place, found["verdict"], drift, residual, *times, *joints, round(run.wall_s, 3), sentence(found)))
+            joints, sheets = joints_and_sheets(found)
+            rows.append((*place, found["verdict"], drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
         return csv_text(COLUMNS, rows)
 
 
 COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "peak drift [-]", "residual drift [-]", "tilt [s]",
-           "collapse [s]", "broken joints", "joints", "computing time [s]", "sentence")
+           "collapse [s]", "broken joints", "joints", "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
 
 

@@ -19,6 +19,8 @@ RESULTS = {
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
     "broken_brace_beam": "broken.brace_beam",
+    "wall_sheets": "joints.wall_sheets",
+    "broken_wall_sheets": "broken.wall_sheets",
     "columns_fallen": "columns.fallen",
     "snow_mass_kg": "snow_mass_kg",
     **{f"pga_{axis}_gal": f"record.pga_gal.{axis}" for axis in ("ns", "ew", "ud")},

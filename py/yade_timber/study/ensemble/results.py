@@ -19,6 +19,7 @@ ROWS = (
     ("broken joints", "broken.total", "{:.4g}".format),
     ("  column-beam", "broken.column_beam", "{:.4g}".format),
     ("  brace-beam", "broken.brace_beam", "{:.4g}".format),
+    ("broken wall sheets", "broken.wall_sheets", "{:.4g}".format),
     ("broken springs", "broken.springs", "{:.4g}".format),
     ("tilt (1/10) [s]", "tilt_time_s", "{:.1f}".format),
     ("collapse [s]", "collapse_time_s", "{:.1f}".format),

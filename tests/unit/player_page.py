@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The player's page in a browser: open it, ask it, press keys, look at pixels."""
+import numpy as np
+from browser import picture, resize, wait
+
+WIDE, PHONE, LYING_PHONE = (920, 620), (360, 740), (844, 390)
+"""Sizes of the page. [pixel]"""
+MIDDLE = [0, 0, 0]
+"""Of an element, in its body frame. [m]"""
+ROOF_IS_DARK = 0.5
+"""Brightest channel of its pixels; sky and ground are above 0.7."""
+
+
+def load(driver, address, size=WIDE, motion=True, phone=False):
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "no-preference" if motion else "reduce"}]})
+    resize(driver, *size, phone)
+    driver.get("about:blank")
+    driver.get(address)
+    wait(lambda: driver.execute_script("return !!window.player"))
+
+
+def ask(driver, expression):
+    return driver.execute_script(f"return {expression}")
+
+
+def press(driver, *keys):
+    from selenium.webdriver.common.action_chains import ActionChains
+
+    ActionChains(driver).send_keys(*keys).perform()
+
+
+def pixels(driver, *points):
+    """RGB where points are drawn; a point: (name of an element, number of the run, point in its body frame)."""
+    places = [ask(driver, f"player.screen('{name}', {run}, {list(point)})") for name, run, point in points]
+    seen = picture(driver)
+    return [seen[round(place["y"]), round(place["x"])] for place in places]
+
+
+def roof_is_drawn(driver, *runs):
+    return all(color.max() < ROOF_IS_DARK for color in pixels(driver, *(("roof", run, MIDDLE) for run in runs)))
+
+
+def between(run, name, time):
+    """Position of an element, linear between the recorded frames. [m]"""
+    k = run.elements.name.index(name)
+    return [np.interp(time, run.time, run.position[:, k, axis]) for axis in range(3)]

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Wrong bodies and lists of engines: each is refused, is done right, or stops the run with a line that names the fault."""
+import math
+
+import pytest
+import yade.wrapper as yw
+import yade_timber as yt
+from column_sample import column_on_plate, is_one_line
+from yade import O
+from yade.minieigenHP import Vector3
+from yade_timber.scene.engines import find_engine
+
+
+def sphere():
+    """A ball of YADE's beside the column."""
+    ball = yw.Body(shape=yw.Sphere(radius=0.1), material=yw.FrictMat())
+    ball.state.mass, ball.state.inertia, ball.state.pos = 1.0, Vector3(1, 1, 1), Vector3(3, 0, 3)
+    return ball
+
+
+@pytest.mark.parametrize(
+    "part, value, words",
+    [
+        ("material", None, ["material None", "TimberMat"]),
+        ("material", yw.FrictMat(), ["material FrictMat"]),
+        ("material", yw.ElementMat(), ["material ElementMat"]),
+        ("state", None, ["no state"]),
+        ("state", yw.State(), ["state.mass = 0"]),
+        ("shape", None, ["shape None"]),
+        ("shape", yw.RoundedPolyhedron(), ["no vertices"]),
+    ],
+)
+def test_part_of_a_body(part, value, words):
+    """Refused after contact; before the first contact the health check stops the run."""
+    _, column = column_on_plate()
+    body = O.bodies[column]
+    before = getattr(body, part)
+    with pytest.raises(ValueError) as error:
+        setattr(body, part, value)
+    is_one_line(error, f"body {column}", *words)
+    assert getattr(body, part) == before
+    O.run(20, True)
+    loose = yt.box((0.1, 0.1, 0.1), (0, 0, 1.05))
+    setattr(loose, part, value)
+    new = O.bodies.append(loose)
+    if part == "shape" and value is None:
+        return O.run(20, True)  # a body without a shape has no contacts
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, f"body {new}", *words)
+
+
+@pytest.mark.parametrize("mass", [0.0, -1.0, math.nan])
+def test_mass_changed_by_hand(mass):
+    """The message does not blame the time step."""
+    _, column = column_on_plate(health_check=10)
+    O.bodies[column].state.mass = mass
+    with pytest.raises(RuntimeError) as error:
+        for _ in range(50):  # O.run may lose an exception of its thread
+            O.step()
+    is_one_line(error, f"body {column}", "state.mass")
+
+
+def test_other_shape_and_material_in_contact():
+    _, column = column_on_plate()
+    O.bodies[column].shape = yt.box((0.2, 0.2, 1.0), (0, 0, 0)).shape
+    O.bodies[column].material = yt.snow()
+    O.run(2000, True)
+    assert len(yt.contacts(0, column)) == 4 and abs(O.bodies[column].state.pos[2] - 0.5) < 1e-3
+    O.bodies[column].shape = yw.Sphere(radius=0.2)
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "Ig2", "Sphere")
+
+
+@pytest.mark.parametrize("shape", [yw.Sphere(radius=0.1), yw.Facet(vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0)]), yw.Wall(), yw.Box(extents=(1, 1, 1))])
+def test_shape_without_functor(shape):
+    column_on_plate()
+    other = sphere()
+    other.shape = shape
+    new = O.bodies.append(other)
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, str(new), "Ig2", type(shape).__name__)
+    O.bodies[new].mask = 2
+    O.run(20, True)  # another group: no contact is possible
+
+
+def without(kind):
+    return [e for e in O.engines if not isinstance(e, kind)]
+
+
+@pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.ContactForces, yw.SymplecticIntegrator])
+def test_missing_engine(kind):
+    column_on_plate()
+    O.engines = without(kind)
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "O.engines", kind.__name__, "missing")
+
+
+@pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine, yw.UniformGravity, yw.ContactForces, yw.SymplecticIntegrator, yw.HealthCheck])
+def test_doubled_engine(kind):
+    column_on_plate()
+    O.engines = [e for e in O.engines for _ in range(1 + isinstance(e, kind))]
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "O.engines", "twice")
+
+
+def test_two_kinds_of_gravity():
+    column_on_plate()
+    O.engines = [*O.engines[:5], yw.GravityEngine(gravity=(0, 0, -9.81)), *O.engines[5:]]
+    with pytest.raises(RuntimeError, match="gravity is there twice"):
+        O.step()
+
+
+@pytest.mark.parametrize("first, last", [(i, k) for i in range(2, 8) for k in range(i + 1, 8)])
+def test_swapped_engines(first, last):
+    """Of HealthCheck, ForceResetter, collider, loop, joints, gravity, contact forces, integrator; joints and gravity may be swapped."""
+    column_on_plate()
+    chain = list(O.engines)
+    assert len(chain) == 8
+    chain[first], chain[last] = chain[last], chain[first]
+    O.engines = chain
+    if (first, last) == (4, 5):
+        return O.step()
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "O.engines", "must come before")
+
+
+def test_reversed_engines():
+    column_on_plate()
+    O.engines = list(reversed(O.engines))
+    with pytest.raises(RuntimeError, match="must come before"):
+        O.step()
+
+
+def test_engines_of_an_earlier_scene():
+    column_on_plate()
+    earlier = O.engines
+    O.reset()
+    O.bodies.append(yt.box((1, 1, 1), (0, 0, 0)))
+    O.engines = earlier
+    with pytest.raises(RuntimeError, match="earlier scene"):
+        O.step()
+    O.engines = yt.engines()
+    O.step()
+
+
+@pytest.mark.parametrize("dispatcher, words", [("geomDispatcher", "Ig2"), ("physDispatcher", "Ip2"), ("lawDispatcher", "Law2")])
+def test_loop_without_functors(dispatcher, words):
+    O.reset()
+    O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 1)])
+    O.engines = yt.engines()
+    getattr(find_engine(yw.ContactLoop).loop, dispatcher).functors = []
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, words)
+
+
+def test_loop_with_the_functors_of_snow_only():
+    """The Ip2 functor of snow takes any two materials of the package, but timber on timber has another law."""
+    O.reset()
+    O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 1)])
+    O.engines = yt.engines()
+    dispatcher = find_engine(yw.ContactLoop).loop.physDispatcher
+    dispatcher.functors = [f for f in dispatcher.functors if isinstance(f, yw.Ip2_ElementMat_ElementMat_SnowPhys)]
+    assert len(dispatcher.functors) == 1
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "Ip2", "TimberMat")
+    for k in (0, 1):
+        O.bodies[k].material = yt.snow()
+    O.step()
+
+
+def test_periodic_cell():
+    column_on_plate()
+    O.periodic = True
+    O.engines = yt.engines()
+    with pytest.raises(RuntimeError, match="periodic"):
+        O.step()

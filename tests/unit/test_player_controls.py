@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# runner: python
+"""The player obeys keys, mouse and touch; its controls have names, and it uses no network."""
+import numpy as np
+import pytest
+from browser import errors, wait
+from player_page import PHONE, ask, load, press
+from yade_timber.pictures import player
+
+pytest_plugins = ["player_fixtures"]
+
+
+def test_keys(still):
+    from selenium.webdriver.common.keys import Keys
+
+    for key, time in ((Keys.END, 4.0), (Keys.HOME, 0.0), (Keys.ARROW_RIGHT, 0.5), (".", 0.55), (",", 0.5), (Keys.ARROW_LEFT, 0.0)):
+        press(still, key)
+        assert ask(still, "player.time") == pytest.approx(time), key
+    press(still, Keys.PAGE_DOWN)  # the next event
+    assert ask(still, "player.time") > 0
+    press(still, " ")
+    wait(lambda: ask(still, "document.getElementById('play').getAttribute('aria-label')") == "Pause")
+    wait(lambda: ask(still, "player.time") > 1.1)
+    press(still, " ")
+    assert not ask(still, "player.playing")
+    for key, name in (("3", "free"), ("1", "front"), ("2", "side"), ("c", "free"), ("c", "front")):
+        press(still, key)
+        wait(lambda: ask(still, f"document.getElementById('camera-{name}').getAttribute('aria-pressed')") == "true")
+    press(still, "?")
+    assert ask(still, "document.getElementById('help').open")
+    press(still, Keys.ESCAPE)
+    assert not ask(still, "document.getElementById('help').open")
+    press(still, "?")
+    still.find_element("css selector", "#help form button").click()
+    assert not ask(still, "document.getElementById('help').open")
+    assert errors(still) == []
+
+
+def test_space_plays_after_a_click_and_presses_a_button_reached_by_tab(still):
+    from selenium.webdriver.common.keys import Keys
+
+    side, front = (still.find_element("id", f"camera-{name}") for name in ("side", "front"))
+    side.click()
+    wait(lambda: side.get_attribute("aria-pressed") == "true")
+    press(still, "1")
+    wait(lambda: front.get_attribute("aria-pressed") == "true")
+    press(still, " ")
+    assert ask(still, "player.playing") and front.get_attribute("aria-pressed") == "true"
+    press(still, " ")
+    assert not ask(still, "player.playing")
+    ask(still, "document.getElementById('camera-front').focus()")
+    press(still, Keys.TAB, " ")
+    wait(lambda: side.get_attribute("aria-pressed") == "true")
+    assert not ask(still, "player.playing")
+
+
+def test_keys_turn_the_house(still):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.keys import Keys
+
+    ask(still, "player.seek(0)")
+    before, middle = ask(still, "player.screen('column.NE')"), ask(still, "player.screen('roof')")
+    ActionChains(still).key_down(Keys.SHIFT).send_keys(Keys.ARROW_RIGHT).key_up(Keys.SHIFT).perform()
+    wait(lambda: abs(ask(still, "player.screen('column.NE')")["x"] - before["x"]) > 3)
+    assert ask(still, "player.screen('roof')")["x"] == pytest.approx(middle["x"], abs=15)  # about its middle: the wreck lies farther north
+    assert ask(still, "player.time") == 0
+
+
+def test_curves_events_and_slider_go_to_a_time(still):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    curves = still.find_element(By.CLASS_NAME, "curves")
+    left, width = 42, curves.size["width"]
+    ActionChains(still).move_to_element_with_offset(curves, round(left + 0.75 * (width - left) - width / 2), 0).click().perform()
+    assert ask(still, "player.time") == pytest.approx(3.0, abs=0.02)
+    events = still.find_elements(By.CSS_SELECTOR, ".events button")
+    events[-1].click()
+    assert ask(still, "player.time") == pytest.approx(2.9)
+    assert "collapse" in events[-1].text
+    wait(lambda: "past" in events[-1].get_attribute("class"))
+    ask(still, "(e => { e.value = 0.8; e.dispatchEvent(new Event('input')); })(document.getElementById('scrub'))")
+    assert ask(still, "player.time") == pytest.approx(0.8)
+    assert "of 8 joints broken" in still.find_element(By.CLASS_NAME, "now").text
+    assert "collapsed at 2.9 s" in still.find_element(By.CLASS_NAME, "result").text
+
+
+def test_events_are_marked_on_the_time_line(still, pages):
+    """A mark for each event, with its text; the text of the last event stands there for a while."""
+    events = player.events(pages[2][0])
+    marks = still.find_elements("css selector", "#ticks i")
+    assert [mark.get_attribute("title").split(" s ", 1)[1] for mark in marks] == [event["text"] for event in events]
+    marks[-1].click()
+    assert ask(still, "player.time") == pytest.approx(events[-1]["time"])
+    shown = still.find_element("id", "event")
+    wait(lambda: shown.text == events[-1]["text"])
+    ask(still, "player.seek(0)")
+    wait(lambda: shown.text == "")
+
+
+def test_every_control_has_a_name_and_no_network_is_used(still):
+    nameless = """[...document.querySelectorAll('button, input, select, canvas.view')].filter(
+        (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.labels?.[0]?.textContent.trim())).length"""
+    assert ask(still, nameless) == 0
+    assert ask(still, "performance.getEntriesByType('resource').length") == 0
+
+
+def touch(driver, *path):
+    """A finger along points (x, y) of the page [pixel], by the browser's own events."""
+    points = [[{"x": x, "y": y}] for x, y in path]
+    for kind, touches in (("touchStart", points[0]), *(("touchMove", point) for point in points[1:]), ("touchEnd", [])):
+        driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+
+def place_of_curves(driver):
+    """(x, y) at 0.8 of the width of the curves, scrolled to the middle of the page. [pixel]"""
+    ask(driver, "document.querySelector('.curves').scrollIntoView({block: 'center'})")
+    box = ask(driver, "document.querySelector('.curves').getBoundingClientRect().toJSON()")
+    return box["left"] + 0.8 * box["width"], box["top"] + 0.5 * box["height"]
+
+
+def test_a_scroll_that_begins_on_a_curve_keeps_the_time(driver, pages):
+    """A tap and a sideways drag go to a time, a drag upwards scrolls the page."""
+    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
+    x, y = place_of_curves(driver)
+    before = ask(driver, "scrollY")
+    touch(driver, (x, y), *((x, y - 10 * k) for k in range(1, 10)))
+    wait(lambda: ask(driver, "scrollY") != before)
+    assert ask(driver, "player.time") == 1.5
+    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
+    x, y = place_of_curves(driver)
+    touch(driver, (x, y))
+    wait(lambda: ask(driver, "player.time") > 2.5)
+    touch(driver, (x, y), (x - 30, y), (x - 60, y), (x - 90, y))
+    wait(lambda: ask(driver, "player.time") < 2.5)
+    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+
+def click(driver, place):
+    """A click at {x, y} of the page."""
+    for kind in ("mousePressed", "mouseReleased"):
+        driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "clickCount": 1, **place})
+
+
+def test_a_click_names_a_member_and_a_joint(still, pages):
+    """The card of the roof, then that of a joint: names, load as recorded, break."""
+    run = pages[2][0]
+    ask(still, "player.seek(1)")
+    click(still, ask(still, "player.screen('roof')"))
+    card = wait(lambda: still.find_element("class name", "card").text)
+    assert "roof" in card and not ask(still, "document.querySelector('.card').hidden")
+    number = run.elements.name.index("column.NE")
+    joint = int(np.flatnonzero(run.joints.a == number)[-1])
+    click(still, ask(still, f"player.joint({joint})"))
+    load = run.load[run.at(1.0), joint]
+    card = wait(lambda: f"1.00 s: {load:.2f}" in (text := still.find_element("class name", "card").text) and text)
+    assert "column-beam joint" in card and "column.NE" in card
+    still.find_element("css selector", ".card .close").click()
+    assert ask(still, "document.querySelector('.card').hidden")
+    assert errors(still) == []
