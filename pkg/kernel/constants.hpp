@@ -78,6 +78,11 @@ constexpr double minRegionSkins = 25;
 /// jitter; 1e-4: the jitter is smaller by that factor (1e-8 of a stack's weight); 0: a second sweep even where all is at rest.
 constexpr double firstSweepShare = 1e-8;
 
+/// Smallest convergence threshold of the sweeps after the first one, as the tolerance. [-] An island at rest is solved to its own residual
+/// changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3 rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps
+/// at rest, and no less motion.
+constexpr double restTolerance = 1e-6;
+
 /// Duration of the longest impact that separates by its restitution, in steps. [-] Longer ones are resolved by the steps: the restitution is
 /// right to 10 % at 20 steps for a critical dashpot.
 /// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.

@@ -235,23 +235,26 @@ void ContactSolver::solvePair(std::vector<SolverBody>& bodies, SolverPair& pair,
 	velocity.store(a, b);
 }
 
-/// Convergence threshold of SolverPair::squaredChange per point. [J]
+/// Convergence threshold of SolverPair::squaredChange per point, after the first sweep. [J]
 double ContactSolver::squaredThreshold(const std::vector<SolverBody>& bodies, double tolerance) const
 {
-	double size = 0;
+	double size = 0, changes = 0;
 	size_t count = 0;
 	for (const SolverPair& pair : pairs) {
 		Sums<1> squares(0.);
 		for (size_t point = 0; point < pair.count; point += laneCount)
 			squares.add<Lanes>(pair.count - point, groupAt(pair, point).impulse.squaredNorm());
 		size += squares[0] * pairInverseMass(bodies[pair.bodyA], bodies[pair.bodyB]);
+		changes += pair.squaredChange;
 		count += pair.count;
 	}
 	for (const DashpotConstraint& joint : dashpots) {
 		size += joint.impulse.squaredNorm();
+		changes += joint.squaredChange;
 		count += joint.count;
 	}
-	return tolerance * tolerance * size / std::max(1., double(count));
+	const double least = std::min(tolerance, restTolerance);
+	return std::max(std::min(tolerance * tolerance * size, changes), least * least * size) / std::max(1., double(count));
 }
 
 /// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep and in the next one.

@@ -154,7 +154,8 @@ public:
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points of a pair forwards and
 	/// backwards in turn, so that no side of a face is favoured. After the first sweep only active pairs are visited: those of which a body
 	/// has just changed. A pair counts as changed above `tolerance` times the root mean square of the island's impulses, each over the root
-	/// of its equivalent mass [-] (firstSweepShare of that in the first sweep). A joint counts as one point. Returns the number of sweeps.
+	/// of its equivalent mass [-] (firstSweepShare of that in the first sweep). Where the island rests the root mean square of the first sweep's
+	/// changes is smaller and takes its place, down to restTolerance times that of the impulses. A joint counts as one point. Returns the number of sweeps.
 	/// A small fixed number of sweeps would suffice for a standing house. In an impact between heavy and light members the remaining error
 	/// of the warm start would create energy.
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
