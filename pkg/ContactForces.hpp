@@ -65,7 +65,7 @@ public:
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots (TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 50, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass. [-]"))
+		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass; islands at rest are solved further, to the size of their own changes. [-]"))
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
 		((bool, trackEnergy, true, , "Whether the energies below are computed. [-]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))

@@ -23,6 +23,14 @@ law: {flush_supports: false}
 plumb: {drift: 1e-3}
 structures:
   main:
+    stack:
+      - {layer: foundation, height: 0.30, width: 0.105}
+      - {layer: columns, height: 2.73}
+      - {layer: beams, height: 0.12, width: 0.105}
+      - {layer: floor, thickness: 0.20}
+      - {layer: columns, height: 2.73}
+      - {layer: beams, height: 0.12, width: 0.105}
+      - {layer: roof, type: hip, ridge_height: 7.5, thickness: 0.12, corner_cut: 0.20, material: roofing}
     columns:
       - {section: 0.105, grid: {x: [0, 4, 8], y: [0, 4, 9]}}
       - section: 0.105
@@ -31,7 +39,7 @@ structures:
           - {along: x, at: [0, 9], from: 0, to: 8}
       - {section: 0.105, at: [[4, 1], [4, 3], [4, 5], [4, 7], [4, 8], [1, 4], [7, 4]]}
 """
-"""House A with columns as wide as its beams and no support for flush members: the joints alone keep the columns upright."""
+"""House A with columns as wide as foundation and beams and no support for flush members: the joints alone keep the columns upright."""
 
 
 def monitored(house, snow=0.0, motion=None, duration=1.0, until=lambda monitor: False):

@@ -33,7 +33,7 @@ def of_kind(model, kind):
 
 def test_rules_are_added_changed_and_removed_by_name(tmp_path):
     shipped = build_house(load_house("B")).counts()["joints_by_kind"]
-    more = built(tmp_path, "joints: {slabs: {between: [floor, column], type: corner_fitting, kind: slab_column}, column_ends: {between: [column, [sill, beam]]}}").counts()["joints_by_kind"]
+    more = built(tmp_path, "joints: {slabs: {between: [floor, column], type: corner_fitting, kind: slab_column}, column_ends: {between: [column, [foundation, beam]]}}").counts()["joints_by_kind"]
     less = built(tmp_path, "joints: {ridges: null}").counts()["joints_by_kind"]
     renamed = built(tmp_path, "joints: {floors: {kind: slab}}").counts()["joints_by_kind"]
     moved = more.pop("slab_column")

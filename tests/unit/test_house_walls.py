@@ -32,9 +32,9 @@ def test_bays_storeys_and_names(tmp_path):
     assert len(sheets(model)) == len(sheets(model, "wall_column")) == 6 == model.counts()["walls"]
     assert [e.name for e in model.elements] == [e.name for e in bare.elements] and len(model.joints) == len(bare.joints) + 12
     first, upper = sheets(model)[0], sheets(model)[3]
-    assert (first.a, first.b, first.storey, first.side) == ("main.sill.NS.x8", "main.beam1.NS.x8", 1, {"east"})
+    assert (first.a, first.b, first.storey, first.side) == ("main.foundation.NS.x8", "main.beam1.NS.x8", 1, {"east"})
     assert (upper.a, upper.b, upper.storey) == ("main.floor1", "main.beam2.NS.x8", 2)
-    assert first.normal == pytest.approx([0, 1, 0]) and first.points == pytest.approx(np.array([[8 * 0.91, 0.455, 0.42 + 2.73 / 2]]))
+    assert first.normal == pytest.approx([0, 1, 0]) and first.points == pytest.approx(np.array([[8 * 0.91, 0.455, 0.30 + 2.73 / 2]]))
 
 
 @pytest.mark.parametrize("opening, wide, ratio", [("none", False, 1), ("window", False, 0.4), ("window", True, 0.3), ("door", False, 0.2), ("door", True, 0.15)])

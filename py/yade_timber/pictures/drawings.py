@@ -125,7 +125,7 @@ def draw_plan(ax, model):
     for name, axis in (("v", 0), ("h", 1)):
         for position in sorted({round(float(e.solid.centroid[axis]), 3) for e in columns}):
             (ax.axvline if name == "v" else ax.axhline)(position, color="#bbbbbb", lw=0.5, zorder=0)
-    for element in model.of_kind("sill"):
+    for element in model.of_kind("sill") or model.of_kind("foundation"):
         draw_outline(ax, element, facecolor="none", edgecolor="#999999", lw=0.5)
     for element in columns:
         draw_outline(ax, element, facecolor="black" if max(element.section) >= THICK else "white", edgecolor="black", lw=0.8, zorder=3)

@@ -86,7 +86,7 @@ def engines(
     sweeps : int
         Most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper.
     tolerance : float
-        Largest change of an island's contact impulses in the last sweep, relative to their root mean square. [-]
+        Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at rest. [-]
     track_energy : bool
         Whether `energy` is available.
     health_check : int
