@@ -18,8 +18,8 @@ const JAPANESE = {
   "turn the house, zoom in, zoom out": "回転・拡大・縮小", "show the ground moving, or fixed": "地面を動かす・止める", "show or hide joints": "接合部の表示", "full screen": "全画面",
   "Storey drift: the sideways displacement of a floor relative to the floor below, divided by the height of the storey. Damage begins at 1/120 and is heavy from 1/30; at 1/10 the house leans. The scale is stretched near zero, and larger drifts are drawn at its border.":
     "層間変形角：ある階の床が下の床に対して横にずれた量を階高で割ったもの。1/120 で損傷が始まり、1/30 で大きな損傷、1/10 で家が傾きます。目盛はゼロの近くで引き伸ばしてあります。",
-  "The members of this model are rigid; walls, nails and soil are not modelled. Use it to compare houses, not to certify one.":
-    "このモデルの部材は剛体で、壁・釘・地盤は含みません。家を比べるためのもので、安全を保証するものではありません。",
+  "Members are rigid. Walls are included only where the house file names them; nails and soil are not modelled. Use the model to compare houses, not to certify one.":
+    "このモデルの部材は剛体です。壁は家のファイルにあるものだけを含み、釘と地盤は含みません。家を比べるためのもので、安全を保証するものではありません。",
   "no joints": "接合部なし", "of its strength": "（強さに対する比）", "not broken": "破断していない",
   "storey 1": "1 階", "storey 2": "2 階", "storey 3": "3 階", entrance: "玄関", "north side": "北側", "south side": "南側", "east side": "東側", "west side": "西側", inside: "内部",
   "north and east sides": "北東の角", "north and west sides": "北西の角", "south and east sides": "南東の角", "south and west sides": "南西の角",

@@ -137,6 +137,7 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "list of rules": ("  column_ends: {between", "  - {between", 30, ["not valid YAML"]),
     "two rules for a pair": ("snow: {depth: 0.5}", "  posts: {between: [sill, column], type: peg, kind: column_beam}", 32,
                              ["joints.posts", "joins column and sill as joints.column_ends", "null"]),
+    "kind of a wall": ("kind: brace_beam", "kind: wall_beam", 30, ["joints.brace_ends.kind", "'wall_beam'", "sheathed walls"]),
     "slip key without slip": ("strength: 2000", "strength: 2000, friction_share: 0.2", 27, ["joint_types.peg", "'friction_share'", "law: slip"]),
     "slip without stretches": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0.2", 27, ["joint_types.peg", "'softening_stretch'"]),
     "slip with two stiffnesses": ("ks: 1e5, strength: 2000", "ks: 2e5, strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.1, ultimate_stretch: 0.2", 27,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Values of joints: a joint type has those of one fitting, a rule the number of fittings and the share of them that acts in its joints."""
 
+from ..base.joint_kinds import WALL_KINDS
 from .layout import SLIP_KEYS
 from .schema import fail
 
@@ -44,7 +45,10 @@ def _rank(kind):
 
 
 def check_joint_rules(rules):
-    """HouseError for two rules for the same kinds of members."""
+    """HouseError for two rules for the same kinds of members, and for a rule with a kind of joint that only sheathed walls have."""
+    for name, rule in rules.items():
+        if rule["kind"] in WALL_KINDS:
+            fail(rule.at("kind"), f"joints.{name}.kind", f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
     pairs = {}
     for (a, b, across), entries in rules_by_kinds(rules).items():
         pairs.setdefault((*sorted((a, b)), across), []).extend(entries)
