@@ -125,6 +125,11 @@ def test_a_film_begins_shortly_before_the_shaking():
     assert 0 <= key_times.first_shown(run) <= key_times.onset(run.motion)
 
 
+def test_a_film_that_ends_before_the_shaking_begins_at_the_start(tmp_path, monkeypatch):
+    monkeypatch.setattr(film, "first_shown", lambda run: 2.0)
+    assert film.write(tmp_path / "x.webp", [frames_sample.run()], form=SMALL, end=1.0) == 10
+
+
 def test_films_that_cannot_be_made(tmp_path):
     run = frames_sample.run()
     with pytest.raises(RunError, match="no pictures"):

@@ -37,14 +37,15 @@ class Format:
 def write(path, runs, view="space", form=Format(), begin=None, end=None):
     """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the format.
 
-    runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking to the end of the longest run.
+    runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking (from the start,
+    if `end` is earlier) to the end of the longest run.
     Raises RunError when it cannot be made, OSError when it cannot be written.
     """
     if not all(len(run.time) for run in runs):
         raise RunError("a run without frames")
-    begin = min(first_shown(run) for run in runs) if begin is None else begin
     last = max(run.time[-1] for run in runs)
     end = last if end is None else min(end, last)
+    begin = _default_begin(runs, end) if begin is None else begin
     if not begin < end:
         raise RunError(f"a film from {begin:g} s to {end:g} s has no pictures")
     count = max(1, round((end - begin) / form.speed * form.rate))
@@ -55,6 +56,12 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     with written_whole(path) as part:
         (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(part, drawn, times, form)
     return count
+
+
+def _default_begin(runs, end):
+    """Shortly before the shaking, or the start of the runs for a film that ends before. [s]"""
+    shaking = min(first_shown(run) for run in runs)
+    return shaking if shaking < end else min(run.time[0] for run in runs)
 
 
 def default_name():
