@@ -89,7 +89,7 @@ MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly b
 LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
-LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam, sill", "floor": "floor", "foundation": "foundation"}
+LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor", "foundation": "foundation"}
 
 
 def box_of(view, starts, later):
@@ -171,7 +171,8 @@ def scale_bar(ax, box, size, length=1.0):
 def kind_entries(solids):
     """Legend entries of the kinds of elements that occur."""
     found = {s.kind: s.color for s in reversed(solids)}
-    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in LEGEND_KINDS.items() if kind in found]
+    names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in found else {})
+    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items() if kind in found]
 
 
 def legend(figure, solids, states, size):
