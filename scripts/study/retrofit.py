@@ -92,20 +92,11 @@ def write(ranking, options, shown=()):
     about = [
         f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures.",
         f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
-        summary(results),
+        overview.summary(results, ranking.house),
     ]
     write_text(ranking.folder / "retrofit.csv", overview.table_text(results, ranking.house))
     write_text(ranking.folder / "index.html", overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown))
     return results
-
-
-def summary(results):
-    """What the ranking shows, in one sentence."""
-    better = [result for result in results if result.words == "better"]
-    if not better:
-        return f"No measure is shown to be better than the house as it is: {race.NO_DIFFERENCE}."
-    named = "; ".join(f"{result.entry.candidate.text} (drift times {result.ratio:.2f})" for result in better)
-    return f"Shown to be better than the house as it is: {named}."
 
 
 def main():
@@ -120,7 +111,7 @@ def main():
     results = write(ranking, options)
     if options.pictures:
         write(ranking, options, pictures(ranking, results, options.pictures))
-    print(summary(results))
+    print(overview.summary(results, ranking.house))
     print(f"written: {ranking.folder / 'index.html'}, {ranking.folder / 'retrofit.csv'}")
     return int(any(entry.failed for entry in ranking.entries))
 

@@ -129,6 +129,15 @@ def test_words_of_a_ranking():
     assert found[0].p == pytest.approx(4 * 2 / 2**12) and found[3].p is None
 
 
+def test_the_summary_names_what_is_better_and_asks_for_weaker_motions():
+    house, good = entry("house", [1.0] * 12), entry("good", [0.5 + 0.01 * k for k in range(12)])
+    text = overview.summary(race.ranking([good], house.responses), house)
+    assert text == "Shown to be better than the house as it is: good (drift times 0.55)."
+    for one in list(house.runs.values())[:10]:
+        one["collapsed"] = True
+    assert "collapses under 10 of 12 motions: weaker motions (--scale)" in overview.summary([], house)
+
+
 def test_false_discoveries_are_rare():
     """200 rankings of 20 measures without any effect, lognormal scatter of a factor 1.5: at most 5 % find one, here 10 expected, 19 at 99.8 %."""
     random, wrong = np.random.default_rng(5), 0

@@ -5,7 +5,7 @@ import math
 
 from ...base.table import csv_text
 from ...recording.sentences import ratio
-from .race import CAP, SIGNIFICANCE
+from .race import CAP, NO_DIFFERENCE, SIGNIFICANCE
 
 WIDTH, HEIGHT, RADIUS, REACH = 360, 18, 4, 3.0
 """Size of a strip of dots and of a dot [pixel], and the largest ratio that it shows [-]."""
@@ -15,6 +15,8 @@ body { font: 14px/1.4 Arial, Helvetica, sans-serif; max-width: 1150px; margin: 1
 table { border-collapse: collapse; } td, th { padding: 2px 8px; border-bottom: 1px solid #ddd; text-align: left; vertical-align: middle; }
 td.number { text-align: right; white-space: nowrap; } .note { color: #444; } circle:hover { stroke: black; stroke-width: 2; }
 """
+MANY = 0.75
+"""Share of the motions with a collapse of the house as it is, above which few measures can differ. [-]"""
 HEADER = ("rank", "candidate", "description", "motions", "ratio", "lowest", "highest", "collapses", "house_collapses", "p_holm", "result")
 
 
@@ -26,6 +28,17 @@ def table_text(results, house):
         for rank, r in enumerate(results, 1)
     ]  # fmt: skip
     return csv_text(HEADER, rows)
+
+
+def summary(results, house):
+    """What the ranking shows, in one or two sentences. house: Entry of the house as it is."""
+    better = [result for result in results if result.words == "better"]
+    named = "; ".join(f"{result.entry.candidate.text} (drift times {result.ratio:.2f})" for result in better)
+    shown = f"Shown to be better than the house as it is: {named}." if better else f"No measure is shown to be better than the house as it is: {NO_DIFFERENCE}."
+    fallen, known = sum(bool(run["collapsed"]) for run in house.runs.values()), len(house.runs)
+    if fallen <= MANY * known:
+        return shown
+    return f"{shown} The house as it is collapses under {fallen} of {known} motions: weaker motions (--scale) distinguish measures better."
 
 
 def house_collapses(entry, house):
