@@ -1,5 +1,5 @@
 /*! yade-timber player, GPL-2.0-or-later; built from player/, see its README; do not edit.
-sources sha256 b78023d317dc78a0a0f48a67cfcca30caf518f6ba59b615836c855d3b3ec23c2
+sources sha256 a9fb6d356682172718e761977edf0bce0a0ed4c87fb4dea62a24f0edc9538c72
 Contains parts of three.js 0.187.0:
 The MIT License
 
