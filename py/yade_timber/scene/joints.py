@@ -154,7 +154,7 @@ def add_joint_engine():
 def make_joint(id1, id2, springs):
     """TimberJoint between two bodies of the scene in their present placement; springs: JointValues or a house's JointSpec."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
-    points = [Vector3(*p) for p in springs.points]
+    points = [Vector3(*map(float, p)) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
     slip = {
         "frictionShare": springs.friction_share,
