@@ -186,7 +186,7 @@ def section(rows, stable, balance, options):
     return (
         f"## Error against run time\n\n![error against run time](precision.png)\n\nErrors against the reference with the smallest time step: largest difference over largest value. {machine()}.\n\n"
         f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {TOLERATED:g} [s]'), largest)}"
-        "\nIn the impact the corners of a cube touch one after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s). The largest step for it is a fraction of the default one; drifts of houses and forces in their joints allow the default.\n"
+        "\nIn the impact the corners of a cube touch one after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s).\n"
         f"{table}\n### All runs\n\n{markdown_table(HEADS, shown)}"
     )
 

@@ -151,11 +151,16 @@ def add_joint_engine():
     return engine
 
 
+def _vector(numbers):
+    """Vector3, which itself refuses numpy.float32."""
+    return Vector3(*map(float, numbers))
+
+
 def make_joint(id1, id2, springs):
     """TimberJoint between two bodies of the scene in their present placement; springs: JointValues or a house's JointSpec."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
-    points = [Vector3(*map(float, p)) for p in springs.points]
-    direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    points = [_vector(p) for p in springs.points]
+    direction = _vector(springs.normal) if springs.normal is not None else s2.pos - s1.pos
     slip = {
         "frictionShare": springs.friction_share,
         "softeningStretch": springs.softening_stretch,

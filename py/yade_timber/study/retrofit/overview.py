@@ -35,7 +35,7 @@ def summary(results, house):
     better = [result for result in results if result.words == "better"]
     named = "; ".join(f"{result.entry.candidate.text} (drift times {result.ratio:.2f})" for result in better)
     shown = f"Shown to be better than the house as it is: {named}." if better else f"No measure is shown to be better than the house as it is: {NO_DIFFERENCE}."
-    fallen, known = sum(bool(run["collapsed"]) for run in house.runs.values()), len(house.runs)
+    fallen, known = house_collapses(house, house), len(house.responses)
     if fallen <= MANY * known:
         return shown
     return f"{shown} The house as it is collapses under {fallen} of {known} motions: weaker motions (--scale) distinguish measures better."
