@@ -153,6 +153,12 @@ def test_events_of_a_run(table, tmp_path):
     assert run["events"] == "2.30 s carport has fallen; 21.50 s collapse"
 
 
+def test_wall_sheets_stand_apart_from_joints(table, tmp_path):
+    walls = {"joints": {"total": 376, "wall_sheets": 44}, "broken": {"total": 7, "wall_sheets": 5}}
+    (run,) = result(table("house\nB\n"), tmp_path, {**SUMMARY, **walls})
+    assert [run[column] for column in ("joints", "broken", "wall_sheets", "broken_wall_sheets")] == ["376", "7", "44", "5"]
+
+
 def test_results_made_from_something_else_do_not_count(table, tmp_path):
     rows = table("house scale\nB 1\n")
     assert result(rows, tmp_path, SUMMARY)[0]["status"] == "done"

@@ -204,6 +204,12 @@ def test_lines_for_the_terminal(finished):
     assert lines[-1] == "shown: run 1, nearest to the median of the peak drift of the unsafe ones"
 
 
+def test_wall_sheets_have_a_line_of_their_own():
+    sheets = {k: summary(broken={"total": 1, "wall_sheets": k, "springs": 3, "damaged_at_start": {"total": 0}}) for k in (1, 2, 5)}
+    lines = results.lines(results.content(sheets, {}), sheets[1])
+    assert [line.split()[:6] for line in lines if "wall" in line] == [["broken", "wall", "sheets", "2", "1", "to"]]
+
+
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"finished": [1], "shown": "x"}'])
 def test_a_damaged_file_is_refused(tmp_path, content):
     (tmp_path / "ensemble.json").write_text(content)

@@ -21,7 +21,17 @@ lots:
   near: {house: B1, x: 0, y: 0, snow: 0}
   far: {house: B1, x: 20, y: 0, snow: 0}
   turned: {house: A, x: 0, y: 30, rotation: 90, snow: 0.5}
+  walled: {house: walled.yaml, x: 40, y: 30, snow: 0}
 """
+WALLED = """extends: A
+name: walled
+structures: {main: {walls: [{along: y, at: 8, from: 0, to: 3, type: plywood}]}}
+"""
+
+
+def write_town(folder, text=TOWN):
+    (folder / "town.yaml").write_text(text)
+    (folder / "walled.yaml").write_text(WALLED)
 
 
 def run(script, *options, threads=1):
@@ -46,7 +56,7 @@ def shove(tmp_path_factory):
 def town(tmp_path_factory, shove):
     """(town file, folder of its run on one thread)"""
     folder = tmp_path_factory.mktemp("town")
-    (folder / "town.yaml").write_text(TOWN)
+    write_town(folder)
     done = run("town", folder / "town.yaml", *SHORT, "--record", shove, "--duration", 0.4, "--out", folder / "out")
     assert done.returncode == 0, done.stderr
     return folder / "town.yaml", folder / "out"
@@ -99,17 +109,31 @@ def test_resumed(tmp_path, shove, town):
     assert all(lot(tmp_path, name) == lot(straight, name) for name in ("near", "far", "turned"))
 
 
+def houses(folder):
+    """Rows of houses.csv."""
+    with open(folder / "houses.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def test_houses_and_frames_of_the_town(town):
-    with open(town[1] / "houses.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = houses(town[1])
     assert [(row["lot"], row["house"], row["snow [m]"], row["delay [s]"]) for row in rows] == [
-        ("near", "B1", "0", "0"), ("far", "B1", "0", "0.2"), ("turned", "A", "0.5", "0")]
+        ("near", "B1", "0", "0"), ("far", "B1", "0", "0.2"), ("turned", "A", "0.5", "0"), ("walled", "walled", "0", "0.4")]
     whole, part = frames.load(town[1] / "frames.h5"), frames.load(town[1] / "lots" / "turned" / "frames.h5")
     number, own = whole.elements.name.index("turned.main.floor1"), part.elements.name.index("main.floor1")
     placed, alone = whole.corners(-1, number), part.corners(-1, own)
     turned = alone @ [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]  # x to the north, y to the west
     assert placed - placed.mean(0) == pytest.approx(turned - turned.mean(0), abs=1e-4)  # float32 at 30 m
     assert len(whole.breaks["time"]) == sum(len(frames.load(town[1] / "lots" / row["lot"] / "frames.h5").breaks["time"]) for row in rows)
+
+
+def test_joints_and_wall_sheets_of_the_town_are_those_of_the_summaries(town):
+    for row in houses(town[1]):
+        found = json.loads((town[1] / "lots" / row["lot"] / "summary.json").read_text())
+        counts = [part.get(key, 0) for key in ("total", "wall_sheets") for part in (found["broken"], found["joints"])]
+        assert [int(row[head]) for head in ("broken joints", "joints", "broken wall sheets", "wall sheets")] == counts
+        assert row["sentence"] == found["sentence"]
+    assert row["lot"] == "walled" and int(row["wall sheets"]) == 6  # three bays in two storeys
 
 
 @pytest.mark.parametrize(
@@ -122,6 +146,6 @@ def test_houses_and_frames_of_the_town(town):
     ],
 )
 def test_misuse(tmp_path, text, options, message):
-    (tmp_path / "town.yaml").write_text(text)
+    write_town(tmp_path, text)
     done = run("town", tmp_path / "town.yaml", *SHORT, *options, "--duration", 0.1, "--out", tmp_path / "out")
     assert (done.returncode, last_error(done)) == (1, message)
