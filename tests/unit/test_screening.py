@@ -292,6 +292,15 @@ def test_report_of_few_cells(results, tmp_path):
     assert picture.draw(few, tmp_path / "few.png").is_file()
 
 
+def test_report_of_one_motion(results, tmp_path):
+    """No scatter: effects without errors, and no word of tests."""
+    one = Results(results.cells, results.motions[:1], {name: shape[:1] for name, shape in results.values.items()})
+    report.write(one, tmp_path)
+    text = (tmp_path / "screening.md").read_text()
+    assert "32 of 32 cells under 1 motion: seed3." in text and "One motion has no scatter" in text
+    assert not any(word in text for word in ("Bold", "bootstrap", "tested are"))
+
+
 def test_picture(results, tmp_path):
     assert picture.draw(results, tmp_path / "screening.png").stat().st_size > 50000
     assert set(picture.SHOWN) <= set(RESPONSES)

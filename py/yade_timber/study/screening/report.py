@@ -4,6 +4,7 @@ import math
 
 from ...base.atomic_write import write_text
 from ...base.table import csv_text
+from ...recording.sentences import counted
 from .. import design
 from ..claims import CLAIMS
 from ..factors import FACTORS
@@ -72,8 +73,9 @@ def markdown(results, found):
 
 EXPLANATION = """\
 Shares are means, other responses medians over the motions. An effect is the mean of the cells with the second level of a factor minus that
-with the first; x 2: twice as large; pp: percentage points of the motions. In brackets its standard error from the scatter of the motions
-(bootstrap)."""
+with the first; x 2: twice as large; pp: percentage points of the motions."""
+SCATTER = "In brackets its standard error from the scatter of the motions (bootstrap)."
+ONE_MOTION = "One motion has no scatter: effects have no standard errors, and none is tested."
 NO_FACTOR = """\
 'No factor': root mean square of the effects of columns without a factor, that is of chance and of interactions of three factors."""
 NO_COLUMN = "These cells leave no column without a factor, by which to estimate chance (–)."
@@ -81,7 +83,8 @@ NO_COLUMN = "These cells leave no column without a factor, by which to estimate 
 
 def head(results, found):
     effects = [effect for some in found.values() for effect in some]
-    lines = [f"{len(results.cells)} of {design.RUNS} cells under {len(results.motions)} motions: {', '.join(results.motions)}.", "", EXPLANATION]
+    motions = f"{counted(len(results.motions), 'motion')}: {', '.join(results.motions)}"
+    lines = [f"{len(results.cells)} of {design.RUNS} cells under {motions}.", "", EXPLANATION, SCATTER if len(results.motions) > 1 else ONE_MOTION]
     if effects:
         lines += ["", *significance(effects)]
     if len(results.cells) < design.RUNS:
@@ -92,6 +95,8 @@ def head(results, found):
 def significance(effects):
     """Lines on what bold means, and on how many effects are bold by chance. effects: of all responses"""
     has_empty = any(effect.kind == EMPTY for effect in effects)
+    if not any(effect.is_tested for effect in effects):
+        return [NO_FACTOR if has_empty else NO_COLUMN]
     tested, bold = sum(effect.is_tested for effect in effects), sum(effect.stands_out for effect in effects)
     both = " of both kinds" if has_empty else ""
     return [f"{NO_FACTOR if has_empty else NO_COLUMN} **Bold**: beyond {SIGNIFICANT:g} standard errors{both}.",
