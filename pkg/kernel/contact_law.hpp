@@ -89,7 +89,7 @@ template <class Number> struct ShearIncrement {
 struct PointHistory : PointSprings<double>, PointResponse {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
-	double closing = 0; ///< closing displacement in the next step, by the velocities after the last one [m]
+	double ahead = 0; ///< energy of both springs in the middle between the last placement and the next one: a point that ceases to exist loses it [J]
 	ImpactState impact;
 };
 

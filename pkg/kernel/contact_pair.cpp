@@ -32,16 +32,6 @@ namespace {
 		        law, input.pair, point, relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
-	/// Energy released with a point that ceases to exist. Energy that the normal spring returns in the rest of the step is not counted; if
-	/// the bodies separate, that is all of it. [J]
-	template <class Law> double releasedEnergy(const Law& law, const PairProperties& pair, const PointHistory& p)
-	{
-		// overlap beyond the limit, where the force is constant [m]
-		const double beyond = p.normalForce > 0 ? (p.energy - law.energy(p.overlap)) / p.normalForce : 0;
-		const double remaining = std::max(0., p.overlap + beyond + std::min(0., p.closing)), elastic = std::min(remaining, p.overlap);
-		return law.energy(elastic) + (remaining - elastic) * p.normalForce + shearEnergy<double>(p, pair);
-	}
-
 	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of it that the point takes. [J]
 	template <class Law> double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available, PointRecord& record)
 	{
@@ -104,8 +94,8 @@ namespace {
 		});
 	}
 
-	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy released with the others;
-	/// 2. step all points. Returns the energy released minus that given to new points. [J]
+	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy of the others, which do not act
+	/// any more; 2. step all points. Returns the energy released minus that given to new points. [J]
 	template <class Law> double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
@@ -113,11 +103,11 @@ namespace {
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.
 			for (; old != records.end() && old->id < points[k].id; ++old)
-				released += releasedEnergy(law, input.pair, *old);
+				released += old->ahead;
 			if (old != records.end() && old->id == points[k].id) next[k] = *old++;
 		}
 		for (; old != records.end(); ++old)
-			released += releasedEnergy(law, input.pair, *old);
+			released += old->ahead;
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;
@@ -155,6 +145,8 @@ namespace {
 		p.shearResponse = record.get(&PointRecord::shearResponse);
 		p.normalStiffness = record.get(&PointRecord::stiffness);
 		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
+		p.release = (point.get(&ContactPoint::overlap) - record.get(&PointRecord::excess)) / Number(h);
+		p.energy = record.get(&PointRecord::energy);
 		return p;
 	}
 
@@ -183,12 +175,13 @@ namespace {
 		const SolverPair& ids = step.solver.pair(k);
 		for (size_t i = 0; i < records.size(); ++i) {
 			PointRecord& r = records[i];
+			if (r.impact.isPast() && r.overlap == 0) r.impact.expect(0);
 			if (r.impact.isPending() && r.normalForce > 0) touch(step.bodies[ids.bodyA], step.bodies[ids.bodyB], pair, step.h, points[i], r);
-			if (r.impact.isActive()) step.solver.setImpact(k, i, r.impact.rebound, r.overlap / step.h);
+			if (r.impact.isActive()) step.solver.setImpact(k, i, r.impact.rebound);
 		}
 	}
 
-	/// Whether the other forces on the bodies change the velocity too much for an impact of this point alone. change: velocity of
+	/// Whether the other forces on the bodies change the velocity too much for the restitution of this point alone. change: velocity of
 	/// separation after the step minus before [m/s]; own: the part of it by the point's impulse [m/s].
 	bool isLoaded(const ImpactState& impact, double change, double own, double h)
 	{
@@ -203,22 +196,38 @@ namespace {
 		r.impact.expect(0);
 	}
 
+	/// Elastic normal force over the half step after the placement. A point that separates returns its energy and no more: (5) of the solver.
+	/// force: at the placement [N]; after: velocity of separation [m/s].
+	template <class Number> [[gnu::always_inline]] inline Number forceAhead(const ContactConstraint<Number>& c, Number force, Number after, double h)
+	{
+		return selectLazily(
+		        after > c.release, [&] { return Number(Number(2.) * c.energy / (Number(h) * after)); }, [&] { return force; });
+	}
+
+	/// Energy that the normal dashpot dissipates in a step. impulse: of the contact [N s]; force, ahead: elastic, see forceAhead() [N].
+	template <class Number>
+	[[gnu::always_inline]] inline Number normalDissipation(Number impulse, Number force, Number ahead, Number before, Number after, double h)
+	{
+		return -((impulse - Number(h) * force) * before + (impulse - Number(h) * ahead) * after) / Number(2.);
+	}
+
 	/// Impact of a point after a step. Its dashpot dissipates the work that the normal spring does not store. That is at most the energy of the
 	/// law. energies: with those of spring and dashpot without an impact.
 	void followImpact(const ContactSolver::Constraint& c, const NormalVelocity& v, double h, PointRecord& r, PairEnergies& energies)
 	{
 		const double impulse = c.impulse.dot(c.normal), available = r.impact.stored - impulse * v.mean(), energy = r.energy;
-		const double byLaw = energy - r.normalForce * v.after * h / 2;
+		const double force = r.normalForce, ahead = forceAhead(c, force, v.after, h), byLaw = energy - ahead * v.after * h / 2;
 		r.impact.timeLeft -= h;
 		double stored = byLaw;
-		if (isLoaded(r.impact, v.after - v.before, impulse / c.inertia, h)) r.impact.cancel();
-		else if (v.after > std::min(r.impact.rebound * (1 - reboundRounding), r.overlap / h)) stored = 0, endImpact(r);
+		if (isLoaded(r.impact, v.after - v.before, impulse * c.response, h)) r.impact.rebound = noRebound;
+		if (v.after > std::min(c.rebound, c.release) * (1 - reboundRounding)) stored = 0, endImpact(r);
 		else if (r.impact.timeLeft <= 0) r.impact.cancel();
 		else stored = std::max(0., std::min(available, byLaw));
 		r.impact.stored = stored;
-		energies.dashpotNormal += available - stored + (impulse - h * r.normalForce) * v.mean();
+		r.ahead += stored - byLaw;
+		energies.dashpotNormal += available - stored - normalDissipation(impulse, force, ahead, v.before, v.after, h);
 		energies.elasticNormal += stored - energy;
-		energies.elasticPower += r.normalForce * v.after;
+		energies.elasticPower += ahead * v.after;
 	}
 
 	void followImpacts(const SolverStep& step, size_t k, Records& records, PairEnergies& energies)
@@ -299,18 +308,18 @@ PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pa
 		record.set(&PointRecord::dashpotForce, dashpotForce);
 		forces.add<Number>(count, force, torqueA, torqueB);
 		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-		record.set(&PointRecord::closing, Number(-after.dot(normal) * Number(h)));
+		const Number separation = after.dot(normal), ahead = forceAhead<Number>(constraint, elasticNormal, separation, h),
+		             power = -(ahead * separation + shearForce.dot(after)), energy = record.get(&PointRecord::energy),
+		             stored = shearEnergy<Number>(shearForce, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
+		record.set(&PointRecord::ahead, Number(energy + stored + Number(h / 2) * power));
 		if (!energies) return;
 		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Vec mean = (before + after) / Number(2.);
-		const Number normalDashpot = dashpotForce.dot(normal),
-		             stored = shearEnergy<Number>(shearForce, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
-		const Number normalWork = -(Number(h) * normalDashpot * mean.dot(normal)),
-		             shearWork = -(Number(h) * (dashpotForce - normalDashpot * normal).dot(mean));
+		const Number impulse = constraint.impulse.dot(normal);
+		const Number normalWork = normalDissipation<Number>(impulse, elasticNormal, ahead, before.dot(normal), separation, h),
+		             shearWork = -(Number(h / 2) * (dashpotForce - dashpotForce.dot(normal) * normal).dot(before + after));
 		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shearForce) / Number(2.) + stored
 		        - record.get(&PointRecord::shearEnergyBefore));
-		sums.add<Number>(count, normalWork, shearWork, friction, Number(record.get(&PointRecord::energy)), stored,
-		        Number(-(elasticNormal * normal + shearForce).dot(after)));
+		sums.add<Number>(count, normalWork, shearWork, friction, energy, stored, power);
 	});
 	result = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
 	followImpacts(step, k, records, result);

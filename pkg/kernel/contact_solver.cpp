@@ -58,8 +58,10 @@ namespace {
 		c.shearFactor = shear.factor;
 		c.shearMass = shear.mass;
 		c.shearBias = shear.scale * Vec3Of<Number>(Number(h) * p.elasticShear + shear.G * (v - vn * p.normal));
-		c.rebound = c.release = noRebound;
-		c.inertia = Number(1.) / response;
+		c.rebound = noRebound;
+		c.release = p.release;
+		c.response = response;
+		c.energy = p.energy;
 		c.coupling = shear.mass * Vec3Of<Number>(p.normalResponse - response * p.normal);
 		return c;
 	}
@@ -114,12 +116,27 @@ namespace {
 		}
 	};
 
-	/// Normal impulse of a point in an impact: (5). pn: by (3).
-	double impactImpulse(const ContactSolver::Constraint& c, double pn0, double un, double pn)
+	/// Impulse with which a spring does the work U: p_U of (5). base: velocity of separation without it.
+	double energyImpulse(const ContactSolver::Constraint& c, double base)
 	{
-		const double after = un + (pn - pn0) / c.inertia;
-		const bool ends = after > std::min(c.rebound, c.release) || (pn == 0 && after > 0);
-		return ends ? std::max(0., pn0 + c.inertia * (c.rebound - un)) : pn;
+		const double root = std::sqrt(base * base + 8 * c.response * c.energy);
+		return base > 0 ? 4 * c.energy / (base + root) : (root - base) / (2 * c.response);
+	}
+
+	/// Normal impulse of a point that separates or whose impact ends: (5), (6). pn: by (3).
+	double endingImpulse(const ContactSolver::Constraint& c, double pn0, double un, double pn)
+	{
+		const double base = un - c.response * pn0;
+		if (c.rebound < noRebound) return std::max(0., (c.rebound - base) / c.response);
+		return std::min(pn, std::max((c.release - base) / c.response, energyImpulse(c, base)));
+	}
+
+	/// Normal impulse: (3), (5), (6). un: current velocity of separation.
+	[[gnu::always_inline]] inline double normalImpulse(const ContactSolver::Constraint& c, double pn0, double un)
+	{
+		const double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un), after = un + c.response * (pn - pn0);
+		const bool ends = after > std::min(c.rebound, c.release) || (pn == 0 && after > 0 && c.rebound < noRebound);
+		return ends ? endingImpulse(c, pn0, un, pn) : pn;
 	}
 
 	template <class Number> [[maybe_unused]] bool isValid(const ContactInput<Number>& p)
@@ -127,7 +144,7 @@ namespace {
 		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
 		        && isFinite(p.elasticShear) && isFinite(p.impulse) && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping)
 		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isFinite(p.normalResponse)
-		        && isNonNegative(p.shearResponse);
+		        && isNonNegative(p.shearResponse) && isNonNegative(p.release) && isNonNegative(p.energy);
 	}
 
 } // namespace
@@ -180,7 +197,10 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 	const SolverPair& pair = pairs[k];
 	const SolverBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
 	ContactConstraint<Number> constraint = constraintOf<Number>(points, a, b, h);
-	if (maxSweeps == 0) constraint.impulse = explicitImpulse<Number>(points, a, b, h);
+	if (maxSweeps == 0) {
+		constraint.impulse = explicitImpulse<Number>(points, a, b, h);
+		constraint.release = noRebound; // (5) is not applied
+	}
 	ConstraintGroup& group = groups[pair.first + first / laneCount];
 	if constexpr (std::is_same_v<Number, Lanes>) group = constraint;
 	else forMembers(group, constraint, [&](auto& all, const auto& one) { setLane(all, first % laneCount, one); });
@@ -188,12 +208,10 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<double>&, double);
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<Lanes>&, double);
 
-void ContactSolver::setImpact(size_t k, size_t point, double rebound, double release)
+void ContactSolver::setImpact(size_t k, size_t point, double rebound)
 {
-	assert(maxSweeps > 0 && k < pairs.size() && point < pairs[k].count && rebound >= 0 && release >= 0);
-	ConstraintGroup& group = groups[pairs[k].first + point / laneCount];
-	setLane(group.rebound, point % laneCount, rebound);
-	setLane(group.release, point % laneCount, release);
+	assert(maxSweeps > 0 && k < pairs.size() && point < pairs[k].count && rebound >= 0);
+	setLane(groups[pairs[k].first + point / laneCount].rebound, point % laneCount, rebound);
 }
 
 /// Applies the impulses of a pair's points to its bodies: PairVelocity::apply(), SIMD-vectorised.
@@ -211,7 +229,7 @@ void ContactSolver::warmStart(std::vector<SolverBody>& bodies, const SolverPair&
 	PairVelocity(all).store(a, b);
 }
 
-/// One Gauss-Seidel visit of each point of a pair: (3), (4).
+/// One Gauss-Seidel visit of each point of a pair: (3) to (6).
 void ContactSolver::solvePair(std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards)
 {
 	SolverBody &a = bodies[pair.bodyA], &b = bodies[pair.bodyB];
@@ -222,8 +240,7 @@ void ContactSolver::solvePair(std::vector<SolverBody>& bodies, SolverPair& pair,
 		const Constraint c = constraintAt(pair, point);
 		const Vec3 u = velocity.at(c);
 		const double un = u.dot(c.normal), pn0 = c.impulse.dot(c.normal);
-		double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un); // (3)
-		if (c.rebound < noRebound) pn = impactImpulse(c, pn0, un, pn); // (5)
+		const double pn = normalImpulse(c, pn0, un);
 		const Vec3 ps = c.shearFactor * (c.impulse - pn0 * c.normal) + c.shearBias - c.shearMass * (u - un * c.normal);
 		const Vec3 impulse = pn * c.normal + clipped<double>(ps - (pn - pn0) * c.coupling, c.friction * pn); // (4)
 		const Vec3 change = impulse - c.impulse;

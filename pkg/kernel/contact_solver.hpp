@@ -18,9 +18,11 @@
 /// The solver applies (2) to one point after the other, with the limits of the contact:
 ///     normal      p_n = max(0, f_n p_n0 + b_n - M_n u_n)                                        (3)
 ///     tangential  p_s = f_s p_s0 + b_s - M_s u_s - c (p_n - p_n0), shortened to mu p_n           (4)
-/// A point in an impact (impact.hpp) separates with the velocity w: if (3) gives a velocity u' = u_n + a (p_n - p_n0) above w, above r, with
-/// which the overlap ends within the step, or without a force,
-///     impact      p_n = max(0, p_n0 + (w - u_n) / a)                                              (5)
+/// Let u' = u_n + a (p_n - p_n0) be the velocity that (3) gives, and r the one with which the overlap ends within the step. The spring then
+/// acts for a part of the step only: a point that separates, u' > r, returns at most its elastic energy U, the work p_n u' / 2,
+///     separation  p_n <= max(p_r, p_U),   u'(p_r) = r,   p_U u'(p_U) = 2 U                      (5)
+/// A point in an impact (impact.hpp) separates with the velocity w: if u' exceeds w or r, or is > 0 without a force,
+///     impact      p_n = max(0, p_n0 + (w - u_n) / a)                                              (6)
 ///
 /// Glossary (n: normal, s: tangential)
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse [1/kg]
@@ -39,6 +41,7 @@
 ///     p          impulse        of the contact on B; p0: before a visit of the point [N s]
 ///     theta      -              weight of the velocity after the step [-]
 ///     r          release        velocity of separation with which the overlap ends within the step [m/s]
+///     U          energy         of the normal spring at the placement of the step [J]
 ///     u, v, v'   -              velocity of B relative to A: current, before and after the step [m/s]
 ///     w          rebound        velocity of separation at the end of an impact [m/s]
 ///     x          -              a h C: decay rate of the dashpot times h [-]
@@ -83,6 +86,8 @@ template <class Number> struct ContactInput {
 	Vec3Of<Number> normalResponse; ///< see PointResponse [1/kg]
 	Number shearResponse; ///< see PointResponse [1/kg]
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
+	Number release = noRebound; ///< r: overlap over the step [m/s]
+	Number energy = 0.; ///< U [J]
 };
 
 /// Coefficients of (3) and (4) for one point, and its impulse. Symbols: glossary above.
@@ -94,7 +99,7 @@ template <class Number> struct ContactConstraint {
 	Vec3Of<Number> shearBias; ///< b_s
 	Vec3Of<Number> coupling; ///< c
 	Number friction; ///< mu
-	Number rebound, release, inertia; ///< w, r, 1 / a_n
+	Number rebound, release, response, energy; ///< w, r, a_n, U
 };
 /// work(member of x, the same member of y) for all members of a constraint.
 template <class ConstraintX, class ConstraintY, class Work> void forMembers(ConstraintX& x, ConstraintY& y, Work work)
@@ -113,7 +118,8 @@ template <class ConstraintX, class ConstraintY, class Work> void forMembers(Cons
 	work(x.friction, y.friction);
 	work(x.rebound, y.rebound);
 	work(x.release, y.release);
-	work(x.inertia, y.inertia);
+	work(x.response, y.response);
+	work(x.energy, y.energy);
 }
 
 /// v, shortened to the length if it is longer.
@@ -145,8 +151,8 @@ public:
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
 	/// laneCount, on. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h);
-	/// Phase 2, after prepare(): the point is in an impact; w and r of (5) [m/s]. Not for explicit springs and dashpots.
-	void setImpact(size_t k, size_t point, double rebound, double release);
+	/// Phase 2, after prepare(): the point is in an impact with w of (6) [m/s]. Not for explicit springs and dashpots.
+	void setImpact(size_t k, size_t point, double rebound);
 	/// Phase 1: reserves the constraint of a joint's dashpots. Returns its index.
 	size_t addDashpot(int bodyA, int bodyB);
 	/// Phase 2: constraint of the k-th joint for a step of h [s]. Thread-safe for different joints.

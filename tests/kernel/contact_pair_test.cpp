@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Energy released with points that cease to exist, and initial overlap of new points.
+/// Energy of points that separate or cease to exist, and initial overlap of new points.
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <kernel/contact_pair.hpp>
@@ -26,7 +26,7 @@ PointRecord loaded(FeatureId id, double at)
 	record.overlap = at;
 	record.stiffness = law.stiffness(at);
 	record.normalForce = law.force(at);
-	record.energy = law.energy(at);
+	record.energy = record.ahead = law.energy(at);
 	return record;
 }
 
@@ -47,55 +47,77 @@ void expectOverlap(const PointRecord& record, double effective, double total)
 	EXPECT_NEAR(record.excess, total - effective, rounding * overlap);
 }
 
-/// Energy released with a point of that overlap, and `beyond` the limit [m], in a step in which the bodies close by `closing` [m].
-double releasedWith(double closing, double beyond = 0)
-{
-	const Vec3 none = Vec3::Zero();
-	const BodyKinematics still { none, none, none };
-	PointRecord record;
-	record.overlap = overlap;
-	record.normalForce = law.force(overlap);
-	record.energy = law.energy(overlap) + beyond * record.normalForce;
-	record.closing = closing;
-	std::vector<PointRecord> records { record };
-	const double released = elasticPair(law, { pair, still, still, h }, {}, records);
-	EXPECT_TRUE(records.empty());
-	return released;
-}
+/// A body of that mass [kg] on a fixed one, with one point of the overlap, moves with the speed of separation [m/s] in a step of hh [s].
+struct Separation {
+	std::vector<SolverBody> bodies { 2 };
+	std::vector<PointRecord> records { loaded(vertex, overlap) };
+	PairEnergies energies;
+
+	Separation(double mass, double speed, double hh, double ratio, const Vec3& shear = Vec3::Zero())
+	{
+		for (SolverBody& b : bodies) {
+			b.velocity = b.newVelocity = b.spin = b.newSpin = Vec3::Zero();
+			b.inverseInertia = Mat3::Zero();
+			b.inverseMass = 0;
+		}
+		bodies[1].inverseMass = 1 / mass;
+		bodies[1].velocity = bodies[1].newVelocity = { 0, 0, speed };
+		records[0].shearForce = shear;
+		const PairProperties properties { mass, 0.5, 0.4, 1, ratio };
+		const std::vector<ContactPoint> points { pointOf(vertex, overlap) };
+		ContactSolver solver;
+		solver.begin(100);
+		solver.addPair(0, 1, 1);
+		const SolverStep step { solver, bodies, hh };
+		prepareContacts(step, 0, properties, true, points, records);
+		solver.solve(bodies, 1e-12);
+		storeForces(step, 0, properties, records, &energies);
+	}
+	double after() const { return bodies[1].newVelocity.z(); }
+};
 
 } // namespace
 
-TEST(ReleasedEnergy, ExcludesThePartThatTheSpringReturns)
+/// A point that separates within the step gives the body its energy U and no more: p v' / 2 = U for the velocity v' after the step.
+TEST(SeparatingPoint, ReturnsAtMostItsEnergy)
 {
-	EXPECT_EQ(releasedWith(-2 * overlap), 0); // the bodies separated
-	EXPECT_EQ(releasedWith(-overlap), 0);
-	EXPECT_EQ(releasedWith(-overlap / 2), law.energy(overlap / 2)); // half of the overlap was left when its feature ended
-	EXPECT_EQ(releasedWith(0), law.energy(overlap)); // a vertex that slides over a border
-	EXPECT_EQ(releasedWith(overlap), law.energy(overlap)); // compression still to come is not stored yet
-}
-
-/// Beyond the limit the force is constant.
-TEST(ReleasedEnergy, IncludesTheOverlapBeyondTheLimit)
-{
-	constexpr double beyond = 5e-3;
-	const double limit = law.energy(overlap), force = law.force(overlap);
-	EXPECT_NEAR(releasedWith(0, beyond), limit + beyond * force, limit * rounding);
-	EXPECT_NEAR(releasedWith(-1e-3, beyond), limit + (beyond - 1e-3) * force, limit * rounding);
-	EXPECT_NEAR(releasedWith(-beyond - overlap / 2, beyond), law.energy(overlap / 2), limit * rounding);
-	EXPECT_EQ(releasedWith(-beyond - 2 * overlap, beyond), 0);
-}
-
-/// The tangential spring returns nothing within the step, whether the bodies separate or not.
-TEST(ReleasedEnergy, IncludesAllShearEnergy)
-{
-	PointRecord record = loaded(vertex, overlap);
-	record.shearForce = { 3e3, 4e3, 0 };
-	const double shear = 25e6 / (2 * 0.4 * law.stiffness(overlap));
-	for (const double closing : { 0., -2 * overlap }) {
-		record.closing = closing;
-		std::vector<PointRecord> records { record };
-		EXPECT_NEAR(step({}, records), shear + (closing < 0 ? 0 : record.energy), rounding * record.energy);
+	const double mass = 2, hh = std::sqrt(0.3 * mass / law.stiffness(overlap)), energy = law.energy(overlap);
+	for (const double share : { 0.5, 0.1, 1e-3 }) { // of the step, in which the overlap ends
+		const double speed = overlap / hh / share, after = Separation(mass, speed, hh, 0).after();
+		EXPECT_NEAR(after, (speed + std::sqrt(speed * speed + 8 * energy / mass)) / 2, after * rounding) << share;
 	}
+}
+
+/// What the body does not get, the dashpot dissipates or the spring still has.
+TEST(SeparatingPoint, ClosesTheEnergyBalance)
+{
+	const double mass = 2, energy = law.energy(overlap), force = law.force(overlap);
+	for (const double ratio : { 0., 0.3, 1. })
+		for (const double y : { 0.1, 1., 3., 30. }) // h^2 K / m
+			for (const double share : { 100., 2., 0.5, 1e-3 }) {
+				const double hh = std::sqrt(y * mass / law.stiffness(overlap)), speed = overlap / hh / share;
+				const Separation s(mass, speed, hh, ratio);
+				const double gained = mass / 2 * (s.after() * s.after() - speed * speed), sum = energy + hh / 2 * force * speed;
+				EXPECT_NEAR(gained + s.energies.dashpotNormal + s.records[0].ahead, sum, (sum + mass * speed * speed) * rounding)
+				        << y << " " << share;
+				EXPECT_GE(s.energies.dashpotNormal, -sum * rounding);
+				if (share < 1) EXPECT_NEAR(s.records[0].ahead, 0, energy * rounding);
+			}
+}
+
+/// A point loses what both springs have in the middle between the last placement and the next one.
+TEST(ReleasedEnergy, IsThatInTheMiddleOfTheStep)
+{
+	const Vec3 shear(300, 400, 0);
+	for (const double speed : { 0., 0.3, -0.3 }) { // [m/s], of a heavy body: its velocity is constant
+		Separation s(1e9, speed, h, 0, shear);
+		const double stored = law.energy(overlap) + shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap)), whole = law.energy(overlap);
+		EXPECT_NEAR(s.records[0].ahead, stored - speed * h / 2 * law.force(overlap), 1e-6 * whole);
+		EXPECT_EQ(step({}, s.records), Separation(1e9, speed, h, 0, shear).records[0].ahead);
+		EXPECT_TRUE(s.records.empty());
+	}
+	const Separation gone(1e9, 100, h, 0, shear); // leaves the overlap within the step
+	EXPECT_NEAR(gone.records[0].ahead, shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap)), 1e-6 * law.energy(overlap));
 }
 
 /// Points end before, between and after persistent points, which retain their history and are not treated as new.

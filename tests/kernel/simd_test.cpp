@@ -61,7 +61,7 @@ void expectSame(const PointRecord& a, const PointRecord& b)
 	EXPECT_EQ(a.energy, b.energy);
 	EXPECT_EQ(a.shearForce, b.shearForce);
 	EXPECT_EQ(a.dashpotForce, b.dashpotForce);
-	EXPECT_EQ(a.closing, b.closing);
+	EXPECT_EQ(a.ahead, b.ahead);
 	EXPECT_EQ(a.slip, b.slip);
 	EXPECT_EQ(a.shearBefore, b.shearBefore);
 	EXPECT_EQ(a.shearEnergyBefore, b.shearEnergyBefore);
@@ -117,13 +117,14 @@ TEST(LanesOfAPair, ConstraintsAreThoseOfEachPoint)
 				const ContactInput<double> one { armA, armB, normal, s.normalForce, s.shearForce, damping,
 					damping * std::sqrt(properties.shearRatio), properties.friction,
 					p.h * (s.normalForce * normal + s.shearForce + s.dashpotForce), r.normalResponse, r.shearResponse, s.stiffness,
-					properties.shearRatio * s.stiffness };
+					properties.shearRatio * s.stiffness, (p.points[k].overlap - s.excess) / p.h, s.energy };
 				each.prepare<double>(0, k, p.bodies, one, p.h);
 				const ContactSolver::Constraint x = together.constraint(0, k), y = each.constraint(0, k);
 				using C = ContactSolver::Constraint;
 				for (const auto member : { &C::armA, &C::armB, &C::normal, &C::impulse, &C::shearBias, &C::coupling })
 					EXPECT_EQ(x.*member, y.*member) << seed;
-				for (const auto member : { &C::normalFactor, &C::normalBias, &C::normalMass, &C::shearFactor, &C::shearMass, &C::friction })
+				for (const auto member : { &C::normalFactor, &C::normalBias, &C::normalMass, &C::shearFactor, &C::shearMass, &C::friction,
+				             &C::release, &C::response, &C::energy })
 					EXPECT_EQ(x.*member, y.*member) << seed;
 			}
 		}
@@ -155,17 +156,19 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			torqueB += c.armB.cross(f);
 			EXPECT_LE(s.shearForce.norm(), properties.friction * f.dot(c.normal) * (1 + rounding));
 			EXPECT_EQ(s.dashpotForce, Vec3(f - s.normalForce * c.normal - s.shearForce));
-			EXPECT_EQ(s.closing, -after.dot(c.normal) * p.h);
 			const Vec3 before
 			        = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin);
 			const Vec3 mean = (before + after) / 2, along = s.dashpotForce.dot(c.normal) * c.normal;
 			const double shearEnergy = s.stiffness > 0 ? s.shearForce.squaredNorm() / (2 * properties.shearRatio * s.stiffness) : 0;
-			wanted.dashpotNormal -= p.h * along.dot(mean);
+			const double separation = after.dot(c.normal), ahead = separation > c.release ? 2 * c.energy / (p.h * separation) : s.normalForce;
+			wanted.dashpotNormal -= p.h * (along.dot(mean) + (s.normalForce - ahead) * separation / 2);
 			wanted.dashpotShear -= p.h * (s.dashpotForce - along).dot(mean);
 			wanted.friction -= s.slip.dot(s.shearBefore + s.shearForce) / 2 + shearEnergy - s.shearEnergyBefore;
 			wanted.elasticNormal += s.energy;
 			wanted.elasticShear += shearEnergy;
-			wanted.elasticPower -= (s.normalForce * c.normal + s.shearForce).dot(after);
+			const double power = -(ahead * separation + s.shearForce.dot(after));
+			wanted.elasticPower += power;
+			EXPECT_NEAR(s.ahead, s.energy + shearEnergy + p.h / 2 * power, 1e-12 * (s.energy + shearEnergy + p.h * std::abs(power)));
 		}
 		EXPECT_EQ(force.onB, sum);
 		EXPECT_EQ(force.torqueA, torqueA);
