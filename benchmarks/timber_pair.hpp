@@ -29,7 +29,7 @@ class TimberPair {
 		solver.begin(50);
 		solver.addPair(0, 1, points.size());
 		const SolverStep step { solver, bodies, h };
-		prepareContacts(step, 0, properties, false, points, records);
+		prepareContacts(step, 0, properties, points, records);
 		sweeps += solver.solve(bodies, 1e-3);
 		++steps;
 		storeForces(step, 0, properties, records, nullptr);

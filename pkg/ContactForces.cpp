@@ -103,8 +103,7 @@ void ContactForces::preparePair(timber::ContactSolver& solver, size_t k, const C
 	const Real inverseMass = timber::pairInverseMass(bodies[p.id1], bodies[p.id2]);
 	// bodies may be fixed, freed or get another mass in a session; the elastic law of this step had the old mass
 	if (inverseMass > 0) p.phys->mass = 1 / inverseMass;
-	const bool refresh = (scene->iter + p.id1 + p.id2) % timber::responseSteps == 0; // spread over the steps, reproducible after a load
-	timber::prepareContacts({ solver, bodies, scene->dt }, k, p.phys->properties(), refresh, p.geom->contactPoints, p.phys->records);
+	timber::prepareContacts({ solver, bodies, scene->dt }, k, p.phys->properties(), p.geom->contactPoints, p.phys->records);
 }
 
 void ContactForces::storePair(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)

@@ -18,7 +18,6 @@ namespace serialization {
 		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce) & make_nvp("dashpot", p.dashpotForce)
 		        & make_nvp("ahead", p.ahead) & make_nvp("impact", p.impact);
-		ar& make_nvp("normalResponse", p.normalResponse) & make_nvp("shearResponse", p.shearResponse) & make_nvp("pairInverseMass", p.pairInverseMass);
 	}
 	/// The increment of a step is not saved.
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)

@@ -100,10 +100,6 @@ constexpr double reboundRounding = 1e-9;
 /// the same from 0.1 to 3.
 constexpr double impactLoadShare = 1;
 
-/// Steps for which the response (inverse effective mass) of a contact point is reused. [-]
-/// A member that rotates at 10 rad/s has rotated by 0.03 rad by then; more steps save nothing.
-constexpr int responseSteps = 32;
-
 /// Steps for which the vibration modes of a damped joint are reused. [-]
 /// They vary only with the rotation of the joint's bodies relative to each other. Larger: slower convergence in a collapse, and a damping
 /// ratio of an earlier placement; smaller: longer steps, 2 us for each computation.

@@ -86,7 +86,7 @@ template <class Number> struct ShearIncrement {
 };
 
 /// History of a contact point: saved with the scene.
-struct PointHistory : PointSprings<double>, PointResponse {
+struct PointHistory : PointSprings<double> {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
 	double ahead = 0; ///< energy of both springs in the middle between the last placement and the next one: a point that ceases to exist loses it [J]

@@ -141,8 +141,6 @@ namespace {
 		p.shearDamping = shearDamping<Number>(pair, p.normalDamping);
 		p.friction = pair.friction;
 		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
-		p.normalResponse = record.get(&PointRecord::normalResponse);
-		p.shearResponse = record.get(&PointRecord::shearResponse);
 		p.normalStiffness = record.get(&PointRecord::stiffness);
 		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
 		p.release = (point.get(&ContactPoint::overlap) - record.get(&PointRecord::excess)) / Number(h);
@@ -162,21 +160,22 @@ namespace {
 	};
 
 	/// Starts the impact of a point whose surfaces have touched in the last step.
-	void touch(const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h, const ContactPoint& p, PointRecord& r)
+	void touch(const ContactSolver::Constraint& c, const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h, PointRecord& r)
 	{
-		const Vec3 v = relativeVelocity<double>(p.position - a.position, p.position - b.position, a.velocity, a.spin, b.velocity, b.spin);
+		const Vec3 v = relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin);
 		const PowerSpring spring { r.overlap, r.normalForce, r.stiffness };
-		startImpact(r.impact, spring, pair.dampingRatio, pair.mass, p.normal.dot(r.normalResponse), -v.dot(p.normal), h);
+		startImpact(r.impact, spring, pair.dampingRatio, pair.mass, c.response, -v.dot(c.normal), h);
 	}
 
 	/// Points of a pair in an impact: prepare phase.
-	void prepareImpacts(const SolverStep& step, size_t k, const PairProperties& pair, const Points& points, Records& records)
+	void prepareImpacts(const SolverStep& step, size_t k, const PairProperties& pair, Records& records)
 	{
 		const SolverPair& ids = step.solver.pair(k);
 		for (size_t i = 0; i < records.size(); ++i) {
 			PointRecord& r = records[i];
 			if (r.impact.isPast() && r.overlap == 0) r.impact.expect(0);
-			if (r.impact.isPending() && r.normalForce > 0) touch(step.bodies[ids.bodyA], step.bodies[ids.bodyB], pair, step.h, points[i], r);
+			if (r.impact.isPending() && r.normalForce > 0)
+				touch(step.solver.constraint(k, i), step.bodies[ids.bodyA], step.bodies[ids.bodyB], pair, step.h, r);
 			if (r.impact.isActive()) step.solver.setImpact(k, i, r.impact.rebound);
 		}
 	}
@@ -266,22 +265,18 @@ template <class Law> double elasticPair(const Law& law, const ElasticInput& inpu
 template double elasticPair(const HertzLaw&, const ElasticInput&, const Points&, Records&);
 template double elasticPair(const LinearLaw&, const ElasticInput&, const Points&, Records&);
 
-void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const Points& points, Records& records)
+void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, const Points& points, Records& records)
 {
 	assert(points.size() == records.size() && points.size() == step.solver.pair(k).count);
 	assert(step.h > 0 && pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0);
 	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
-	for (size_t i = 0; i < points.size(); ++i)
-		if (refresh || records[i].pairInverseMass != pairInverseMass(a, b))
-			static_cast<PointResponse&>(records[i])
-			        = responseAt(a, b, points[i].position - a.position, points[i].position - b.position, points[i].normal);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
 		const Group<Number, const PointRecord> record(&records[i], points.size() - i);
 		step.solver.prepare<Number>(k, i, step.bodies, contactInput<Number>(a, b, pair, step.h, point, record), step.h);
 	});
-	if (!step.solver.isExplicit()) prepareImpacts(step, k, pair, points, records);
+	if (!step.solver.isExplicit()) prepareImpacts(step, k, pair, records);
 }
 
 PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, Records& records, PairEnergies* energies)

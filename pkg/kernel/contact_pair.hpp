@@ -29,9 +29,8 @@ struct SolverStep {
 	double h; ///< length of the step [s]
 };
 
-/// Constraints of the k-th pair of the solver. refresh: recompute the points' responses.
-void prepareContacts(
-        const SolverStep& step, size_t k, const PairProperties& pair, bool refresh, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+/// Constraints of the k-th pair of the solver.
+void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {

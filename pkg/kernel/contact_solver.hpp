@@ -24,8 +24,13 @@
 /// A point in an impact (impact.hpp) separates with the velocity w: if u' exceeds w or r, or is > 0 without a force,
 ///     impact      p_n = max(0, p_n0 + (w - u_n) / a)                                              (6)
 ///
+/// Mass-weighted velocities: W = M^1/2 V for the velocities and spins V of a pair, M^-1 = R R^T (Cholesky). A row of J gives a component of the
+/// relative velocity at a point, u = J V. With rows G = J R an impulse p changes u by G G^T p:
+///     u = u0 + G dW,   dW += G^T p                                                              (7)
+/// with the component u0 before the sweeps and the change dW of W since then. Each point has three rows: normal and two tangents.
+///
 /// Glossary (n: normal, s: tangential)
-///     a          response       inverse effective mass: change of the relative velocity per unit impulse [1/kg]
+///     a          response       inverse effective mass: change of the relative velocity per unit impulse; a_s: the largest one [1/kg]
 ///     b_n, b_s   bias           impulse of the elastic force and of the velocity before the step [N s]
 ///     beta       -              Newmark's parameter [-]
 ///     c          coupling       tangential impulse that opposes the slip caused by a unit normal impulse [-]
@@ -33,7 +38,7 @@
 ///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
 ///     f_n, f_s   impulse factor share of the current impulse that remains [-]
-///     G          -              weight of the velocity before the step [kg]
+///     G          -              weight of the velocity before the step [kg]; in (7): rows
 ///     h          step           length of the step [s]
 ///     K_n, K_s   stiffness      of the springs (Eqs. 39, 40) [N/m]
 ///     M_n, M_s   mass           effective mass of bodies, spring and dashpot together [kg]
@@ -56,84 +61,18 @@
 ///     3. solve(): warm start with the impulses of the last step, then sweeps over the pairs and joints;
 ///     4. constraint() and dashpot() give the impulses (contact_pair.hpp: storeForces(), joint_dashpot.hpp: dashpotForce()).
 #pragma once
-#include "impact.hpp"
+#include "contact_constraint.hpp"
 #include "joint_dashpot.hpp"
-#include "kinematics.hpp"
 #include <cassert>
 #include <cstddef>
 #include <vector>
 
 namespace timber {
 
-/// Inverse effective mass at a point. It decides theta, beta and the convergence of the sweeps, and varies slowly: it may be reused
-/// for some steps, but not when a body is fixed, freed or gets another mass.
-struct PointResponse {
-	Vec3 normalResponse = Vec3::Zero(); ///< change of the relative velocity per unit normal impulse; a_n is its normal part [1/kg]
-	double shearResponse = 0; ///< a_s: largest change per unit tangential impulse [1/kg]
-	double pairInverseMass = -1; ///< pairInverseMass() of the bodies for which it was computed; < 0: not computed [1/kg]
-};
-PointResponse responseAt(const SolverBody& a, const SolverBody& b, const Vec3& armA, const Vec3& armB, const Vec3& normal);
-
-/// Input of the prepare phase: one contact point.
-template <class Number> struct ContactInput {
-	Vec3Of<Number> armA, armB; ///< from the centres of mass to the point [m]
-	Vec3Of<Number> normal; ///< unit, from A to B
-	Number elasticNormal; ///< e_n >= 0 [N]
-	Vec3Of<Number> elasticShear; ///< e_s on B, before Coulomb's limit [N]
-	Number normalDamping, shearDamping; ///< C_n, C_s [N s/m]
-	Number friction; ///< mu [-]
-	Vec3Of<Number> impulse; ///< warm start: estimate of the total contact impulse on B [N s]
-	Vec3Of<Number> normalResponse; ///< see PointResponse [1/kg]
-	Number shearResponse; ///< see PointResponse [1/kg]
-	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
-	Number release = noRebound; ///< r: overlap over the step [m/s]
-	Number energy = 0.; ///< U [J]
-};
-
-/// Coefficients of (3) and (4) for one point, and its impulse. Symbols: glossary above.
-template <class Number> struct ContactConstraint {
-	Vec3Of<Number> armA, armB, normal;
-	Vec3Of<Number> impulse; ///< p: in-out of the sweeps, total contact impulse on B [N s]
-	Number normalFactor, normalBias, normalMass; ///< f_n, b_n, M_n
-	Number shearFactor, shearMass; ///< f_s, M_s
-	Vec3Of<Number> shearBias; ///< b_s
-	Vec3Of<Number> coupling; ///< c
-	Number friction; ///< mu
-	Number rebound, release, response, energy; ///< w, r, a_n, U
-};
-/// work(member of x, the same member of y) for all members of a constraint.
-template <class ConstraintX, class ConstraintY, class Work> void forMembers(ConstraintX& x, ConstraintY& y, Work work)
-{
-	work(x.armA, y.armA);
-	work(x.armB, y.armB);
-	work(x.normal, y.normal);
-	work(x.impulse, y.impulse);
-	work(x.normalFactor, y.normalFactor);
-	work(x.normalBias, y.normalBias);
-	work(x.normalMass, y.normalMass);
-	work(x.shearFactor, y.shearFactor);
-	work(x.shearMass, y.shearMass);
-	work(x.shearBias, y.shearBias);
-	work(x.coupling, y.coupling);
-	work(x.friction, y.friction);
-	work(x.rebound, y.rebound);
-	work(x.release, y.release);
-	work(x.response, y.response);
-	work(x.energy, y.energy);
-}
-
-/// v, shortened to the length if it is longer.
-template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
-{
-	const Number square = v.squaredNorm();
-	return selectLazily(
-	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
-}
-
 /// Two bodies in contact and their constraints.
 struct SolverPair {
 	int bodyA, bodyB;
-	size_t first; ///< index of the first constraint group
+	size_t first; ///< index of the first constraint group; of the first point: laneCount times that
 	size_t count; ///< of contact points
 	double squaredChange; ///< of the impulses in the last sweep, over the equivalent mass: changes matter by their effect on light members [J]
 };
@@ -141,7 +80,7 @@ struct SolverPair {
 class ContactSolver {
 public:
 	using Constraint = ContactConstraint<double>;
-	/// Up to laneCount points of a pair. The prepare and store phases use SIMD, the sweeps take points one by one. Unused lanes are undefined.
+	/// Up to laneCount points of a pair: the prepare and store phases process several at a time, the sweeps one by one. Unused lanes are undefined.
 	using ConstraintGroup = ContactConstraint<Lanes>;
 
 	/// Phase 1: starts a step. sweepLimit: upper bound of the sweeps over the points; 0: explicit springs and dashpots.
@@ -150,7 +89,7 @@ public:
 	size_t addPair(int bodyA, int bodyB, size_t count);
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
 	/// laneCount, on. Thread-safe for different pairs.
-	template <class Number> void prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& points, double h);
+	template <class Number> void prepare(size_t k, size_t first, const std::vector<SolverBody>& bodies, const ContactInput<Number>& given, double h);
 	/// Phase 2, after prepare(): the point is in an impact with w of (6) [m/s]. Not for explicit springs and dashpots.
 	void setImpact(size_t k, size_t point, double rebound);
 	/// Phase 1: reserves the constraint of a joint's dashpots. Returns its index.
@@ -176,6 +115,8 @@ public:
 	/// Phase 4: constraint of a point of the k-th pair, and the group that begins with a point whose index is a multiple of laneCount.
 	Constraint constraint(size_t k, size_t point) const { return constraintAt(pair(k), point); }
 	const ConstraintGroup& constraintGroup(size_t k, size_t point) const { return groupAt(pair(k), point); }
+	/// Phases 2 to 4: a point of the k-th pair in the sweeps.
+	const SweepPoint& point(size_t k, size_t point) const { return points[pair(k).first * laneCount + point]; }
 	/// Phase 4: the k-th joint.
 	const DashpotConstraint& dashpot(size_t k) const
 	{
@@ -186,9 +127,12 @@ public:
 private:
 	int maxSweeps = 0;
 	std::vector<ConstraintGroup> groups;
+	std::vector<SweepPoint> points;
+	std::vector<WeightedBody> weighted; ///< of each body of the island, by its index
 	std::vector<SolverPair> pairs;
 	std::vector<DashpotConstraint> dashpots;
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
+	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 
 	const ConstraintGroup& groupAt(const SolverPair& pair, size_t point) const
@@ -202,14 +146,20 @@ private:
 		forMembers(one, groupAt(pair, point), [&](auto& member, const auto& all) { member = lane(all, point % laneCount); });
 		return one;
 	}
-	void warmStart(std::vector<SolverBody>& bodies, const SolverPair& pair);
-	void solvePair(std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards);
+	SweepPoint* pointsOf(const SolverPair& pair) { return &points[pair.first * laneCount]; }
+	template <class Work> void forBodies(Work work);
+	void startBodies(const std::vector<SolverBody>& bodies);
+	void finishBodies(std::vector<SolverBody>& bodies);
+	void finishImpulses(const SolverPair& pair);
+	void warmStart(const SolverPair& pair);
+	BodyMotion motionOf(const std::vector<SolverBody>& bodies, int k) { return { bodies[k], weighted[k] }; }
+	void solvePair(const std::vector<SolverBody>& bodies, SolverPair& pair, bool forwards);
 	double squaredThreshold(const std::vector<SolverBody>& bodies, double tolerance) const;
 	/// Connection: SolverPair or DashpotConstraint.
 	template <class Connection> bool activateNeighbours(const std::vector<SolverBody>& bodies, const Connection& c, double threshold);
-	bool sweepOnce(std::vector<SolverBody>& bodies, double threshold, bool forwards);
-	bool sweepDashpots(std::vector<SolverBody>& bodies, double threshold);
-	int sweepToConvergence(std::vector<SolverBody>& bodies, double tolerance);
+	bool sweepOnce(const std::vector<SolverBody>& bodies, double threshold, bool forwards);
+	bool sweepDashpots(const std::vector<SolverBody>& bodies, double threshold);
+	int sweepToConvergence(const std::vector<SolverBody>& bodies, double tolerance);
 };
 
 } // namespace timber

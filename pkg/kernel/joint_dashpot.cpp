@@ -86,25 +86,17 @@ namespace {
 		return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
 	}
 
-	/// Changes the velocities of a free body by an impulse and an angular impulse about its centre.
-	[[gnu::always_inline]] inline void accelerate(SolverBody& body, const Vec3& impulse, const Vec3& angular)
-	{
-		if (body.inverseMass == 0) return; // only read: it may belong to several islands, which other threads solve
-		body.newVelocity += body.inverseMass * impulse;
-		body.newSpin += body.inverseInertia * angular;
-	}
-
-	[[gnu::always_inline]] inline void apply(const DashpotConstraint& c, SolverBody& a, SolverBody& b, const Vec6& q)
+	[[gnu::always_inline]] inline void apply(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
 	{
 		const DashpotImpulse P = impulseOf(c, q);
-		accelerate(a, -P.linear, -c.armA.cross(P.linear) - P.angular);
-		accelerate(b, P.linear, c.armB.cross(P.linear) + P.angular);
+		a.accelerate(-P.linear, -c.armA.cross(P.linear) - P.angular);
+		b.accelerate(P.linear, c.armB.cross(P.linear) + P.angular);
 	}
 
 	/// Z^T (w + u); after the sweeps: eta + eta'.
-	[[gnu::always_inline]] inline Vec6 modalSum(const DashpotConstraint& c, const SolverBody& a, const SolverBody& b)
+	[[gnu::always_inline]] inline Vec6 modalSum(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
 	{
-		return modalVelocity(c, c.before + twist(c, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin));
+		return modalVelocity(c, c.before + twist(c, a.velocity(), a.spin(), b.velocity(), b.spin()));
 	}
 
 } // namespace
@@ -139,7 +131,7 @@ void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody&
 	c.dissipated = 0;
 }
 
-void solveDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b, double threshold)
+void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
 	const Vec6 sum = modalSum(c, a, b), change = c.share.cwiseProduct(c.impulse - sum) - c.impulse; // (3)
 	c.squaredChange = change.squaredNorm();
@@ -152,7 +144,7 @@ void solveDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b, double thr
 	apply(c, a, b, change);
 }
 
-void applyExplicitDashpot(DashpotConstraint& c, SolverBody& a, SolverBody& b)
+void applyExplicitDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
 	const Vec6 eta = modalVelocity(c, c.before), x = c.share.array() / (1 - c.share.array());
 	c.impulse = -2 * x.cwiseProduct(eta);

@@ -88,10 +88,10 @@ void prepareDashpot(
         DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h);
 
 /// One Gauss-Seidel visit: (3). A squared change of at most `threshold` [J] is not applied.
-void solveDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b, double threshold);
+void solveDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
-void applyExplicitDashpot(DashpotConstraint& constraint, SolverBody& a, SolverBody& b);
+void applyExplicitDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
 /// Impulse of the dashpots on B at the joint's centre.
 struct DashpotImpulse {

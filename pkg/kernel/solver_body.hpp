@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bodies as the solver sees them, in the world frame.
 #pragma once
-#include "types.hpp"
+#include "simd.hpp"
 
 namespace timber {
 
@@ -33,5 +33,93 @@ inline Mat3 bodyResponse(const SolverBody& body, const Vec3& arm)
 	response.diagonal().array() += body.inverseMass;
 	return response;
 }
+
+/// R with R R^T = M^-1 for one body; zero for a fixed one.
+struct InverseRootMass {
+	double linear = 0; ///< [kg^-1/2]
+	Mat3 angular = Mat3::Zero(); ///< lower triangle [kg^-1/2 m^-1]
+
+	InverseRootMass() = default;
+	explicit InverseRootMass(const SolverBody& body)
+	        : linear(std::sqrt(body.inverseMass))
+	{
+		const Mat3& I = body.inverseInertia;
+		Mat3& L = angular;
+		const auto root = [](double square) { return square > 0 ? std::sqrt(square) : 0; };
+		const auto over = [](double x, double y) { return y > 0 ? x / y : 0; };
+		L(0, 0) = root(I(0, 0));
+		L(1, 0) = over(I(1, 0), L(0, 0));
+		L(2, 0) = over(I(2, 0), L(0, 0));
+		L(1, 1) = root(I(1, 1) - L(1, 0) * L(1, 0));
+		L(2, 1) = over(I(2, 1) - L(2, 0) * L(1, 0), L(1, 1));
+		L(2, 2) = root(I(2, 2) - L(2, 0) * L(2, 0) - L(2, 1) * L(2, 1));
+	}
+	/// R^T times a torque, or the angular part of a row.
+	template <class Number> Vec3Of<Number> weightedTorque(const Vec3Of<Number>& t) const
+	{
+		const Mat3& L = angular;
+		return { Number(L(0, 0)) * t.x() + Number(L(1, 0)) * t.y() + Number(L(2, 0)) * t.z(), Number(L(1, 1)) * t.y() + Number(L(2, 1)) * t.z(),
+			Number(L(2, 2)) * t.z() };
+	}
+	/// Change of spin of the angular part of a change of W. [rad/s]
+	Vec3 spinOf(const double* w) const
+	{
+		const Mat3& L = angular;
+		return { L(0, 0) * w[0], L(1, 0) * w[0] + L(1, 1) * w[1], L(2, 0) * w[0] + L(2, 1) * w[1] + L(2, 2) * w[2] };
+	}
+};
+
+/// A body in the sweeps: change of its mass-weighted velocity and spin. [kg^1/2 m/s]
+struct WeightedBody {
+	double change[6] = {};
+	InverseRootMass root;
+	long step = -1; ///< of the solver, for which it was started
+};
+
+/// Velocities of a body during the sweeps.
+struct BodyMotion {
+	const SolverBody& start; ///< before the sweeps
+	WeightedBody& weighted;
+
+	Vec3 velocity() const { return start.newVelocity + weighted.root.linear * Vec3(weighted.change[0], weighted.change[1], weighted.change[2]); }
+	Vec3 spin() const { return start.newSpin + weighted.root.spinOf(weighted.change + 3); }
+	/// Applies an impulse and an angular impulse about the centre.
+	void accelerate(const Vec3& impulse, const Vec3& angular) const
+	{
+		const Vec3 torque = weighted.root.weightedTorque<double>(angular);
+		for (int i = 0; i < 3; ++i) {
+			weighted.change[i] += weighted.root.linear * impulse[i];
+			weighted.change[3 + i] += torque[i];
+		}
+	}
+};
+
+/// Twelve numbers of a pair: six of A, six of B. Sums are those of any processor, to the last bit.
+struct PairVector {
+	typedef double Quad __attribute__((vector_size(4 * sizeof(double))));
+	Quad part[3];
+
+	static PairVector of(const double* a, const double* b)
+	{
+		return { { Quad { a[0], a[1], a[2], a[3] }, Quad { a[4], a[5], b[0], b[1] }, Quad { b[2], b[3], b[4], b[5] } } };
+	}
+	void store(double* a, double* b) const
+	{
+		for (int i = 0; i < 6; ++i) {
+			a[i] = part[i / 4][i % 4];
+			b[i] = part[(6 + i) / 4][(6 + i) % 4];
+		}
+	}
+	[[gnu::always_inline]] double dot(const PairVector& o) const
+	{
+		const Quad sum = part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2];
+		return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+	}
+	[[gnu::always_inline]] void add(const PairVector& o, double factor)
+	{
+		for (int i = 0; i < 3; ++i)
+			part[i] += o.part[i] * factor;
+	}
+};
 
 } // namespace timber

@@ -26,8 +26,7 @@ inline HeapPoint central(double damping, double elastic = 0)
 {
 	HeapPoint p;
 	p.bodyB = 1;
-	p.armA = p.armB = p.elasticShear = p.impulse = p.normalResponse = Vec3::Zero();
-	p.shearResponse = 0;
+	p.armA = p.armB = p.elasticShear = p.impulse = Vec3::Zero();
 	p.normal = Vec3::UnitZ();
 	p.elasticNormal = elastic;
 	p.normalDamping = p.shearDamping = damping;
@@ -55,12 +54,8 @@ inline int solveContacts(
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
 			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));
-			for (Place p = first; p != last; ++p) {
-				const PointResponse response = responseAt(bodies[size_t(p->bodyA)], bodies[size_t(p->bodyB)], p->armA, p->armB, p->normal);
-				p->normalResponse = response.normalResponse;
-				p->shearResponse = response.shearResponse;
+			for (Place p = first; p != last; ++p)
 				solver.prepare<double>(k, size_t(p - first), bodies, *p, h);
-			}
 		}
 		maxSweeps = std::max(maxSweeps, solver.solve(bodies, tolerance));
 		for (size_t k = 0; k < islands[island].size(); ++k) {

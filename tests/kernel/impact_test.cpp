@@ -59,7 +59,7 @@ public:
 		solver.begin(sweeps);
 		solver.addPair(0, 1, points.size());
 		const SolverStep step { solver, bodies, h };
-		prepareContacts(step, 0, pair, true, points, records);
+		prepareContacts(step, 0, pair, points, records);
 		solver.solve(bodies, 1e-12);
 		PairEnergies energies;
 		storeForces(step, 0, pair, records, &energies);

@@ -362,9 +362,6 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	p.friction = 1e3; // sticks
 	p.armA = Vec3(0.05, 0.05, 2.8) - start[1].position;
 	p.armB = Vec3(0.05, 0.05, 2.8) - start[2].position;
-	const PointResponse response = responseAt(start[1], start[2], p.armA, p.armB, p.normal);
-	p.normalResponse = response.normalResponse;
-	p.shearResponse = response.shearResponse;
 	solver.prepare<double>(solver.addPair(1, 2, 1), 0, all.bodies, p, h);
 	std::vector<JointModes> modes;
 	for (const Joint& j : all.joints) {

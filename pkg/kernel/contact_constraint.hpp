@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Constraint of a contact point: coefficients of equations (2) to (7) of contact_solver.hpp, whose glossary explains the symbols.
+#pragma once
+#include "impact.hpp"
+#include "kinematics.hpp"
+#include "solver_body.hpp"
+
+namespace timber {
+
+/// Input of the prepare phase: one contact point.
+template <class Number> struct ContactInput {
+	Vec3Of<Number> armA, armB; ///< from the centres of mass to the point [m]
+	Vec3Of<Number> normal; ///< unit, from A to B
+	Number elasticNormal; ///< e_n >= 0 [N]
+	Vec3Of<Number> elasticShear; ///< e_s on B, before Coulomb's limit [N]
+	Number normalDamping, shearDamping; ///< C_n, C_s [N s/m]
+	Number friction; ///< mu [-]
+	Vec3Of<Number> impulse; ///< warm start: estimate of the total contact impulse on B [N s]
+	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
+	Number release = noRebound; ///< r: overlap over the step [m/s]
+	Number energy = 0.; ///< U [J]
+};
+
+/// One contact point of a pair: input and output of the sweeps.
+template <class Number> struct ContactConstraint {
+	Vec3Of<Number> armA, armB, normal, tangent; ///< tangent: unit; the second one is normal x tangent
+	Vec3Of<Number> impulse; ///< p: warm start; after the sweeps total contact impulse on B [N s]
+	Number response, release, energy; ///< a_n, r, U
+	Number rebound; ///< w
+};
+/// work(member of x, the same member of y) for all members of a constraint.
+template <class ConstraintX, class ConstraintY, class Work> void forMembers(ConstraintX& x, ConstraintY& y, Work work)
+{
+	work(x.armA, y.armA);
+	work(x.armB, y.armB);
+	work(x.normal, y.normal);
+	work(x.tangent, y.tangent);
+	work(x.impulse, y.impulse);
+	work(x.response, y.response);
+	work(x.release, y.release);
+	work(x.energy, y.energy);
+	work(x.rebound, y.rebound);
+}
+
+/// A point in the sweeps. Components: normal, tangent, second tangent. Symbols: glossary above.
+struct SweepPoint {
+	PairVector rows[3]; ///< of G
+	double velocity[3]; ///< u0 [m/s]
+	double impulse[3]; ///< p
+	double normalFactor, normalBias, normalMass; ///< f_n, b_n, M_n
+	double shearFactor, shearMass; ///< f_s, M_s
+	double shearBias[2], coupling[2]; ///< b_s, c
+	double friction; ///< mu
+	double rebound, release, response, energy; ///< w, r, a_n, U
+};
+
+/// A point with its constraint, or a group of points.
+template <class Number> struct PreparedPoint {
+	ContactConstraint<Number> constraint;
+	Number rows[3][12];
+	Number velocity[3], impulse[3], normalFactor, normalBias, normalMass, shearFactor, shearMass, shearBias[2], coupling[2], friction;
+
+	/// For a step of h [s]. rootA, rootB: of the bodies.
+	PreparedPoint(
+	        const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, const InverseRootMass& rootA, const InverseRootMass& rootB, double h);
+	/// The i-th point of the group.
+	SweepPoint point(size_t i) const;
+};
+
+/// Impulse of explicit springs and dashpots (Eqs. 17, 18, 21-24). As in the paper, the elastic force alone decides whether a point
+/// slides, and a sliding point has no dashpot. With long steps this rule makes loaded light members chatter between the limits.
+template <class Number> Vec3Of<Number> explicitImpulse(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double h);
+
+/// p in the world frame: impulse in the axes of the constraint.
+Vec3 worldImpulse(const ContactConstraint<double>& c, const double* impulse);
+
+/// v, shortened to the length if it is longer.
+template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
+{
+	const Number square = v.squaredNorm();
+	return selectLazily(
+	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
+}
+
+} // namespace timber
