@@ -178,7 +178,7 @@ void ContactForces::action()
 {
 	collectPairs();
 	collectBodies();
-	findDampedJoints(*scene, bodies, joints);
+	findImplicitJoints(*scene, bodies, sweeps > 0, joints);
 	findIslands();
 	solveAll();
 	sumResults();

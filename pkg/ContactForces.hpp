@@ -28,7 +28,7 @@ class ContactForces : public GlobalEngine {
 	};
 	std::vector<ContactPair> pairs, found; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `found`
-	std::vector<TimberJoint*> joints; ///< damped
+	std::vector<TimberJoint*> joints; ///< damped or stiff
 	timber::Islands islands; ///< of the pairs, and of the joints after them
 	std::vector<timber::Link> links; ///< of each pair and joint
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
@@ -71,7 +71,7 @@ public:
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots and by Newmark's term. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
-		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
+		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints, and by Newmark's term of stiff ones. [J]"))
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))

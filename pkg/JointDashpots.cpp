@@ -4,26 +4,36 @@
 
 namespace yade {
 
-void findDampedJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, std::vector<TimberJoint*>& damped)
+namespace {
+	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
+
+	/// Modes of a joint's bodies, computed again after modeSteps, or when springs or masses have changed.
+	void updateModes(TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b)
+	{
+		const timber::SpringGroup springs { joint.anchors1, joint.broken, joint.stiffness(), joint.normal };
+		if (scene.iter % timber::modeSteps != 0 && joint.modes.holdFor(springs, timber::pairInverseMass(a, b))) return;
+		joint.modes = timber::jointModes(a, b, axesOf(scene, joint.id1), springs);
+	}
+}
+
+void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff, std::vector<TimberJoint*>& found)
 {
-	damped.clear();
+	found.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine || engine->dead) return;
 	for (const shared_ptr<TimberJoint>& joint : engine->joints) {
-		if (joint->dampingRatio == 0 || joint->isBroken() || joint->id1 == joint->id2) continue;
+		if ((joint->dampingRatio == 0 && !alsoStiff) || joint->isBroken() || joint->id1 == joint->id2) continue;
 		if (!bodyAt(scene, joint->id1) || !bodyAt(scene, joint->id2)) continue;
-		if (timber::pairInverseMass(bodies[joint->id1], bodies[joint->id2]) > 0) damped.push_back(joint.get());
+		const timber::SolverBody &a = bodies[joint->id1], &b = bodies[joint->id2];
+		if (timber::pairInverseMass(a, b) == 0) continue;
+		updateModes(*joint, scene, a, b);
+		if (joint->dampingRatio > 0 || joint->modes.isStiff(scene.dt)) found.push_back(joint.get());
 	}
 }
 
 void prepareJoint(const timber::SolverStep& step, size_t k, TimberJoint& joint, const Scene& scene)
 {
-	const timber::SolverBody &a = step.bodies[joint.id1], &b = step.bodies[joint.id2];
-	const Matrix3r axes = bodyAt(scene, joint.id1)->state->ori.toRotationMatrix();
-	const timber::SpringGroup springs { joint.anchors1, joint.broken, joint.stiffness(), joint.normal };
-	if (scene.iter % timber::modeSteps == 0 || !joint.modes.holdFor(springs, timber::pairInverseMass(a, b)))
-		joint.modes = timber::jointModes(a, b, axes, springs);
-	step.solver.prepareDashpot(k, step.bodies, joint.modes, axes, joint.dampingRatio, step.h);
+	step.solver.prepareDashpot(k, step.bodies, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, step.h);
 }
 
 timber::PairForce storeJoint(const timber::SolverStep& step, size_t k, Real& dissipated)

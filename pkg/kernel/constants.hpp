@@ -100,7 +100,17 @@ constexpr double reboundRounding = 1e-9;
 /// the same from 0.1 to 3.
 constexpr double impactLoadShare = 1;
 
-/// Steps for which the vibration modes of a damped joint are reused. [-]
+/// Product of the step and a joint's highest frequency above which its springs get Newmark's term. [-] Explicit springs are stable below 2,
+/// several joints of a member together below less.
+/// Larger: stiff joints of a member limit the step; smaller: more joints take part in the sweeps.
+constexpr double stiffPhase = 1;
+
+/// Convergence threshold of the impulses of stiff joints, as a share of the tolerance of the sweeps. [-] Their errors change elastic forces by
+/// (h omega)^2 times as much.
+/// Larger: joints with h omega above 10 gain energy; smaller: more sweeps.
+constexpr double stiffJointShare = 1e-3;
+
+/// Steps for which the vibration modes of a joint are reused. [-]
 /// They vary only with the rotation of the joint's bodies relative to each other. Larger: slower convergence in a collapse, and a damping
 /// ratio of an earlier placement; smaller: longer steps, 2 us for each computation.
 constexpr int modeSteps = 1024;

@@ -245,8 +245,9 @@ bool ContactSolver::sweepDashpots(const std::vector<SolverBody>& bodies, double 
 {
 	bool changed = false;
 	for (DashpotConstraint& joint : dashpots) {
-		solveDashpot(joint, motionOf(bodies, joint.bodyA), motionOf(bodies, joint.bodyB), threshold * double(joint.count));
-		changed = activateNeighbours(bodies, joint, threshold) || changed;
+		const double limit = threshold * joint.thresholdShare;
+		solveDashpot(joint, motionOf(bodies, joint.bodyA), motionOf(bodies, joint.bodyB), limit * double(joint.count));
+		changed = activateNeighbours(bodies, joint, limit) || changed;
 	}
 	return changed;
 }

@@ -93,10 +93,10 @@ namespace {
 		b.accelerate(P.linear, c.armB.cross(P.linear) + P.angular);
 	}
 
-	/// Z^T (w + u); after the sweeps: eta + eta'.
-	[[gnu::always_inline]] inline Vec6 modalSum(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
+	/// Z^T u; after the sweeps: eta'.
+	[[gnu::always_inline]] inline Vec6 modalNow(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
 	{
-		return modalVelocity(c, c.before + twist(c, a.velocity(), a.spin(), b.velocity(), b.spin()));
+		return modalVelocity(c, twist(c, a.velocity(), a.spin(), b.velocity(), b.spin()));
 	}
 
 } // namespace
@@ -124,16 +124,21 @@ void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody&
 	c.axesA = axesA;
 	c.armA = axesA * modes.centre;
 	c.armB = c.armA + a.position - b.position;
-	c.before = twist(c, a.velocity, a.spin, b.velocity, b.spin);
-	const Vec6 x = h * ratio * modes.frequencies;
-	c.share = x.array() / (1 + x.array());
+	c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
+	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(), x = ratio * phase, y = phase.square();
+	const Eigen::Array<double, 6, 1> g = (phase > stiffPhase).select(y.square() / (4 * y + 2), 0.);
+	c.thresholdShare = g.maxCoeff() > 0 ? stiffJointShare * stiffJointShare : 1;
+	c.decay = x;
+	c.share = (x + g) / (1 + x + g);
+	c.shareBefore = (x - g) / (1 + x + g);
 	c.impulse.setZero();
 	c.dissipated = 0;
 }
 
 void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
-	const Vec6 sum = modalSum(c, a, b), change = c.share.cwiseProduct(c.impulse - sum) - c.impulse; // (3)
+	const Vec6 now = modalNow(c, a, b), sum = c.before + now;
+	const Vec6 change = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before) - c.impulse; // (3)
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) {
 		c.dissipated = -c.impulse.dot(sum) / 2;
@@ -146,10 +151,9 @@ void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b
 
 void applyExplicitDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
-	const Vec6 eta = modalVelocity(c, c.before), x = c.share.array() / (1 - c.share.array());
-	c.impulse = -2 * x.cwiseProduct(eta);
+	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, a, b, c.impulse);
-	c.dissipated = -c.impulse.dot(modalSum(c, a, b)) / 2;
+	c.dissipated = -c.impulse.dot(c.before + modalNow(c, a, b)) / 2;
 }
 
 DashpotImpulse dashpotImpulse(const DashpotConstraint& c) { return impulseOf(c, c.impulse); }

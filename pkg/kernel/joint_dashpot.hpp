@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Dashpots of a joint: its two bodies vibrate against each other with a given damping ratio. Adapter: ContactForces.
+/// Dashpots of a joint: its two bodies vibrate against each other with a given damping ratio. Newmark's term of its springs, with which stiff
+/// joints set no limit to the step (as in contact_solver.hpp). Adapter: ContactForces.
 ///
 /// Two bodies that are connected by one joint, and free otherwise, have six vibration modes: translations and rotations of B relative to A.
 /// Let w be the relative velocity and spin at the joint's centre, P the impulse and angular impulse on B, R the response, so that
@@ -10,10 +11,12 @@
 /// About the centroid of the springs' ends, forces do not rotate and torques do not move: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and the dissipated energy
-/// h (w + w')^T D (w + w') / 4 is never negative. In terms of the modes, P = Z q, eta = Z^T w, these are six scalar dashpots:
-///     q = -x (eta + eta'),   x = h zeta omega                                                    (2)
+/// h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w). In terms of the modes, P = Z q, eta = Z^T w, these are
+/// six scalars:
+///     q = -x (eta + eta') - g (eta' - eta),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2      (2)
+/// with beta = 0 for modes that the step resolves, h omega <= stiffPhase.
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
-///     q = s (q0 - Z^T (w + u)),   s = x / (1 + x)                                                (3)
+///     q = s (q0 - Z^T u) - r Z^T w,   s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)    (3)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so that no impulse has to be
 /// kept from step to step.
 /// Z is fixed in the axes of A. It is reused while the springs and masses are the same (modeSteps): (2) holds for any Z, and Z decides with (1)
@@ -21,18 +24,23 @@
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
+///     beta     -             Newmark's parameter of a mode [-]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
+///     g        -             weight of Newmark's term [-]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
 ///     omega    frequency     angular, of a mode [rad/s]
 ///     P        impulse       on B at the joint's centre [N s, N m s]
 ///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
 ///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
+///     r        shareBefore   weight of the modal velocity before the step [-]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
 ///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current [m/s, rad/s]
-///     x        -             decay rate of the mode times h [-]
+///     x        decay         decay rate of the mode times h [-]
+///     y        -             square of the mode's frequency times h [-]
 ///     Z        modes         in the axes of A [kg^1/2, kg^1/2 m]
 ///     zeta     ratio         damping ratio [-]
 #pragma once
+#include "constants.hpp"
 #include "joint_law.hpp"
 #include "solver_body.hpp"
 #include <algorithm>
@@ -60,6 +68,8 @@ struct JointModes {
 	JointStiffness stiffness { 0, 0 }; ///< of each
 	double pairInverseMass = 0; ///< [1/kg]
 
+	/// Whether explicit springs would not resolve a step of h [s].
+	bool isStiff(double h) const { return h * frequencies.maxCoeff() > stiffPhase; }
 	bool holdFor(const SpringGroup& group, double inverseMass) const
 	{
 		return springs == group.count() && stiffness.normal == group.stiffness.normal && stiffness.shear == group.stiffness.shear
@@ -75,11 +85,12 @@ struct DashpotConstraint {
 	const JointModes* modes; ///< Z in the axes of A
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
-	Vec6 before; ///< w
-	Vec6 share; ///< s
+	Vec6 before; ///< eta
+	Vec6 decay, share, shareBefore; ///< x, s, r
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
-	double dissipated; ///< -q (eta + eta') / 2 after the last visit: of the step, if no velocity changed afterwards [J]
+	double dissipated; ///< -q (eta + eta') / 2 after the last visit, Newmark's term included: of the step, if no velocity changed afterwards [J]
+	double thresholdShare; ///< of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 

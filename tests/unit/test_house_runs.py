@@ -71,7 +71,7 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     monitor = stand(path, 0.3, snow=1.0, dt=5e-5)
     assert max(monitor.peak) < 2e-3 and broken() == 0
     if last == 1:
-        path.write_text(text + "joint_types: {roof_plate: {kn: 4e7, ks: 4e7}}\n")
+        path.write_text(text + "joint_types: {roof_plate: {kn: 4e10, ks: 4e10}}\n")
         with pytest.raises(HouseError, match="a time step of 0.0002 s is too large for the joints between the lightest members: take at most"):
             stand(path, 0.0)
 

@@ -99,9 +99,9 @@ def stable_dt(safety=0.5):
     Notes
     -----
     2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
-    M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0)
-    and for joints, whose dashpots are implicit and do not change it; implicit contacts (the default) are stable beyond it. Contacts that do
-    not touch yet do not count: call it after a few steps, or leave a safety for impacts.
+    M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0);
+    implicit contacts and joints (the default) are stable beyond it. Contacts that do not touch yet do not count: call it after a few steps,
+    or leave a safety for impacts.
     """
     arguments.positive("stable_dt: safety", safety)
     solver = find_engine(yw.ContactForces)
