@@ -46,12 +46,15 @@ namespace {
 	}
 }
 
-Real GroundMotionEngine::workUntilNow(const Scene& current) const { return work - current.dt * lastAcceleration.dot(lastMomentum + freeMomentum(current)) / 2; }
+Real GroundMotionEngine::workUntil(const Vector3r& momentum, Real dt) const { return work - dt * lastAcceleration.dot(lastMomentum + momentum) / 2; }
+
+Real GroundMotionEngine::workUntilNow(const Scene& current) const { return workUntil(freeMomentum(current), current.dt); }
 
 void GroundMotionEngine::action()
 {
-	work = workUntilNow(*scene);
-	lastMomentum = freeMomentum(*scene);
+	const Vector3r momentum = freeMomentum(*scene);
+	work = workUntil(momentum, scene->dt);
+	lastMomentum = momentum;
 	lastAcceleration = at(scene->time);
 	addBodyForce(*scene, -lastAcceleration);
 }

@@ -6,6 +6,9 @@
 namespace yade {
 
 class GroundMotionEngine : public GlobalEngine {
+	/// Work done on the bodies until the end of the last step. momentum: of the free bodies then [kg m/s]. [J]
+	Real workUntil(const Vector3r& momentum, Real dt) const;
+
 public:
 	void postLoad(GroundMotionEngine&) { validate(); }
 	void validate() const;

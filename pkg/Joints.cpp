@@ -56,6 +56,9 @@ void TimberJoint::validateLaw() const
 
 void TimberJoint::postLoad(TimberJoint&)
 {
+	readSprings(stretches, forces);
+	if (packed) packed->isCurrent = false;
+	packed.reset();
 	isSlip = law == "slip";
 	validate();
 	if (anchors1.empty() || anchors2.empty()) return;
@@ -72,14 +75,56 @@ void TimberJoint::postLoad(TimberJoint&)
 
 void TimberJoint::breakSpring(size_t spring)
 {
+	const timber::JointSprings changed = springs();
 	broken[spring] = 1;
 	forces[spring] = stretches[spring] = Vector3r::Zero();
+	if (packed) packed->set(index, changed);
 }
 
 void TimberJoint::breakAll()
 {
 	for (size_t k = 0; k < broken.size(); ++k)
 		breakSpring(k);
+}
+
+void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
+{
+	const timber::JointSprings unpacked = springs();
+	packed = to;
+	index = packed->joints.size();
+	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
+}
+
+void TimberJoint::readSprings(vector<Vector3r>& stretched, vector<Vector3r>& pulling) const
+{
+	if (!packed || yields()) {
+		stretched = stretches;
+		pulling = forces;
+		return;
+	}
+	stretched.resize(forces.size());
+	pulling.resize(forces.size());
+	timber::unpackSprings(packed->first(packed->joints[index]), stretched, pulling);
+}
+
+timber::JointSprings TimberJoint::springs()
+{
+	readSprings(stretches, forces);
+	return { anchors1, anchors2, broken, stretches, forces };
+}
+
+vector<Vector3r> TimberJoint::springForces() const
+{
+	vector<Vector3r> stretched, pulling;
+	readSprings(stretched, pulling);
+	return pulling;
+}
+
+vector<Vector3r> TimberJoint::springStretches() const
+{
+	vector<Vector3r> stretched, pulling;
+	readSprings(stretched, pulling);
+	return stretched;
 }
 
 timber::JointStiffness TimberJoint::stiffness() const
@@ -94,26 +139,37 @@ timber::SlipLaw TimberJoint::slipLaw() const
 	return { share * kn, share * strength, frictionShare, softeningStretch, ultimateStretch };
 }
 
+Real TimberJoint::loadOf(const timber::JointForce& total) const { return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength; }
+
 Real TimberJoint::load() const
 {
-	Real sum = 0, largest = 0;
-	for (const Vector3r& f : forces) {
-		sum += f.norm();
-		largest = math::max(largest, Real(f.norm()));
+	timber::JointForce total;
+	for (const Vector3r& f : springForces()) {
+		total.sum += f.norm();
+		total.largestSquared = math::max(total.largestSquared, Real(f.squaredNorm()));
 	}
-	return (perJoint ? sum : largest) / strength;
+	return loadOf(total);
 }
 
 boost::python::list TimberJoint::pySprings() const
 {
+	const vector<Vector3r> pulling = springForces(), stretched = springStretches();
 	boost::python::list all;
 	for (size_t k = 0; k < broken.size(); ++k) {
 		boost::python::dict one;
-		one["force"] = Vector3r(forces[k]);
-		one["stretch"] = stretches[k].norm();
+		one["force"] = Vector3r(pulling[k]);
+		one["stretch"] = stretched[k].norm();
 		one["broken"] = bool(broken[k]);
 		all.append(one);
 	}
+	return all;
+}
+
+boost::python::dict TimberJoint::pyDictCustom() const
+{
+	boost::python::dict all;
+	all["forces"] = springForces();
+	all["stretches"] = springStretches();
 	return all;
 }
 
@@ -142,32 +198,46 @@ boost::python::list JointEngine::pyBreaks() const
 	return all;
 }
 
-void JointEngine::collectAxes()
+bool JointEngine::hasBody(Body::id_t id) const { return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists; }
+
+void JointEngine::collectBodies()
 {
-	axes.resize(scene->bodies->size());
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) axes[b->getId()] = b->state->ori.toRotationMatrix();
+	bodies.resize(scene->bodies->size());
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const Body* b = (*scene->bodies)[id].get();
+		bodies[id].exists = b;
+		if (!b) continue;
+		bodies[id].axes = b->state->ori.toRotationMatrix();
+		bodies[id].position = b->state->pos;
+	}
 }
 
-timber::JointForce JointEngine::forceOf(TimberJoint& joint) const
+/// Packs the joints again if there are others, or if attributes have changed.
+void JointEngine::packJoints()
 {
-	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
-	if (!b1 || !b2) {
-		joint.breakAll(); // a body was erased
-		return {};
-	}
-	const timber::JointPlacement placed = placement(joint, *b1->state, *b2->state);
-	if (joint.yields()) return timber::slipForces(joint.slipLaw(), placed, joint.slipAxis(), joint.springs(), joint.slipHistories());
-	return timber::springForces(joint.stiffness(), placed, joint.normal, joint.springs());
+	if (packed->isCurrent && packed->joints.size() == joints.size()) return;
+	packed.reset(new timber::PackedJoints);
+	for (const shared_ptr<TimberJoint>& joint : joints)
+		joint->pack(packed);
+	packed->isCurrent = true;
+}
+
+void JointEngine::computeForce(size_t index)
+{
+	const timber::PackedJoint& joint = packed->joints[index];
+	timber::JointForce& total = jointForces[index];
+	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
+	if (!joint.isActive) total = {};
+	else if (joint.yields) {
+		TimberJoint& j = *joints[index];
+		total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+	} else timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint), packed->end(joint), total);
 }
 
 void JointEngine::computeForces()
 {
-	const int count = int(joints.size());
-	jointForces.assign(count, timber::JointForce());
-	timber::forAll(count, [this](int k) {
-		if (!joints[k]->isBroken()) jointForces[k] = forceOf(*joints[k]);
-	});
+	jointForces.resize(joints.size());
+	timber::forAll(int(joints.size()), [this](int k) { computeForce(k); });
 }
 
 /// Breaks a spring and logs it.
@@ -192,19 +262,17 @@ void JointEngine::breakSprings(size_t index)
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
 	for (const timber::SpringBreak& found :
-	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(joint, s1, s2), joint.normal, joint.springs(), motion))
+	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(packed->joints[index]), joint.normal, joint.springs(), motion))
 		breakSpring(index, found);
-	jointForces[index] = forceOf(joint);
+	computeForce(index);
 }
 
 /// Breaks the springs of a joint that have reached their ultimate stretch; they have no force any more.
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
-	if (!b1 || !b2) return;
 	for (const timber::SpringBreak& found :
-	        timber::slipBreaks(joint.slipLaw(), placement(joint, *b1->state, *b2->state), joint.normal, joint.springs(), joint.slipHistories()))
+	        timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(), joint.slipHistories()))
 		breakSpring(index, found);
 }
 
@@ -212,30 +280,33 @@ void JointEngine::breakYielded(size_t index)
 void JointEngine::breakAndSum()
 {
 	elastic = 0;
-	sums.clear(axes.size());
+	sums.clear(bodies.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
-		const TimberJoint& joint = *joints[k];
-		if (joint.yields()) breakYielded(k);
-		else if (timber::isOverloaded(joint.jointStrength(), jointForces[k])) breakSprings(k);
+		const timber::PackedJoint& joint = packed->joints[k];
+		if (!joint.isActive) continue;
+		if (joint.yields) breakYielded(k);
+		else if (timber::isOverloaded(joint.strength, jointForces[k])) breakSprings(k);
 		const timber::JointForce& total = jointForces[k];
 		yielded += total.dissipated;
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
-		sums.add(joint.id1, total.force, total.torqueA);
-		sums.add(joint.id2, -total.force, total.torqueB);
+		sums.add(joint.bodyA, total.force, total.torqueA);
+		sums.add(joint.bodyB, -total.force, total.torqueB);
 	}
 }
 
 Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
+	vector<Vector3r> stretches, forces;
 	for (const shared_ptr<TimberJoint>& j : joints) {
 		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
+		j->readSprings(stretches, forces);
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
 			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r end = s2.pos + s2.ori * j->anchors2[k];
-			power += j->forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
+			power += forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
 		}
 	}
 	return power;
@@ -246,18 +317,20 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 	for (const shared_ptr<TimberJoint>& j : joints) {
 		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
 		const timber::JointStiffness stiffness = j->stiffness();
+		const vector<Vector3r> forces = j->springForces();
 		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
 			if (j->broken[k]) continue;
 			const State &s1 = *b1->state, &s2 = *b2->state;
 			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
-			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, stiffness.normal, stiffness.shear, -j->forces[k] });
+			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, stiffness.normal, stiffness.shear, -forces[k] });
 		}
 	}
 }
 
 void JointEngine::action()
 {
-	collectAxes();
+	packJoints();
+	collectBodies();
 	computeForces();
 	breakAndSum();
 	sums.handOver(*scene);

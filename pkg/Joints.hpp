@@ -4,6 +4,7 @@
 #pragma once
 #include <bodies.hpp>
 #include <kernel/joint_dashpot.hpp>
+#include <kernel/packed_joints.hpp>
 #include <kernel/slip_law.hpp>
 #include <kernel/stability.hpp>
 
@@ -21,8 +22,12 @@ namespace yade {
 
 class TimberJoint : public Serializable {
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
+	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them, and may have been changed.
+	shared_ptr<timber::PackedJoints> packed;
+	size_t index = 0; ///< in `packed`
 
 public:
+	void preSave(TimberJoint&) { readSprings(stretches, forces); }
 	void postLoad(TimberJoint&);
 	void validate() const;
 	void validateLaw() const;
@@ -31,9 +36,19 @@ public:
 	bool isBroken() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
+	/// Of a joint with these forces.
+	Real loadOf(const timber::JointForce&) const;
+	/// Stretches and forces of the springs in the last step.
+	void readSprings(vector<Vector3r>& stretched, vector<Vector3r>& pulling) const;
+	vector<Vector3r> springForces() const;
+	vector<Vector3r> springStretches() const;
 	boost::python::list pySprings() const;
+	boost::python::dict pyDictCustom() const override;
+	/// Appends the joint to packed joints, which have its forces and stretches from then on.
+	void pack(const shared_ptr<timber::PackedJoints>&);
 	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
-	timber::JointSprings springs() { return { anchors1, anchors2, broken, stretches, forces }; }
+	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not write them.
+	timber::JointSprings springs();
 	bool yields() const { return isSlip; }
 	/// Law of a spring that yields; perJoint: with its share of the joint's stiffness and strength.
 	timber::SlipLaw slipLaw() const;
@@ -45,15 +60,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in both (paper, section 4: at the four corners of the contact area). It acts beside contact.",
-		((Body::id_t, id1, -1, , "First body. [-]"))
-		((Body::id_t, id2, -1, , "Second body. [-]"))
+		((Body::id_t, id1, -1, Attr::triggerPostLoad, "First body. [-]"))
+		((Body::id_t, id2, -1, Attr::triggerPostLoad, "Second body. [-]"))
 		((vector<Vector3r>, anchors1, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 1. [m]"))
 		((vector<Vector3r>, anchors2, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 2. [m]"))
 		((Vector3r, normal, Vector3r(0, 0, 1), Attr::triggerPostLoad, "Unit normal of the contact area in the frame of body 1, towards body 2. [-]"))
 		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see perJoint. [N/m] (paper, Table 1)"))
 		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; 0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table 1)"))
 		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: the yield force. [N] (paper, section 3.2)"))
-		((bool, perJoint, false, , "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
+		((bool, perJoint, false, Attr::triggerPostLoad, "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
 		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch. [-]"))
 		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is elastic and perfectly plastic; the rest slips. [-]"))
 		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring beyond which its strength falls. [m]"))
@@ -62,12 +77,14 @@ public:
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
-		((vector<Vector3r>, forces, , Attr::readonly, "Force of each spring on body 1 in the last step, world frame. [N]"))
-		((vector<Vector3r>, stretches, , Attr::readonly, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]"))
+		((vector<Vector3r>, forces, , Attr::hidden, "Force of each spring when the scene was saved. [N]"))
+		((vector<Vector3r>, stretches, , Attr::hidden, "Stretch of each spring when the scene was saved. [m]"))
 		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
 		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
+		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, world frame. [N]")
+		.add_property("stretches", &TimberJoint::springStretches, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
 		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of the spring forces over the strength. A spring of the law slip that has yielded carries less than its strength once it softens. [-]")
@@ -90,16 +107,25 @@ public:
 REGISTER_SERIALIZABLE(JointBreak);
 
 class JointEngine : public GlobalEngine {
-	std::vector<Matrix3r> axes; ///< rotation matrices of the bodies, by id
+	struct Placement {
+		Matrix3r axes; ///< rotation matrix, body to world
+		Vector3r position; ///< of the centre [m]
+		bool exists = false;
+	};
+	std::vector<Placement> bodies; ///< by id
+	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
 	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
 	BodyForces sums; ///< of the joints
 
-	void collectAxes();
-	timber::JointPlacement placement(const TimberJoint& joint, const State& s1, const State& s2) const
+	bool hasBody(Body::id_t) const;
+	void collectBodies();
+	void packJoints();
+	timber::JointPlacement placement(const timber::PackedJoint& joint) const
 	{
-		return { axes[joint.id1], axes[joint.id2], s2.pos - s1.pos };
+		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		return { a.axes, b.axes, b.position - a.position };
 	}
-	timber::JointForce forceOf(TimberJoint&) const;
+	void computeForce(size_t joint);
 	void computeForces();
 	void breakSprings(size_t joint);
 	void breakYielded(size_t joint);
@@ -111,6 +137,8 @@ public:
 	int append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
+	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
+	timber::JointForce lastForce(size_t joint) const { return joint < jointForces.size() ? jointForces[joint] : timber::JointForce(); }
 	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the rate of change of the elastic
 	/// energy. What yielding springs dissipate of it is known after the next step. [W]
 	Real elasticPower(const Scene&) const;

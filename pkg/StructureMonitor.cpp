@@ -37,7 +37,7 @@ void StructureMonitor::recordMomenta()
 		rows.insert(rows.end(), { p.x(), p.y(), p.z() });
 }
 
-void StructureMonitor::recordJoint(const TimberJoint& joint, size_t k)
+void StructureMonitor::recordJoint(const TimberJoint& joint, const timber::JointForce& total, size_t k)
 {
 	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
 	if (!b1 || !b2) return;
@@ -45,11 +45,10 @@ void StructureMonitor::recordJoint(const TimberJoint& joint, size_t k)
 	const Vector3r normal = s1.ori * joint.normal;
 	raise(opening[k], (s2.pos - s1.pos + s2.ori * mean(joint.anchors2) - s1.ori * mean(joint.anchors1)).dot(normal));
 	if (joint.isBroken()) return;
-	const Vector3r force = std::accumulate(joint.forces.begin(), joint.forces.end(), Vector3r(Vector3r::Zero())); // on body 1
-	const Real along = force.dot(normal);
+	const Real along = total.force.dot(normal); // on body 1
 	raise(pull[k], along);
-	raise(shear[k], (force - along * normal).norm());
-	raise(load[k], joint.load());
+	raise(shear[k], (total.force - along * normal).norm());
+	raise(load[k], joint.loadOf(total));
 }
 
 void StructureMonitor::recordJoints()
@@ -59,7 +58,7 @@ void StructureMonitor::recordJoints()
 	for (vector<Real>* values : { &pull, &shear, &load, &opening })
 		values->resize(count, 0);
 	for (size_t k = 0; k < count; ++k)
-		recordJoint(*engine->joints[k], k);
+		recordJoint(*engine->joints[k], engine->lastForce(k), k);
 }
 
 void StructureMonitor::action()

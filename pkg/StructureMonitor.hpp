@@ -7,7 +7,7 @@ namespace yade {
 
 class StructureMonitor : public GlobalEngine {
 	void recordMomenta();
-	void recordJoint(const TimberJoint&, size_t k);
+	void recordJoint(const TimberJoint&, const timber::JointForce&, size_t k);
 	void recordJoints();
 
 public:

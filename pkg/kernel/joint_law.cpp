@@ -25,38 +25,60 @@ namespace {
 
 } // namespace
 
-JointForce springForces(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs)
+void packSprings(const JointSprings& springs, SpringLanes* first)
 {
-	assert(isValid(k) && isValid(placement) && isValid(springs) && isUnit(normal));
-	JointForce total;
+	assert(isValid(springs));
+	const Vec3s none = Vec3s::Constant(Lanes(0.));
+	const size_t groups = groupsOf(springs.broken.size());
+	std::fill(first, first + groups, SpringLanes { none, none, {}, none, none });
+	for (size_t i = 0; i < springs.broken.size(); ++i) {
+		SpringLanes& group = first[i / laneCount];
+		const size_t at = i % laneCount;
+		setLane(group.anchorsA, at, springs.anchorsA[i]);
+		setLane(group.anchorsB, at, springs.anchorsB[i]);
+		setLane(group.stretches, at, springs.stretches[i]);
+		setLane(group.forces, at, springs.forces[i]);
+		group.intact[at] = springs.broken[i] ? 0 : ~std::int64_t(0);
+	}
+}
+
+void unpackSprings(const SpringLanes* first, std::vector<Vec3>& stretches, std::vector<Vec3>& forces)
+{
+	assert(stretches.size() == forces.size());
+	for (size_t i = 0; i < forces.size(); ++i) {
+		stretches[i] = lane(first[i / laneCount].stretches, i % laneCount);
+		forces[i] = lane(first[i / laneCount].forces, i % laneCount);
+	}
+}
+
+void springForces(
+        const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal, SpringLanes* first, const SpringLanes* end, JointForce& total)
+{
+	assert(isValid(stiffness) && isValid(placement) && isUnit(normal));
+	const JointStiffness k = stiffness; // a copy stays in registers
 	Sums<11> sums;
-	const Vec3 worldNormal = placement.axesA * normal;
-	inLanes(
-	        springs.broken.size(), [&](auto number, size_t i) __attribute__((always_inline)) {
-		        using Number = decltype(number);
-		        using Vec = Vec3Of<Number>;
-		        const size_t count = springs.broken.size() - i;
-		        const auto vectors = [&](const std::vector<Vec3>& all) -> Vec { return Group<Number, const Vec3>(&all[i], count).vectors(); };
-		        const auto intact = Group<Number, const int>(&springs.broken[i], count).numbers() <= Number(0.);
-		        const Vec armB = broadcast<Number>(placement.axesB) * vectors(springs.anchorsB),
-		                  armA = broadcast<Number>(placement.axesA) * vectors(springs.anchorsA), end = broadcast<Number>(placement.distance) + armB;
-		        const Vec stretch = select(intact, Vec(end - armA), Vec(Vec::Constant(Number(0.))));
-		        const SpringForce<Number> f = springForce<Number>(k, stretch, worldNormal);
-		        Group<Number, Vec3>(&springs.stretches[i], count).set(stretch);
-		        Group<Number, Vec3>(&springs.forces[i], count).set(f.force);
-		        const Number square = f.force.squaredNorm();
-		        // with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
-		        const Vec torqueA = end.cross(f.force), torqueB = -armB.cross(f.force);
-		        sums.add<Number>(count, f.force, torqueA, torqueB, f.energy, sqrt(square));
-		        for (size_t l = 0; l < laneCount; ++l)
-			        total.largestSquared = std::max(total.largestSquared, lane(square, l));
-	        });
-	total.force = sums.vector(0);
-	total.torqueA = sums.vector(3);
-	total.torqueB = sums.vector(6);
-	total.energy = sums[9];
-	total.sum = sums[10];
-	return total;
+	Lanes largestSquared = 0.;
+	for (SpringLanes* s = first; s != end; ++s) {
+		const Vec3s armB = broadcast<Lanes>(placement.axesB) * s->anchorsB, end = broadcast<Lanes>(placement.distance) + armB,
+		            stretch = select(s->intact, Vec3s(end - broadcast<Lanes>(placement.axesA) * s->anchorsA), Vec3s(Vec3s::Constant(Lanes(0.))));
+		s->stretches = stretch;
+		const auto add = [&](const SpringForce<Lanes>& f) __attribute__((always_inline))
+		{
+			s->forces = f.force;
+			const Lanes square = f.force.squaredNorm();
+			// with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
+			const Vec3s torqueA = end.cross(f.force), torqueB = -armB.cross(f.force);
+			sums.add<Lanes>(laneCount, f.force, torqueA, torqueB, f.energy, sqrt(square)); // broken springs add zeros
+			largestSquared = max(largestSquared, square);
+		};
+		const Vec3 worldNormal = placement.axesA * normal;
+		if (k.normal == k.shear) add(isotropicForce<Lanes>(k.shear, stretch, worldNormal)); // branches of their own: no force goes through memory
+		else add(springForce<Lanes>(k, stretch, worldNormal));
+	}
+	double largest = 0;
+	for (size_t i = 0; i < laneCount; ++i)
+		largest = std::max(largest, lane(largestSquared, i));
+	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, largest, sums[10] };
 }
 
 bool isOverloaded(const JointStrength& limit, const JointForce& force)

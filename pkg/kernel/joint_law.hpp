@@ -2,7 +2,7 @@
 /// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/Joints.hpp).
 /// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite convention (contact_law.hpp).
 /// A step:
-///     1. springForces() computes stretches and forces for the bodies' placement;
+///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has packed;
 ///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
 ///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes the forces again.
 #pragma once
@@ -22,13 +22,20 @@ template <class Number> struct SpringForce {
 	Number energy; ///< stored [J]
 };
 
+/// Of a spring with equal stiffnesses k [N/m]. stretch, normal: as in springForce().
+template <class Number> SpringForce<Number> isotropicForce(double k, const Vec3Of<Number>& stretch, const Vec3& normal)
+{
+	const Number half = 0.5, stiffness = k;
+	return { stiffness * stretch, stiffness * stretch.dot(broadcast<Number>(normal)), half * (stiffness * stretch.squaredNorm()) };
+}
+
 /// Total form of Eqs. 25, 26, 29, 30 (the sum of the increments, without their drift).
-/// stretch: anchor of B minus anchor of A, world [m]. With equal stiffnesses the normal does not matter.
+/// stretch: anchor of B minus anchor of A, world [m]; normal: of the joint, world. With equal stiffnesses the normal does not matter.
 template <class Number> SpringForce<Number> springForce(const JointStiffness& k, const Vec3Of<Number>& stretch, const Vec3& normal)
 {
+	if (k.normal == k.shear) return isotropicForce<Number>(k.shear, stretch, normal);
 	const Vec3Of<Number> n = broadcast<Number>(normal), shear = Number(k.shear) * stretch;
 	const Number along = stretch.dot(n), square = Number(k.shear) * stretch.squaredNorm(), extra = k.normal - k.shear, half = 0.5;
-	if (k.normal == k.shear) return { shear, Number(k.normal) * along, half * square };
 	return { shear + extra * along * n, Number(k.normal) * along, half * (square + extra * along * along) };
 }
 
@@ -46,6 +53,18 @@ struct JointSprings {
 	std::vector<Vec3>& forces; ///< on A, world; zero for a broken spring [N]
 };
 
+/// laneCount springs of a joint: a group of the packed form of JointSprings. Lanes without a spring count as broken.
+struct SpringLanes {
+	Vec3s anchorsA, anchorsB; ///< in the bodies' frames [m]
+	Lanes::Mask intact; ///< springs that are not broken
+	Vec3s stretches, forces; ///< as in JointSprings
+};
+
+/// Packs a joint's springs into groupsOf(their number) groups from `first` on.
+void packSprings(const JointSprings& springs, SpringLanes* first);
+/// Stretches and forces of packed springs, as many as the vectors have entries.
+void unpackSprings(const SpringLanes* first, std::vector<Vec3>& stretches, std::vector<Vec3>& forces);
+
 /// Sums over a joint's unbroken springs; forces on A, torques about the bodies' own centres.
 struct JointForce {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
@@ -55,8 +74,10 @@ struct JointForce {
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
 };
 
-/// Stretches and forces of a joint's springs. normal: in the frame of A; out: stretches and forces of the springs.
-JointForce springForces(const JointStiffness& k, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs);
+/// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their stretches and forces;
+/// total: out.
+void springForces(
+        const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal, SpringLanes* first, const SpringLanes* end, JointForce& total);
 
 /// Strength of a joint (section 3.2).
 struct JointStrength {
@@ -82,7 +103,7 @@ struct JointMotion {
 	double h; ///< length of the step [s]
 };
 
-/// Breaks of an overloaded joint, in the order of its springs. springs: as springForces() left them.
+/// Breaks of an overloaded joint, in the order of its springs. springs: with the stretches and forces of springForces().
 std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit, const JointPlacement& placement, const Vec3& normal,
         const JointSprings& springs, const JointMotion& motion);
 

@@ -64,6 +64,8 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 		total.force += force;
 		total.torqueA += end.cross(force); // the force is not along the stretch: it acts on both bodies at the anchor of B
 		total.torqueB -= armB.cross(force);
+		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
+		total.sum += force.norm();
 		total.energy += f.energy;
 		total.dissipated += f.dissipated;
 	}

@@ -2,7 +2,7 @@
 /// Joint springs: numbers of the paper, force against the gradient of the energy, and the rule that breaks them.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
-#include <kernel/joint_law.hpp>
+#include <kernel/packed_joints.hpp>
 
 using namespace timber;
 using namespace timber::shapes;
@@ -112,7 +112,15 @@ struct Joint {
 	{
 	}
 	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
-	JointForce total() { return springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, springs()); }
+	JointForce total()
+	{
+		std::vector<SpringLanes> groups(groupsOf(broken.size()));
+		packSprings(springs(), groups.data());
+		JointForce found;
+		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, groups.data(), groups.data() + groups.size(), found);
+		unpackSprings(groups.data(), stretches, forces);
+		return found;
+	}
 	/// Pulls the springs; returns the breaks, if the joint is overloaded.
 	std::vector<SpringBreak> breaks()
 	{
@@ -199,4 +207,29 @@ TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
 	const double earlier = 0.1 - joint.h / 2 * 2;
 	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
 	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
+}
+
+/// Joints of several numbers of springs keep their own: groups of one do not reach into those of the next.
+TEST(PackedJoints, KeepStretchesAndForcesOfEachSpring)
+{
+	Random random(54);
+	PackedJoints packed;
+	std::vector<std::vector<Vec3>> stretches, forces;
+	for (const size_t count : { 1, 4, 0, 5, 3 }) {
+		std::vector<Vec3> anchors(count), stretched(count), pulling(count);
+		for (size_t i = 0; i < count; ++i)
+			for (Vec3* v : { &anchors[i], &stretched[i], &pulling[i] })
+				*v = randomVector(random, 1);
+		const std::vector<int> broken(count, count == 3);
+		packed.add({ 0, 1, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() }, { anchors, anchors, broken, stretched, pulling });
+		EXPECT_EQ(packed.joints.back().isActive, count != 0 && count != 3);
+		stretches.push_back(stretched);
+		forces.push_back(pulling);
+	}
+	for (size_t k = 0; k < stretches.size(); ++k) {
+		std::vector<Vec3> stretched(stretches[k].size()), pulling(stretches[k].size());
+		unpackSprings(packed.first(packed.joints[k]), stretched, pulling);
+		EXPECT_EQ(stretched, stretches[k]);
+		EXPECT_EQ(pulling, forces[k]);
+	}
 }

@@ -79,10 +79,14 @@ TEST(Preconditions, OfJointsAndStability)
 	const Mat3 axes = Mat3::Identity();
 	std::vector<Vec3> anchors(2, none), short1(1, none), stretches(2), forces(2);
 	std::vector<int> broken(2, 0);
-	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces });
-	EXPECT_REFUSED(springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, short1, broken, stretches, forces }));
-	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
-	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), { anchors, anchors, broken, stretches, forces }));
+	std::vector<SpringLanes> groups(groupsOf(broken.size()));
+	packSprings({ anchors, anchors, broken, stretches, forces }, groups.data());
+	EXPECT_REFUSED(packSprings({ anchors, short1, broken, stretches, forces }, groups.data()));
+	JointForce total;
+	SpringLanes *const first = groups.data(), *const end = first + groups.size();
+	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total);
+	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
+	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
 	EXPECT_GT(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::UnitX()).force.norm(), 0);
 	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 1, 3 }, {}, Vec3::UnitX())); // softens before it yields
 	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, { none, -1 }, Vec3::UnitX()));

@@ -249,7 +249,11 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				anchorsB[i] = axesB.transpose() * (axesA * anchorsA[i] - apart + randomVector(random, 0.1));
 				broken[i] = i % 3 == 1;
 			}
-			const JointForce total = springForces(k, { axesA, axesB, apart }, normal, { anchorsA, anchorsB, broken, stretches, forces });
+			std::vector<SpringLanes> groups(groupsOf(count));
+			packSprings({ anchorsA, anchorsB, broken, stretches, forces }, groups.data());
+			JointForce total;
+			springForces(k, { axesA, axesB, apart }, normal, groups.data(), groups.data() + groups.size(), total);
+			unpackSprings(groups.data(), stretches, forces);
 			JointForce wanted;
 			for (size_t i = 0; i < count; ++i) {
 				const Vec3 armB = axesB * anchorsB[i], stretch = apart + armB - axesA * anchorsA[i];
