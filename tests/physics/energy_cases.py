@@ -86,8 +86,15 @@ def light_portal():
 
 @case
 def falling_frame():
-    """Springs of 2 kN break, the frame collapses. Observed: 7.2e-3, 2.0e-4, 1.5e-5: impact of the brace at 3 m/s, two steps long."""
-    return closing("frame that breaks and collapses", lambda dt: shaken_portal(dt, 3.0, 2000.0), 1.5, DT / 2, note="impacts of 4 kg members last one step")
+    """Springs of 2 kN break, the frame collapses. Observed: 2.2e-5, 4.4e-5, 1.1e-5: impact of the brace at 3 m/s, two steps long; too small for an order."""
+    return closing(
+        "frame that breaks and collapses",
+        lambda dt: shaken_portal(dt, 3.0, 2000.0),
+        1.5,
+        DT,
+        note="impacts of 4 kg members last one step",
+        least_order=None,
+    )
 
 
 @case
