@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
-import gc
-import multiprocessing
-import os
-import signal
-import threading
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
 from ..recording import ensemble, frames
+from . import copies
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
@@ -43,31 +39,22 @@ def write(folder, results=None):
 
 
 def _results(tasks):
-    """Results of functions, called in copies of this process where that is safe: it has one Python thread (a live session has more) and no OpenGL."""
-    from . import renderer
-
-    processes = min(PROCESSES, len(os.sched_getaffinity(0)))
-    if processes == 1 or threading.active_count() > 1 or renderer.used():
+    """Results of functions, called in copies of this process where that is possible."""
+    if not copies.possible():
         return [task() for task in tasks]
-    _Copy.tasks = tasks
+    _Tasks.all = tasks
     try:
-        with ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), _Copy.start) as pool:
-            return list(pool.map(_Copy.result, range(len(tasks))))
+        with ProcessPoolExecutor(PROCESSES, copies.fork, copies.begin) as pool:
+            return list(pool.map(_Tasks.result, range(len(tasks))))
     except BrokenProcessPool:  # a copy was killed, as by lack of memory
         return [task() for task in tasks]
 
 
-class _Copy:
-    """The tasks, which a copied process has in its memory: recorded frames need not be sent to it."""
+class _Tasks:
+    """The functions, which cannot be sent to a copied process, but are in its memory."""
 
-    tasks = ()
-
-    @staticmethod
-    def start():
-        """Ctrl-C ends a copy with this process only. Objects of this process are left out of its garbage collections, which take a tenth of its time."""
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        gc.freeze()
+    all = ()
 
     @classmethod
     def result(cls, number):
-        return cls.tasks[number]()
+        return cls.all[number]()
