@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
 from ..recording import ensemble, frames
@@ -11,8 +9,6 @@ END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "
 SHEETS = ("front", "side")
 NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
-PROCESSES = 2
-"""Largest number that draw at the same time."""
 
 
 def write(folder, results=None):
@@ -20,41 +16,35 @@ def write(folder, results=None):
 
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
-    from matplotlib.backends import backend_pdf  # noqa: F401  (before this process is copied)
+    from matplotlib.backends import backend_pdf  # noqa: F401  (here: it takes 22 MB and 0.3 s, and a run without pictures needs none)
 
-    from . import bands, curves, figures, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import figures
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
     figures.drawable(recorded.title)  # a missing letter is reported here, once
-    tasks = [partial(sheets.write_sheet, folder / view.name, recorded, view) for view in views.VIEWS]
+    with copies.ahead(partial(_sheets, folder, recorded)) as sheets:
+        written = [path for paths in (*_pages(folder, recorded, path), *sheets) for path in paths]
+    return sorted(written, key=lambda path: NAMES.index(path.name))
+
+
+def _sheets(folder, recorded):
+    """Draw the house by OpenGL, in a copy of the process where that is possible; yields lists of paths."""
+    from . import sheets, views
+
+    for view in views.VIEWS:
+        yield sheets.write_sheet(folder / view.name, recorded, view)
+    yield sheets.write_end(folder / END, recorded)
+
+
+def _pages(folder, recorded, path):
+    """Draw the curves, meanwhile in this process, and write the player; yields lists of paths. path: of the frames"""
+    from . import bands, curves, player, quantities
+
     if recorded.history and recorded.history.samples:
-        tasks.append(partial(curves.write, folder / CURVES, recorded))
+        yield curves.write(folder / CURVES, recorded)
         if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
-            tasks.append(lambda: quantities.write(folder / QUANTITIES, quantities.read(path.parent)))
+            yield quantities.write(folder / QUANTITIES, quantities.read(path.parent))
         if ensemble.has_runs(path.parent):
-            tasks.append(partial(bands.write, folder / BANDS, recorded, path.parent))
-    tasks += [partial(sheets.write_end, folder / END, recorded), lambda: [player.make([(path, recorded)], folder / PLAYER)]]
-    return sorted((path for paths in _results(tasks) for path in paths), key=lambda path: NAMES.index(path.name))
-
-
-def _results(tasks):
-    """Results of functions, called in copies of this process where that is possible."""
-    if not copies.possible():
-        return [task() for task in tasks]
-    _Tasks.all = tasks
-    try:
-        with ProcessPoolExecutor(PROCESSES, copies.fork, copies.begin) as pool:
-            return list(pool.map(_Tasks.result, range(len(tasks))))
-    except BrokenProcessPool:  # a copy was killed, as by lack of memory
-        return [task() for task in tasks]
-
-
-class _Tasks:
-    """The functions, which cannot be sent to a copied process, but are in its memory."""
-
-    all = ()
-
-    @classmethod
-    def result(cls, number):
-        return cls.all[number]()
+            yield bands.write(folder / BANDS, recorded, path.parent)
+    yield [player.make([(path, recorded)], folder / PLAYER)]

@@ -10,44 +10,38 @@ from contextlib import contextmanager
 from ..base.errors import RunError
 
 fork = multiprocessing.get_context("fork")
+WAITING = "IPythonHistorySavingThread"
+"""Thread that YADE has from IPython; it waits until a user types a line."""
 
 
 def possible():
-    """Whether copies are of use and safe: there is more than one processor, one Python thread (a live session has more), and no OpenGL."""
+    """Whether copies are of use and safe: there is more than one processor, no other thread at work (a live session has some), and no OpenGL."""
     from . import renderer  # here: a run without pictures needs none
 
-    return len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1 and not renderer.used()
-
-
-def begin():
-    """For the start of a copy: Ctrl-C ends it with this process only; objects of this process are left out of its garbage collections, which take a
-    tenth of its time."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    gc.freeze()
+    at_work = [thread for thread in threading.enumerate() if thread.name != WAITING]
+    return len(os.sched_getaffinity(0)) > 1 and len(at_work) == 1 and not renderer.used()
 
 
 @contextmanager
 def ahead(make):
     """Context with an iterator over the items of `make()`, a generator; a copy of this process makes the next item while this one uses the last.
 
-    Raises RunError when the copy ends too early, and any exception of the generator.
+    The iterator raises RunError when the copy is killed, and any exception of the generator. Where copies are not possible it makes the items itself.
     """
     if not possible():
         yield make()
         return
     receiver, sender = fork.Pipe(duplex=False)
-    copy = fork.Process(target=_send_all, args=(make, sender, receiver), daemon=True)
-    copy.start()
+    fork.Process(target=_send_all, args=(make, sender, receiver), daemon=True).start()
     sender.close()
-    try:
+    with receiver:  # when it is closed, a copy that is not at its end stops
         yield _received(receiver)
-    finally:
-        receiver.close()  # a copy that is not at its end stops here
-        copy.join()
 
 
 def _send_all(make, sender, receiver):
-    begin()
+    """In the copy: send all items. Ctrl-C ends it with the other process only."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()  # leaves the other process's objects out of garbage collections, which take a tenth of the time
     receiver.close()
     try:
         for item in make():
