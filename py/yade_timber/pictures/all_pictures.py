@@ -23,23 +23,24 @@ def write(folder, results=None):
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
     figures.drawable(recorded.title)  # a missing letter is reported here, once
-    with copies.ahead(partial(_sheets, folder, recorded)) as sheets:
+    with copies.ahead(partial(_sheets, folder, recorded, path)) as sheets:
         written = [path for paths in (*_pages(folder, recorded, path), *sheets) for path in paths]
     return sorted(written, key=lambda path: NAMES.index(path.name))
 
 
-def _sheets(folder, recorded):
-    """Draw the house by OpenGL, in a copy of the process where that is possible; yields lists of paths."""
-    from . import sheets, views
+def _sheets(folder, recorded, path):
+    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of paths. path: of the frames"""
+    from . import player, sheets, views
 
     for view in views.VIEWS:
         yield sheets.write_sheet(folder / view.name, recorded, view)
     yield sheets.write_end(folder / END, recorded)
+    yield [player.make([(path, recorded)], folder / PLAYER)]
 
 
 def _pages(folder, recorded, path):
-    """Draw the curves, meanwhile in this process, and write the player; yields lists of paths. path: of the frames"""
-    from . import bands, curves, player, quantities
+    """Draw the curves, meanwhile in this process; yields lists of paths. path: of the frames"""
+    from . import bands, curves, quantities
 
     if recorded.history and recorded.history.samples:
         yield curves.write(folder / CURVES, recorded)
@@ -47,4 +48,3 @@ def _pages(folder, recorded, path):
             yield quantities.write(folder / QUANTITIES, quantities.read(path.parent))
         if ensemble.has_runs(path.parent):
             yield bands.write(folder / BANDS, recorded, path.parent)
-    yield [player.make([(path, recorded)], folder / PLAYER)]
