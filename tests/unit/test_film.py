@@ -60,7 +60,7 @@ def test_the_roof_is_where_it_should_be_and_throws_a_shadow():
     run.motion = None
     points = film.corners(run)
     view, (matrix, light) = camera.look("space", points, size[0] / size[1]), camera.sun(points)
-    picture = stage.Stage(run, size, view, (matrix, light)).picture(0.0).astype(int)
+    picture = np.asarray(stage.Stage(run, size, view, (matrix, light)).picture(0.0)).astype(int)
     e = run.elements
     top = e.position[e.name.index("roof")] + (0, 0, 0.1)
     assert picture[seen(view, top, size)].max() < 130
@@ -78,9 +78,9 @@ def test_the_ground_moves():
     run.motion.displacement[:] = (0.0, 1.0, 0.0)
     points = film.corners(run)
     view = camera.look("front", points, size[0] / size[1])
-    moved = stage.Stage(run, size, view, camera.sun(points)).picture(0.5)
+    moved = np.array(stage.Stage(run, size, view, camera.sun(points)).picture(0.5))
     run.motion.displacement[:] = 0.0
-    still = stage.Stage(run, size, view, camera.sun(points)).picture(0.5)
+    still = np.array(stage.Stage(run, size, view, camera.sun(points)).picture(0.5))
     columns = [np.flatnonzero((picture.max(2) < 110).any(0)).mean() for picture in (still, moved)]
     far, near = (seen(view, corner + (0, 1, 0), size)[1] - seen(view, corner, size)[1] for corner in (points[points[:, 0].argmin()], points[points[:, 0].argmax()]))
     assert far - 1 <= columns[1] - columns[0] <= near + 1  # perspective; whole pixels

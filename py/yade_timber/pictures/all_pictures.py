@@ -1,22 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
-import gc
-import multiprocessing
-import os
-import signal
-import threading
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
 from ..recording import ensemble, frames
+from . import copies
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
 NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
-PROCESSES = 2
-"""Largest number that draw at the same time."""
 
 
 def write(folder, results=None):
@@ -24,50 +16,35 @@ def write(folder, results=None):
 
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
-    from matplotlib.backends import backend_pdf  # noqa: F401  (before this process is copied)
+    from matplotlib.backends import backend_pdf  # noqa: F401  (here: it takes 22 MB and 0.3 s, and a run without pictures needs none)
 
-    from . import bands, curves, figures, player, quantities, sheets, views  # here: matplotlib takes 22 MB and 0.3 s, and a run without pictures needs none
+    from . import figures
 
     path = (results or folder) / frames.NAME
     recorded = frames.load(path)
     figures.drawable(recorded.title)  # a missing letter is reported here, once
-    tasks = [partial(sheets.write_sheet, folder / view.name, recorded, view) for view in views.VIEWS]
+    with copies.ahead(partial(_sheets, folder, recorded, path)) as sheets:
+        written = [path for paths in (*_pages(folder, recorded, path), *sheets) for path in paths]
+    return sorted(written, key=lambda path: NAMES.index(path.name))
+
+
+def _sheets(folder, recorded, path):
+    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of paths. path: of the frames"""
+    from . import player, sheets, views
+
+    for view in views.VIEWS:
+        yield sheets.write_sheet(folder / view.name, recorded, view)
+    yield sheets.write_end(folder / END, recorded)
+    yield [player.make([(path, recorded)], folder / PLAYER)]
+
+
+def _pages(folder, recorded, path):
+    """Draw the curves, meanwhile in this process; yields lists of paths. path: of the frames"""
+    from . import bands, curves, quantities
+
     if recorded.history and recorded.history.samples:
-        tasks.append(partial(curves.write, folder / CURVES, recorded))
+        yield curves.write(folder / CURVES, recorded)
         if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
-            tasks.append(lambda: quantities.write(folder / QUANTITIES, quantities.read(path.parent)))
+            yield quantities.write(folder / QUANTITIES, quantities.read(path.parent))
         if ensemble.has_runs(path.parent):
-            tasks.append(partial(bands.write, folder / BANDS, recorded, path.parent))
-    tasks += [partial(sheets.write_end, folder / END, recorded), lambda: [player.make([(path, recorded)], folder / PLAYER)]]
-    return sorted((path for paths in _results(tasks) for path in paths), key=lambda path: NAMES.index(path.name))
-
-
-def _results(tasks):
-    """Results of functions, called in copies of this process where that is safe: it has one Python thread (a live session has more) and no OpenGL."""
-    from . import renderer
-
-    processes = min(PROCESSES, len(os.sched_getaffinity(0)))
-    if processes == 1 or threading.active_count() > 1 or renderer.used():
-        return [task() for task in tasks]
-    _Copy.tasks = tasks
-    try:
-        with ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), _Copy.start) as pool:
-            return list(pool.map(_Copy.result, range(len(tasks))))
-    except BrokenProcessPool:  # a copy was killed, as by lack of memory
-        return [task() for task in tasks]
-
-
-class _Copy:
-    """The tasks, which a copied process has in its memory: recorded frames need not be sent to it."""
-
-    tasks = ()
-
-    @staticmethod
-    def start():
-        """Ctrl-C ends a copy with this process only. Objects of this process are left out of its garbage collections, which take a tenth of its time."""
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        gc.freeze()
-
-    @classmethod
-    def result(cls, number):
-        return cls.tasks[number]()
+            yield bands.write(folder / BANDS, recorded, path.parent)

@@ -39,20 +39,18 @@ class Caption:
         self.trace = self._trace() if run.motion else None
         self.text, self.bottom = None, None
 
-    def on(self, picture, time):
-        """The picture (height, width, 3) uint8 with its caption at a time [s]."""
-        picture = picture.copy()
-        self.top.on(picture, 0)
+    def on(self, image, time):
+        """Draw the texts at a time [s] on an image of Pillow."""
+        self.top.on(image, 0)
         text = self.state(time)
         if text != self.text:
             self.text, self.bottom = text, self._foot(text)
         base = self.size[1] - (self.trace.height if self.trace else 0)
-        self.bottom.on(picture, base - self.bottom.height)
+        self.bottom.on(image, base - self.bottom.height)
         if self.trace:
-            self.trace.on(picture, base)
+            self.trace.on(image, base)
             column = int(np.clip((time - self.span[0]) / (self.span[1] - self.span[0]), 0, 1) * (self.size[0] - 2))
-            picture[base:, column : column + 2] = INK
-        return picture
+            image.paste(INK, (column, base, column + 2, self.size[1]))
 
     def state(self, time):
         """'12.35 s   storey drift 1/85   3 of 382 joints broken'"""
@@ -120,17 +118,12 @@ class Caption:
 
 
 class Overlay:
-    """A half transparent image (RGBA) to draw over pictures of the same width."""
+    """A half transparent image (RGBA) to draw over images of the same width."""
 
     def __init__(self, image):
-        pixels = np.asarray(image).astype(np.uint16)
-        share = pixels[:, :, 3:] + 1  # 256: opaque
-        self.height = len(pixels)
-        self.ink = pixels[:, :, :3] * share
-        self.clear = np.repeat(256 - share, 3, axis=2)
+        self.height = image.height
+        self.ink, self.opacity = image.convert("RGB"), image.getchannel("A")
 
-    def on(self, picture, top):
-        """Draw it over the rows of a picture (height, width, 3) uint8 from `top` on."""
-        rows = picture[top : top + self.height]
-        ink, clear = self.ink[: len(rows)], self.clear[: len(rows)]
-        rows[:] = (rows * clear + ink) >> 8
+    def on(self, image, top):
+        """Draw it over the rows of an image from `top` on."""
+        image.paste(self.ink, (0, top), self.opacity)

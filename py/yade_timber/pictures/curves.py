@@ -17,6 +17,8 @@ DRIFT_RANGE = 0.16
 """Largest drift shown: beyond it a storey falls. [-]"""
 LABEL_GAP = 10
 """Between the baselines of two labels of drifts. [pt]"""
+LABEL_PLACE = -0.108
+"""Of the labels of y axes, as a part of the axes' width."""
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
 JOINT_KINDS = {
     "column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE, "floor_beam": colors.AMBER,
@@ -44,7 +46,7 @@ def page(frames, dpi):
     figure = new_figure(*A4, dpi)
     axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
     head = heading_height(A4[0], result(frames)) + 0.2
-    figure.subplots_adjust(left=0.11, right=0.77, top=1 - head / A4[1], bottom=0.06, hspace=0.18)
+    figure.subplots_adjust(left=0.12, right=0.77, top=1 - head / A4[1], bottom=0.06, hspace=0.18)
     if shaken:
         draw_motion(axes.pop(0), frames.motion)
     for axis, direction, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
@@ -57,9 +59,9 @@ def page(frames, dpi):
         axis.grid(alpha=0.25)
         axis.tick_params(labelsize=8)
         axis.set_xlim(start, frames.time[-1])
+        axis.yaxis.set_label_coords(LABEL_PLACE, 0.5)  # to align them otherwise, all ticks are drawn once more
     rest = f"; ground and house are at rest before {start:.1f} s" if start else ""
     figure.axes[-1].set_xlabel(f"time [s]{rest}", fontsize=9)
-    figure.align_ylabels()
     heading(figure, f"{frames.title}. History", result(frames))
     footer(figure, provenance(frames))
     return figure
@@ -117,7 +119,7 @@ def draw_levels(axis, levels, reach):
 def draw_breaks(axis, frames):
     """Numbers of joints broken during the run by kind, of broken wall sheets, and of partly broken joints and sheets."""
     kinds = np.array(frames.joints.kind)
-    states = np.array([frames.joint_states(k) for k in range(len(frames.time))])
+    states = frames.joint_states(slice(None))
     sheets = [sheet_states(frames.joints, row == "broken") for row in states]
     for kind in dict.fromkeys(kinds[~of_walls(frames.joints)]):
         broken = (states[:, kinds == kind] == "broken").sum(1)
@@ -145,6 +147,6 @@ def draw_energy(axis, history):
     axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
     residual = abs(sum(parts) - supplied).max()
     share = 100 * residual / max(abs(supplied).max(), 1e-300)
-    axis.set_title(f"largest error of the energy balance: {residual / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3)
+    axis.set_title(f"largest error of the energy balance: {residual / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3, y=1)
     label(axis, "energy [kJ]")
     legend(axis)

@@ -87,7 +87,7 @@ def page(results, dpi):
 
 
 def style(axis, title, x="", y=""):
-    axis.set_title(title, fontsize=8.5, loc="left")
+    axis.set_title(title, fontsize=8.5, loc="left", y=1)
     axis.set_xlabel(x, fontsize=7.5, labelpad=1)
     axis.set_ylabel(y, fontsize=7.5, labelpad=1)
     axis.tick_params(labelsize=7)
@@ -148,13 +148,13 @@ def draw_joints(axis, results):
 def draw_uplift(axis, results):
     """Plan of the columns of the first storey with the largest uplift of their feet [mm]; grey: fallen or loose at the end."""
     rows = [row for row in results.columns if row["storey"] == "1"]
-    for row in rows:
-        x, y, uplift = (float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]"))
-        stands = row["state"] == "standing"
-        axis.plot(x, y, "s", ms=3, color=colors.BLUE if stands else colors.GREY)
-        if uplift >= VISIBLE_UPLIFT and stands:
-            number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
-            axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
+    places = np.array([[float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]")] for row in rows]).reshape(-1, 3)
+    stands = np.array([row["state"] == "standing" for row in rows], bool)
+    for shown, color in ((stands, colors.BLUE), (~stands, colors.GREY)):
+        axis.plot(*places[shown, :2].T, "s", ms=3, color=color)
+    for x, y, uplift in places[stands & (places[:, 2] >= VISIBLE_UPLIFT)]:
+        number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
+        axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
     axis.set_aspect("equal")
     axis.margins(0.1)
     style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")

@@ -8,6 +8,7 @@ import threading
 from functools import wraps
 
 import numpy as np
+from PIL import Image
 
 from ..base.errors import RunError
 from . import shaders
@@ -66,49 +67,54 @@ def put(made, **values):
 
 
 class Topology:
-    """Faces of bodies as fans of triangles around their middles.
+    """Convex faces of bodies as fans of triangles from the faces' first vertices.
 
     faces: for each body its faces, lists of vertex numbers within the body; counts: number of vertices of each body
     """
 
     def __init__(self, faces, counts):
-        first = np.cumsum([0, *counts[:-1]])
-        flat = [face for body in faces for face in body]
-        self.sizes = np.array([len(face) for face in flat], int)
-        bodies = np.repeat(np.arange(len(faces)), [len(body) for body in faces])
-        self.starts = np.concatenate([[0], np.cumsum(self.sizes)[:-1]]).astype(int)
-        self.body = np.repeat(bodies, self.sizes)
-        """(T,) body of each triangle."""
-        self.a = np.array([vertex for face in flat for vertex in face], int) + first[self.body]
-        following = np.arange(len(self.a)) + 1
-        following[self.starts + self.sizes - 1] = self.starts
-        self.b = self.a[following]
-        once = self.a < self.b  # two faces share an edge
-        self.edges = np.stack([self.a[once], self.b[once]], axis=1)
+        sizes = np.array([len(face) for body in faces for face in body], int)
+        body = np.repeat(np.arange(len(faces)), np.array([len(body) for body in faces], int))
+        first = np.cumsum([0, *counts[:-1]])[body]
+        vertex = np.array([vertex for body in faces for face in body for vertex in face], int) + np.repeat(first, sizes)
+        starts, ends = np.cumsum(sizes) - sizes, np.cumsum(sizes) - 1
+        following = np.arange(len(vertex)) + 1
+        following[ends] = starts
+        edges = np.column_stack([vertex, vertex[following]])
+        self.edges = edges[edges[:, 0] < edges[:, 1]]  # two faces share an edge
         """(E, 2) vertices of the edges."""
+        self.fan = sizes - 2
+        """(F,) number of triangles of each face."""
+        second = np.delete(np.arange(len(vertex)), np.concatenate([starts, ends]))
+        self.corners = vertex[np.column_stack([np.repeat(starts, self.fan), second, second + 1])]
+        """(T, 3) vertices of the triangles, counter-clockwise from outside."""
+        self.body = np.repeat(body, self.fan)
+        """(T,) body of each triangle."""
 
     def triangles(self, vertices):
-        """(T, 3, 6) corners of the triangles (middle, a, b): place, unit normal [m]. vertices: (V, 3) of all bodies"""
-        a, b = vertices[self.a], vertices[self.b]
-        middle = np.repeat(np.add.reduceat(a, self.starts) / self.sizes[:, None], self.sizes, axis=0)
-        across = np.cross(b - a, middle - a)
-        made = np.empty((len(a), 3, 6), "f4")
-        made[:, 0, :3], made[:, 1, :3], made[:, 2, :3] = middle, a, b
-        made[:, :, 3:] = (across / np.maximum(np.sqrt((across * across).sum(1, keepdims=True)), 1e-30))[:, None]
+        """(T, 3, 6) corners of the triangles: place, unit normal of the face [m]. vertices: (V, 3) of all bodies"""
+        places = vertices[self.corners]
+        u, v = (places[:, 1:] - places[:, :1]).transpose(1, 0, 2)
+        area = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
+        normal = np.add.reduceat(area, np.cumsum(self.fan) - self.fan)
+        normal /= np.maximum(np.sqrt((normal * normal).sum(1, keepdims=True)), 1e-30)
+        made = np.empty((len(places), 3, 6), "f4")
+        made[:, :, :3] = places
+        made[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
         return made
 
 
 class Bodies:
-    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies."""
+    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies; surface: program of their faces, SOLID, or PLAIN without shadows"""
 
-    def __init__(self, topology, colors):
+    def __init__(self, topology, colors, surface="SOLID"):
         self.topology = topology
-        self.content = np.zeros((len(topology.a), 3, 9), "f4")
+        self.content = np.zeros((len(topology.corners), 3, 9), "f4")
         self.content[:, :, 6:] = np.asarray(colors, "f4").reshape(-1, 3)[topology.body][:, None]
         made = context()
         self.corners = made.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
         self.ends = made.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
-        self.faces = made.vertex_array(program("SOLID"), [(self.corners, *LAYOUT)])
+        self.faces = made.vertex_array(program(surface), [(self.corners, *LAYOUT)])
         self.shadow = made.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
         self.edges = made.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
 
@@ -119,10 +125,16 @@ class Bodies:
             self.corners.write(self.content)
             self.ends.write(vertices[self.topology.edges].astype("f4"))
 
-    def render(self):
-        """Draw faces and edges."""
+    def render_faces(self):
+        """Draw the faces that are turned towards the viewer."""
         if self.content.size:
+            context().enable_only(context().DEPTH_TEST | context().CULL_FACE)
             self.faces.render()
+
+    def render_edges(self):
+        """Draw all edges that no face hides."""
+        if self.content.size:
+            context().enable_only(context().DEPTH_TEST | context().BLEND)
             self.edges.render(mode=context().LINES)
 
     def release(self):
@@ -136,6 +148,7 @@ class Canvas:
     def __init__(self, width, height):
         made = context()
         self.size = int(width), int(height)
+        self.made = Image.new("RGB", self.size)
         self.frame = made.framebuffer([made.renderbuffer(self.size, 4)], made.depth_renderbuffer(self.size))
 
     def begin(self, color):
@@ -147,6 +160,11 @@ class Canvas:
         """(height, width, components) uint8, the first row at the top."""
         data = self.frame.read(components=components, alignment=1)
         return np.frombuffer(data, np.uint8).reshape(*self.size[::-1], components)[::-1]
+
+    def image(self):
+        """RGB image of Pillow."""
+        self.made.frombytes(self.frame.read(components=4), "raw", ("RGBX", 0, -1))
+        return self.made
 
     def depths(self):
         """(height, width) float32, 0 near to 1 far, the first row at the top."""

@@ -4,43 +4,42 @@
 SOLID_VERTEX = """#version 330
 uniform mat4 camera;
 uniform mat4 sun;
+uniform vec3 light;        // unit vector to the light
+uniform vec2 ambient;      // brightness of faces that look up and down
+uniform float direct;      // brightness added by the light
+uniform vec4 toward;       // plane: distance behind the front of the house is toward.w - dot(toward.xyz, place)
+uniform vec2 haziness;     // largest share of haze, distance at which it is reached [m]
 in vec3 place;
 in vec3 normal;
 in vec3 color;
-out vec3 vPlace;
-out vec3 vNormal;
-out vec3 vColor;
+flat out vec3 vColor;      // without the light
+flat out vec3 vLit;        // added by the light
+out float vFar;            // share of haze, not limited
 out vec3 vShade;
 void main() {
-  vPlace = place;
-  vNormal = normal;
-  vColor = color;
+  vColor = color * mix(ambient.y, ambient.x, 0.5 + 0.5 * normal.z);
+  vLit = color * direct * max(dot(normal, light), 0.0);
+  vFar = haziness.x * (toward.w - dot(toward.xyz, place)) / haziness.y;
   vShade = (sun * vec4(place + 0.03 * normal, 1.0)).xyz * 0.5 + 0.5;  // offset [m] against shadows of a face on itself
   gl_Position = camera * vec4(place, 1.0);
 }"""
 
 SOLID_FRAGMENT = """#version 330
-uniform vec3 light;        // unit vector to the light
-uniform vec2 ambient;      // brightness of faces that look up and down
-uniform float direct;      // brightness added by the light
-uniform bool shadows;
 uniform sampler2DShadow shade;
-uniform vec4 toward;       // plane: distance behind the front of the house is toward.w - dot(toward.xyz, place)
-uniform vec3 haze;         // colour
-uniform vec2 haziness;     // largest share, distance at which it is reached [m]
-in vec3 vPlace;
-in vec3 vNormal;
-in vec3 vColor;
+uniform vec3 haze;  // colour
+uniform vec2 haziness;
+flat in vec3 vColor;
+flat in vec3 vLit;
+in float vFar;
 in vec3 vShade;
 out vec4 picture;
 void main() {
-  vec3 n = normalize(vNormal);
-  float lit = max(dot(n, light), 0.0);
-  if (shadows && lit > 0.0) lit *= texture(shade, vShade);
-  vec3 color = vColor * (mix(ambient.y, ambient.x, 0.5 + 0.5 * n.z) + direct * lit);
-  float far = clamp((toward.w - dot(toward.xyz, vPlace)) / haziness.y, 0.0, 1.0);
-  picture = vec4(mix(color, haze, far * haziness.x), 1.0);
+  vec3 color = vColor + vLit * texture(shade, vShade);
+  picture = vec4(mix(color, haze, clamp(vFar, 0.0, haziness.x)), 1.0);
 }"""
+
+PLAIN_VERTEX = SOLID_VERTEX
+PLAIN_FRAGMENT = SOLID_FRAGMENT.replace("texture(shade, vShade)", "1.0")  # without shadows
 
 EDGE_VERTEX = """#version 330
 uniform mat4 camera;
@@ -101,36 +100,41 @@ void main() {}"""
 GROUND_VERTEX = """#version 330
 uniform mat4 camera;
 uniform mat4 sun;
-uniform vec2 middle;
-uniform float extent;
-in vec2 corner;
+uniform vec4 bounds;  // of the part that is drawn: west, south, east, north [m]
+in vec2 corner;       // 0 or 1
 out vec2 place;
 out vec3 vShade;
 void main() {
-  place = corner * extent;
-  vec4 world = vec4(place + middle, 0.0, 1.0);
+  place = mix(bounds.xy, bounds.zw, corner);
+  vec4 world = vec4(place, 0.0, 1.0);
   vShade = (sun * world).xyz * 0.5 + 0.5;
   gl_Position = camera * world;
 }"""
 
 GROUND_FRAGMENT = """#version 330
-uniform sampler2DShadow shade;
 uniform float reach;  // distance up to which the grid is seen [m]
 in vec2 place;
-in vec3 vShade;
 out vec4 picture;
 float lines(vec2 p, vec2 width) {  // width: of a pixel
   vec2 near = abs(fract(p - 0.5) - 0.5) / width;
-  vec2 shown = (1.0 - smoothstep(0.2, 1.0, near)) * (1.0 - smoothstep(0.15, 0.5, width));
+  vec2 shown = clamp(1.3 - 1.4 * near, 0.0, 1.0) * clamp(1.5 - 3.0 * width, 0.0, 1.0);
   return max(shown.x, shown.y);
 }
 void main() {
   vec2 width = max(fwidth(place), 1e-6);
-  float grid = max(0.16 * lines(place, width), 0.26 * lines(place / 5.0, width / 5.0));
+  float grid = max(0.16 * lines(place, width), 0.26 * lines(0.2 * place, 0.2 * width));
   vec3 color = mix(vec3(0.84, 0.83, 0.78), vec3(0.45, 0.46, 0.44), grid);
-  bool inside = all(greaterThan(vShade, vec3(0.0))) && all(lessThan(vShade, vec3(1.0)));
-  if (inside) color *= mix(0.66, 1.0, texture(shade, vShade));
   picture = vec4(color, 1.0 - smoothstep(0.2 * reach, reach, length(place)));
+}"""
+
+SHADE_VERTEX = GROUND_VERTEX
+SHADE_FRAGMENT = """#version 330
+uniform sampler2DShadow shade;
+in vec3 vShade;
+out vec4 picture;
+void main() {
+  bool inside = all(greaterThan(vShade, vec3(0.0))) && all(lessThan(vShade, vec3(1.0)));
+  picture = vec4(0.0, 0.0, 0.0, inside ? 0.34 * (1.0 - texture(shade, vShade)) : 0.0);
 }"""
 
 SKY_VERTEX = """#version 330

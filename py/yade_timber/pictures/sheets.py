@@ -100,7 +100,7 @@ def sheet(frames, view, form):
         if time.frame:
             draw_silhouette(ax, outlines, PANEL_MARK)
         caption = f"{frames.time[time.frame]:.2f} s{': ' if time.reason else ''}{time.reason}"
-        ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3)
+        ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3, y=1)
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
@@ -136,7 +136,7 @@ def both_views(frames, frame, dpi):
         ax = add_panel(figure, (left, END_AXES), size, dpi)
         draw_view(ax, Window(view, box, density), shot, front_of(start, view))
         draw_silhouette(ax, silhouette(start, view))
-        ax.set_title(view.title, fontsize=12)
+        ax.set_title(view.title, fontsize=12, y=1)
         draw_ends(ax, view, 10)
         scale_bar(ax, box, 10)
         left += size[0] + GAP

@@ -169,7 +169,7 @@ class Frames:
         return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
 
     def joint_states(self, frame):
-        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint."""
+        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint; frame: a number, or a slice of frames."""
         j = self.joints
         state = np.where(np.asarray(self.broken[frame]) == 0, "whole", np.where(self.broken[frame] >= j.springs, "broken", "partly"))
         return np.where(j.damaged, "before", state)

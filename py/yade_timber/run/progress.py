@@ -15,6 +15,7 @@ TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 """Shortest wall time between two states of the bar, on a terminal and in a log file. [s]"""
 
 O = yw.Omega()
+tqdm.monitor_interval = 0  # no thread that refreshes bars: at the end of a run the process with one thread is copied (pictures/copies.py)
 
 
 class Progress:

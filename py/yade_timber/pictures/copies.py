@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Copies of this process (fork), which draw while it does something else. What it has loaded, they have: frames need not be sent. Needs no YADE."""
+import gc
+import multiprocessing
+import os
+import signal
+import threading
+from contextlib import contextmanager
+
+from ..base.errors import RunError
+
+fork = multiprocessing.get_context("fork")
+WAITING = "IPythonHistorySavingThread"
+"""Thread that YADE has from IPython; it waits until a user types a line."""
+
+
+def possible():
+    """Whether copies are of use and safe: there is more than one processor, no other thread at work (a live session has some), and no OpenGL."""
+    from . import renderer  # here: a run without pictures needs none
+
+    at_work = [thread for thread in threading.enumerate() if thread.name != WAITING]
+    return len(os.sched_getaffinity(0)) > 1 and len(at_work) == 1 and not renderer.used()
+
+
+@contextmanager
+def ahead(make):
+    """Context with an iterator over the items of `make()`, a generator; a copy of this process makes the next item while this one uses the last.
+
+    The iterator raises RunError when the copy is killed, and any exception of the generator. Where copies are not possible it makes the items itself.
+    """
+    if not possible():
+        yield make()
+        return
+    receiver, sender = fork.Pipe(duplex=False)
+    fork.Process(target=_send_all, args=(make, sender, receiver), daemon=True).start()
+    sender.close()
+    with receiver:  # when it is closed, a copy that is not at its end stops
+        yield _received(receiver)
+
+
+def _send_all(make, sender, receiver):
+    """In the copy: send all items. Ctrl-C ends it with the other process only."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()  # leaves the other process's objects out of garbage collections, which take a tenth of the time
+    receiver.close()
+    try:
+        for item in make():
+            sender.send(item)
+        sender.send(StopIteration())
+    except BrokenPipeError:
+        pass
+    except Exception as problem:
+        sender.send(problem)
+
+
+def _received(receiver):
+    while True:
+        try:
+            item = receiver.recv()
+        except EOFError:
+            raise RunError("a process that draws was killed, as by lack of memory") from None
+        if isinstance(item, StopIteration):
+            return
+        if isinstance(item, Exception):
+            raise item
+        yield item
