@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Copies of a process that draw: order, errors, loss of a copy, when they are possible; PNG files. Needs no YADE."""
+"""Copies of a process that draw: order, errors, loss of a copy, when they are possible. Needs no YADE."""
 import os
 import signal
 import threading
-from io import BytesIO
 
-import numpy as np
 import pytest
-from PIL import Image
 from yade_timber.base.errors import RunError
-from yade_timber.pictures import copies, png
+from yade_timber.pictures import copies
 
 
 @pytest.fixture
@@ -64,9 +61,3 @@ def test_one_processor_makes_no_copies(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0})
     with copies.ahead(lambda: iter([os.getpid()])) as items:
         assert list(items) == [os.getpid()]
-
-
-def test_png_has_the_pixels_and_the_resolution():
-    pixels = np.random.default_rng(1).integers(0, 256, (7, 5, 4), np.uint8)
-    image = Image.open(BytesIO(png.encoded(pixels, 300)))
-    assert image.mode == "RGB" and np.array_equal(np.asarray(image), pixels[..., :3]) and image.info["dpi"] == pytest.approx((300, 300), abs=0.01)

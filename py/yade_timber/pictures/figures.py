@@ -9,9 +9,10 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 from ..base.atomic_write import written_whole
-from . import fonts, png
+from . import fonts
 
 A4 = (8.27, 11.69)
 """Short and long side. [inch]"""
@@ -29,6 +30,8 @@ LONGEST_TEXT = 400
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
 
+PNG_LEVEL = 1
+"""Of zlib: Pillow's fastest."""
 METADATA = {"CreationDate": None}
 """Of PDF files: nothing that differs between two runs of the same program."""
 
@@ -115,12 +118,17 @@ def save(figure, stem, endings):
     for path in paths:
         with written_whole(path) as part:
             if path.suffix == ".png":
-                figure.canvas.draw()
-                part.write_bytes(png.encoded(np.asarray(figure.canvas.buffer_rgba()), figure.dpi))
+                image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
             else:
                 with matplotlib.rc_context(fonts.SETTINGS), fonts.without_layout():
                     figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
+
+
+def image_of(figure):
+    """RGB image of a figure with its own resolution."""
+    figure.canvas.draw()
+    return Image.fromarray(np.ascontiguousarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
 
 
 def stem_of(path):
