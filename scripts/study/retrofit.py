@@ -20,7 +20,7 @@ from yade_timber.pictures import all_pictures, report
 from yade_timber.study.driver import Task, run_missing
 from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
 from yade_timber.study.retrofit import motions, overview, race
-from yade_timber.study.retrofit.candidates import KINDS, USUAL_KINDS, candidates
+from yade_timber.study.retrofit.candidates import GROUPS, KINDS, USUAL_KINDS, candidates
 from yade_timber.study.retrofit.runs import Ranking
 
 
@@ -37,6 +37,8 @@ def arguments():
     made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
     made.add_argument("--kinds", type=lambda text: text.split(","), default=list(USUAL_KINDS), metavar="KIND,KIND",
                       help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})")
+    made.add_argument("--group", choices=GROUPS, default="bay", help="braces and walls in one free bay, or in all free bays of a wall of a storey "
+                      "(default %(default)s)")
     made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
     made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
     made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")
@@ -56,7 +58,7 @@ def ranking_of(options):
     shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(options.motions, target)
     if options.end is not None and not options.records:
         shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
-    found = candidates(options.house, options.snow, options.kinds, options.only)
+    found = candidates(options.house, options.snow, options.kinds, options.only, options.group)
     if not found:
         raise RunError(f"{options.house}: no measure of these kinds and names")
     needed = race.needed_motions(len(found))
