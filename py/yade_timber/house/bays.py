@@ -51,8 +51,10 @@ def _bays(structure, storey):
 
 
 def _name(structure, kind, storey, bay):
+    """Name of a bay. A whole node before a fraction is written with its decimal: 'x4.0.1.5-3', as 'x4.1.5-3' is the bay 5-3 on the line 4.1."""
     along, at, start, end = bay
-    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{at:g}.{start:g}-{end:g}"
+    line = f"{at:.1f}" if at == int(at) and start != int(start) else f"{at:g}"
+    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
 
 
 def _in_storey(lines, storey):

@@ -68,8 +68,14 @@ def in_walls(model, names):
     """A measure for each line of columns in a storey, 'main.brace1.EW.y0': braces or walls in all its free bays at once."""
     lines = {}
     for name in names:
-        lines.setdefault(name.removesuffix(f".{SHEATHING}").rpartition(".")[0], []).append(name)
+        lines.setdefault(bay_line(name), []).append(name)
     return [Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),)) for line, bays in lines.items()]
+
+
+def bay_line(name):
+    """'main.brace1.EW.y0' of 'main.brace1.EW.y0.3-4': the name without its bay, whose nodes may be fractions."""
+    start, end = bay_parts(name)[4:]
+    return name.removesuffix(f".{SHEATHING}").removesuffix(f".{start:g}-{end:g}")
 
 
 def bay_text(model, name):
