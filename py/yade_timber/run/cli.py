@@ -11,7 +11,7 @@ from ..base.errors import RunError
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
-from ..motion import GroundMotion, add_motion_options, motion_request
+from ..motion import GroundMotion, add_motion_options, motion_request, with_then
 from ..scene.scenario import Scenario
 from .identity import of_arrays
 
@@ -135,8 +135,8 @@ def decisive(arguments):
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
-    given = parser(script).parse_args(_joined(argv[1:]))
-    return _run(given, argv[1:], Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
+    given, arguments = _parsed(parser(script), argv)
+    return _run(given, arguments, Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
 
 
 def read_house(argv, motion=None):
@@ -144,10 +144,10 @@ def read_house(argv, motion=None):
 
     motion: GroundMotion that takes the place of a record
     """
-    given = house_parser().parse_args(_joined(argv[1:]))
+    given, arguments = _parsed(house_parser(), argv)
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
     shaken = motion is not None or given.quake or given.record is not None or given.seed is not None
-    return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
+    return _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
 
 
 @dataclass(frozen=True)
@@ -160,13 +160,13 @@ class TownPlan:
 
 def read_town(argv):
     """Command line (as sys.argv) of scripts/town.py -> (TownPlan, Output). Raises RunError, RecordError, HouseError."""
-    given = town_parser().parse_args(_joined(argv[1:]))
+    given, arguments = _parsed(town_parser(), argv)
     for option in ("export", "ensemble", "disturb"):
         if getattr(given, option) is not None:
             raise RunError(f"--{option}: not for towns; run a house with scripts/house.py")
     town = load_town(given.file)
     shaken = given.quake or given.record is not None or given.seed is not None
-    scenario, output = _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
+    scenario, output = _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
     delays = town.delays()
     if given.duration is None and scenario.motion:
         scenario.duration += max(delays)
@@ -226,6 +226,12 @@ def _path(option, value):
     if value is not None and not value.strip():
         raise RunError(f"{option} '': a path must not be empty")
     return None if value is None else Path(value)
+
+
+def _parsed(made, argv):
+    """(parsed options, arguments of the command line) of sys.argv."""
+    arguments = with_then(argv[1:])
+    return made.parse_args(_joined(arguments)), arguments
 
 
 def _joined(arguments):
