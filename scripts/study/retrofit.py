@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow cleared.
 
-    scripts/study/retrofit.py HOUSE [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
+    scripts/study/retrofit.py HOUSE [--group wall] [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
 
 Each measure is compared with the house as it is under the same motions (paired Wilcoxon test, Holm's correction). Candidates that are behind
 after 4, 8, ... motions are dropped. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the
@@ -69,6 +69,12 @@ def ranking_of(options):
     return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
 
 
+def cheaper(ranking, options):
+    """'; --group wall: 132' where a ranking of whole walls has fewer runs, else ''."""
+    grouped = len(candidates(options.house, options.snow, options.kinds, options.only, "wall"))
+    return f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
+
+
 def pictures(ranking, results, number):
     """Repeat the house as it is and the best measures with frames, under the motion worst for the house; returns [(text, folder)]."""
     worst = max(ranking.house.responses, key=ranking.house.responses.get)
@@ -90,9 +96,10 @@ def write(ranking, options, shown=()):
     scaled = "".join(f", {key} {getattr(options, key):g}" for key in ("pga", "intensity", "scale") if getattr(options, key) is not None)
     source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
     snow = f", {options.snow:g} m of snow" if options.snow else ""
+    filled = ", those with braces or walls in all free bays of a wall at once" if options.group == "wall" else ""
     runs = [run for entry in (ranking.house, *ranking.entries) for run in entry.runs.values()]
     about = [
-        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures.",
+        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures{filled}.",
         f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
         overview.summary(results, ranking.house),
     ]
@@ -106,7 +113,7 @@ def main():
     ranking = ranking_of(options)
     ranking.check()
     runs = race.cost(len(ranking.motions), len(ranking.candidates))
-    print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs")
+    print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs{cheaper(ranking, options)}")
     if options.dry_run:
         return 0
     ranking.run()

@@ -35,6 +35,7 @@ class Output:
     resume: bool = False
     or_anew: bool = False  # with resume: start anew when the checkpoint cannot be used
     views: bool = True  # pictures and player, made from the frames
+    report: bool = False
     frames: bool = True
     export: Path = None
     quiet: bool = False
@@ -64,6 +65,7 @@ def parser(script):
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S",
                       help="simulated time between checkpoints [s], 0: none (default %(default)g)")
     made.add_argument("--no-views", action="store_true", help="make no pictures (scripts/show/show_run.py makes them later from the recorded frames)")
+    made.add_argument("--report", action="store_true", help="write a report of one page, too: report.html, and report.pdf where Chromium is installed")
     made.add_argument("--no-frames", action="store_true", help="record no frames and make no pictures")
     made.add_argument("--export", metavar="FILE",
                       help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
@@ -113,7 +115,7 @@ def town_parser():
 
 OUTPUT_OPTIONS = {
     **dict.fromkeys(("--out", "--checkpoint", "--export", "--ensemble", "--jobs"), 1),
-    **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--quiet"), 0),
+    **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--report", "--quiet"), 0),
 }
 """Options that do not decide the results, with the number of their values."""
 
@@ -161,8 +163,8 @@ class TownPlan:
 def read_town(argv):
     """Command line (as sys.argv) of scripts/town.py -> (TownPlan, Output). Raises RunError, RecordError, HouseError."""
     given, arguments = _parsed(town_parser(), argv)
-    for option in ("export", "ensemble", "disturb"):
-        if getattr(given, option) is not None:
+    for option in ("export", "ensemble", "disturb", "report"):
+        if getattr(given, option):
             raise RunError(f"--{option}: not for towns; run a house with scripts/house.py")
     town = load_town(given.file)
     shaken = given.quake or given.record is not None or given.seed is not None
@@ -198,6 +200,8 @@ def _run(given, arguments, request):
     """(Scenario, Output). given: parsed options; arguments: of the command line; request: Request."""
     _check_numbers(given)
     _check_ensemble(given)
+    if given.report and given.no_frames:
+        raise RunError("--report and --no-frames exclude each other: a report shows recorded frames")
     shaking = motion_request(given)
     motion = _motion(shaking, request, given.dt)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
@@ -211,6 +215,7 @@ def _run(given, arguments, request):
         resume=given.resume,
         or_anew=given.or_anew,
         views=not (given.no_views or given.no_frames),
+        report=given.report,
         frames=not given.no_frames,
         export=_path("--export", given.export),
         quiet=given.quiet,
