@@ -8,6 +8,8 @@ Takes the options of the run scripts and shows the motion that they would apply;
 package. Needs no YADE.
 """
 
+import sys
+
 from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber.motion import (
@@ -21,6 +23,7 @@ from yade_timber.motion import (
     pgv,
     scaled,
     significant_duration,
+    with_then,
 )
 from yade_timber.pictures import motion_sheet
 from yade_timber.pictures.figures import stem_of
@@ -53,7 +56,7 @@ def arguments():
     parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run, for --resample [s] (default %(default)g)")
     parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
-    options = parser.parse_args()
+    options = parser.parse_args(with_then(sys.argv[1:]))
     if options.record and options.positional:
         parser.error("RECORD and --record name the same option: give one")
     options.record = options.record or options.positional

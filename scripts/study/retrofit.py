@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow cleared.
 
-    scripts/study/retrofit.py HOUSE [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
+    scripts/study/retrofit.py HOUSE [--group wall] [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
 
 Each measure is compared with the house as it is under the same motions (paired Wilcoxon test, Holm's correction). Candidates that are behind
 after 4, 8, ... motions are dropped. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the
@@ -20,7 +20,7 @@ from yade_timber.pictures import all_pictures, report
 from yade_timber.study.driver import Task, run_missing
 from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
 from yade_timber.study.retrofit import motions, overview, race
-from yade_timber.study.retrofit.candidates import KINDS, USUAL_KINDS, candidates
+from yade_timber.study.retrofit.candidates import GROUPS, KINDS, USUAL_KINDS, candidates
 from yade_timber.study.retrofit.runs import Ranking
 
 
@@ -37,6 +37,8 @@ def arguments():
     made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
     made.add_argument("--kinds", type=lambda text: text.split(","), default=list(USUAL_KINDS), metavar="KIND,KIND",
                       help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})")
+    made.add_argument("--group", choices=GROUPS, default="bay", help="braces and walls in one free bay, or in all free bays of a wall of a storey "
+                      "(default %(default)s)")
     made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
     made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
     made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")
@@ -56,7 +58,7 @@ def ranking_of(options):
     shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(options.motions, target)
     if options.end is not None and not options.records:
         shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
-    found = candidates(options.house, options.snow, options.kinds, options.only)
+    found = candidates(options.house, options.snow, options.kinds, options.only, options.group)
     if not found:
         raise RunError(f"{options.house}: no measure of these kinds and names")
     needed = race.needed_motions(len(found))
@@ -65,6 +67,12 @@ def ranking_of(options):
         raise RunError(f"{len(shaking)} motions cannot show a difference for {len(found)} measures; {remedy}")
     same = {"house": options.house, "snow": f"{options.snow:g}", "until_collapse": "yes", **({"dt": f"{options.dt:g}"} if options.dt else {})}
     return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
+
+
+def cheaper(ranking, options):
+    """'; --group wall: 132' where a ranking of whole walls has fewer runs, else ''."""
+    grouped = len(candidates(options.house, options.snow, options.kinds, options.only, "wall"))
+    return f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
 
 
 def pictures(ranking, results, number):
@@ -88,9 +96,10 @@ def write(ranking, options, shown=()):
     scaled = "".join(f", {key} {getattr(options, key):g}" for key in ("pga", "intensity", "scale") if getattr(options, key) is not None)
     source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
     snow = f", {options.snow:g} m of snow" if options.snow else ""
+    filled = ", those with braces or walls in all free bays of a wall at once" if options.group == "wall" else ""
     runs = [run for entry in (ranking.house, *ranking.entries) for run in entry.runs.values()]
     about = [
-        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures.",
+        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures{filled}.",
         f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
         overview.summary(results, ranking.house),
     ]
@@ -104,7 +113,7 @@ def main():
     ranking = ranking_of(options)
     ranking.check()
     runs = race.cost(len(ranking.motions), len(ranking.candidates))
-    print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs")
+    print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs{cheaper(ranking, options)}")
     if options.dry_run:
         return 0
     ranking.run()

@@ -114,6 +114,7 @@ def test_comma_separated_values(table):
     ("house,scale\nC,0,5", "write decimal points"),
     ("house scale\nC 1,5", "write a decimal point: 1.5"),
     ("house scale\nC,0.5", "separate the names in it by commas"),
+    ("house scale\nC, 0.5", "separate the names in it by commas"),
     ("house, record, scale\nC, a.NS,a.EW, 0.5", "in quotes"),
     ("house;scale\nC;0.5", "semicolons"),
 ])

@@ -116,6 +116,7 @@ def test_number_of_runs(refused, value):
         (["--ensemble", "4", "--resume"], "--ensemble and --resume exclude each other: an ensemble always continues"),
         (["--ensemble", "4", "--or-anew"], "--ensemble and --or-anew exclude each other"),
         (["--ensemble", "4", "--export", "scene.json"], "--ensemble and --export exclude each other"),
+        (["--report", "--no-frames"], "--report and --no-frames exclude each other"),
         (["--ensemble", "4", "--disturb", "2"], "--ensemble and --disturb exclude each other"),
         (["--ensemble", "4", "--checkpoint", "1"], "--ensemble and --checkpoint exclude each other"),
         (["--ensemble", "4", "--dt", "1"], "--dt 1: the time step must be"),
@@ -244,7 +245,7 @@ def test_help_names_every_option(capsys):
         cli.read("A", True, False, ["scripts/modelA_quake.py", "-h"])
     assert stop.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("duration", "dt", "out", "resume", "no-views", "no-frames", "every-step", "joint-damping", "export", "quiet", *(f.name for f in fields(MotionRequest))):
+    for option in ("duration", "dt", "out", "resume", "no-views", "no-frames", "report", "every-step", "joint-damping", "export", "quiet", *(f.name for f in fields(MotionRequest))):
         assert f"--{option}" in shown
 
 

@@ -102,6 +102,22 @@ def test_free_bays_of_house_b():
     assert "main.brace1.NS.x0.0-1" not in bays and "main.brace1.NS.x0.1-2" in bays
 
 
+def test_free_bays_between_half_nodes(tmp_path):
+    """Columns at nodes 0, 0.5, 1.5, 2 of two walls: a bay that begins at a fraction is read back as itself, not as a bay on the line 2.1."""
+    lines = [{"along": "y", "at": [0, 2], "from": 0, "to": 2}, {"along": "x", "at": [0, 2], "from": 0, "to": 2, "cut": True}]
+    stack = [{"layer": "sill", "height": 0.12, "width": 0.12}, {"layer": "columns", "height": 2.2}, {"layer": "beams", "height": 0.12, "width": 0.12},
+             {"layer": "roof", "type": "flat", "thickness": 0.1}]
+    axis = {"module": 1.82, "count": 2}
+    shed = {"place": {"origin": [0, 0]}, "grid": {"x": axis, "y": axis}, "margin": 0.06, "lines": lines, "stack": stack,
+            "columns": [{"section": 0.12, "grid": {"x": [0, 2], "y": [0, 0.5, 1.5, 2]}}]}
+    path, braced = tmp_path / "shed.yaml", tmp_path / "braced.yaml"
+    path.write_text(yaml.safe_dump({"extends": "base", "name": "shed", "structures": {"shed": shed}}))
+    names = free_bays(load_house(path))
+    assert len(names) == 8 and {"shed.brace1.NS.x2.0-0.5", "shed.brace1.NS.x2.0.0.5-1.5", "shed.brace1.EW.y2.0-2"} <= set(names)
+    braced.write_text(yaml.safe_dump(changed_house(path, braces=names), sort_keys=False))
+    assert build_house(load_house(braced)).counts()["braces"] == 8 and free_bays(load_house(braced)) == []
+
+
 def test_a_brace_in_a_free_bay_fits(tmp_path):
     """No overlap and joints at both ends, in the bays nearest to B's own braces and in one of two modules on an inner line."""
     names = ["main.brace1.NS.x0.1-2", "main.brace1.NS.x4.1-3", "main.brace2.EW.y9.7-6"]

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv  # noqa: E402
-from yade_timber.motion.sequence import common_step, following  # noqa: E402
+from yade_timber.motion.sequence import common_step, following, with_then  # noqa: E402
 from yade_timber.study.batch.table import read_table  # noqa: E402
 
 
@@ -55,6 +55,13 @@ def test_steps_without_a_common_one():
 @pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]), ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)])])
 def test_records_with_their_factors(text, found):
     assert following(text, "--then") == found
+
+
+@pytest.mark.parametrize("words, found", [
+    ("house.py C --record a then b@0.8 --snow 1", "house.py C --record a --snow 1 --then b@0.8"), ("--record a then b then c", "--record a --then b;c"),
+    ("--record a --then b", "--record a --then b"), ("C --quake then", "C --quake --then ")])  # fmt: skip
+def test_then_as_a_word(words, found):
+    assert " ".join(with_then(words.split())) == found
 
 
 @pytest.mark.parametrize("text", ["", "b@", "b@-1", "b@x", "@2", "b;;c", "b@nan"])

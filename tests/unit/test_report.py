@@ -13,6 +13,7 @@ from yade_timber.pictures import quantities, report
 from yade_timber.recording.lines import MOST, lines, main_mode
 from yade_timber.recording.quantities import SUSTAINED, Storeys, ground_velocity, storeys
 from yade_timber.recording.frames import Motion
+from yade_timber.run.runner import clear
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -55,11 +56,14 @@ def test_shear_is_a_spring_force(folder):
 def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
     """Momenta, joint peaks and the first modes are in the checkpoint: the files keep every bit."""
     command(tmp_path, "--duration", "1.2")
-    command(tmp_path, "--duration", "1.3", "--resume")
+    command(tmp_path, "--duration", "1.3", "--resume", "--report")
     for name in ("storeys.csv", "joints.csv", "columns.csv"):
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
     straight, resumed = (json.loads((path / "summary.json").read_text()) for path in (folder, tmp_path))
     assert resumed["quantities"] == straight["quantities"] and resumed["structures"] == straight["structures"]
+    assert "--report" not in resumed["made_from"]["options"] and (tmp_path / report.PAGE).exists(), "a report does not change results"
+    clear(tmp_path)
+    assert not (tmp_path / report.PAGE).exists(), "a report of an earlier run must not be taken for that of the next"
 
 
 def test_page_and_report(folder, tmp_path):

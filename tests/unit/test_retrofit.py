@@ -43,6 +43,31 @@ def test_bays_as_text(name, text):
     assert measures.bay_text(model, name) == text
 
 
+def test_measures_of_whole_walls():
+    """Braces in the 6 free bays of B's south wall (docs of free_bays) are one measure of each storey; both walls of A's entrance are, too."""
+    found = {one.name: one for one in measures.candidates("B", 0.0, ("brace", "wall"), group="wall")}
+    south = found["main.brace1.EW.y0"]
+    assert south.text == "braces in 6 bays: main, storey 1, south wall"
+    assert south.changes["braces"].split(";") == [one.name for one in measures.candidates("B", 0.0, ("brace",), ("main.brace1.EW.y0.",))]
+    assert found["main.wall2.NS.x4"].text == "plywood walls in 7 bays: main, storey 2, inner N-S wall"
+    assert sum(name.startswith("main.brace") for name in found) == 2 * 6
+    bays = [name for one in found.values() for name in one.changes["braces"].split(";")]
+    assert sorted(bays) == sorted(one.name for one in measures.candidates("B", 0.0, ("brace", "wall")))
+
+
+def test_no_measure_stands_in_a_window_or_a_door():
+    """South wall of tiled_house: nodes 0 1 2 4 5 7 8, windows and doors at 2-4 and 5-7. Its inner walls leave doors at 1-3 and 6-7."""
+    names = [one.name for one in measures.candidates("tiled_house", 0.0, ("brace", "wall"))]
+    assert [name.rpartition(".")[2] for name in names if name.startswith("main.brace1.EW.y0.")] == ["0-1", "1-2", "5-4", "8-7"]
+    assert not any(name.startswith("main.wall1.EW.y0.") for name in names) and "main.wall1.EW.y4.1-3.plywood" in names
+
+
+def test_the_line_of_a_bay():
+    """Nodes may be fractions, so that a point in a name need not separate two parts of it."""
+    assert measures.bay_line("main.brace1.NS.x4.1-3") == "main.brace1.NS.x4"
+    assert measures.bay_line("main.wall1.NS.x4.0.1.5-3.plywood") == "main.wall1.NS.x4.0"
+
+
 def test_seeds_and_target():
     found = motions.seeds(3, {"pga": 400.0})
     assert [name for name, _ in found] == ["seed1", "seed2", "seed3"]

@@ -141,6 +141,7 @@ def test_joints_and_wall_sheets_of_the_town_are_those_of_the_summaries(town):
     [
         (TOWN.replace("x: 20", "x: 3"), [], "error: town.yaml:4: town.lots.far: the house overlaps that of lot near: move it by x or y, or turn it"),
         (TOWN, ["--export", "x.json"], "error: --export: not for towns; run a house with scripts/house.py"),
+        (TOWN, ["--report"], "error: --report: not for towns; run a house with scripts/house.py"),
         (TOWN.replace("velocity: 100", "velocity: 0"), [], "error: town.yaml:1: town.wave.velocity: must be a number in [50, 20000] m/s, got 0"),
         (TOWN, ["--scale", "2"], "error: --scale: this run has no earthquake; add --quake or --record FILE"),
     ],

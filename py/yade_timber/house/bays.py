@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bays without a brace or without a wall: between neighbouring columns on a line of beams. Names are those that `changed_house` takes."""
+"""Bays that can take a brace or a wall: between neighbouring columns on a line of beams. Names are those that `changed_house` takes."""
 
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
 
 
 def free_bays(description):
-    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each free bay.
+    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each bay without brace, window or door.
 
     The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of houses B and C.
     """
     names = []
     for structure, storey in _storeys(description):
-        braced = _braced(structure, storey)
+        taken = _braced(structure, storey) | _walled(structure, storey, only_open=True)
         for line, at, low, high in _bays(structure, storey):
-            if (line["along"], at, low, high) not in braced:
+            if (line["along"], at, low, high) not in taken:
                 foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
                 names.append(_name(structure, "brace", storey, (line["along"], at, foot, head)))
     return names
@@ -51,8 +51,10 @@ def _bays(structure, storey):
 
 
 def _name(structure, kind, storey, bay):
+    """Name of a bay. A whole node before a fraction is written with its decimal: 'x4.0.1.5-3', as 'x4.1.5-3' is the bay 5-3 on the line 4.1."""
     along, at, start, end = bay
-    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{at:g}.{start:g}-{end:g}"
+    line = f"{at:.1f}" if at == int(at) and start != int(start) else f"{at:g}"
+    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
 
 
 def _in_storey(lines, storey):
@@ -65,8 +67,9 @@ def _braced(structure, storey):
     return {(line["along"], at, min(run), max(run)) for line in lines for at in line["at"] for run in line["runs"]}
 
 
-def _walled(structure, storey):
-    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey."""
-    lines = [(line["along"], at, line["from"], line["to"]) for line in _in_storey(structure.table["walls"], storey) for at in line["at"]]
+def _walled(structure, storey, only_open=False):
+    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey. only_open: those with a window or a door"""
+    walls = [line for line in _in_storey(structure.table["walls"], storey) if line["opening"] != "none" or not only_open]
+    lines = [(line["along"], at, line["from"], line["to"]) for line in walls for at in line["at"]]
     bays = {(line["along"], at, low, high) for line, at, low, high in _bays(structure, storey)}
     return {bay for bay in bays for along, at, first, last in lines if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last}

@@ -33,7 +33,7 @@ from .processing import (
 from .readers import DEFAULT_RECORD, default_motion, read_motion
 from .record import GAL, GroundMotion, RecordError, RecordWarning
 from .request import MotionRequest, add_motion_options, motion_request
-from .sequence import joined
+from .sequence import joined, with_then
 from .synthetic import synthetic_motion
 from .writer import write_csv
 
@@ -72,5 +72,6 @@ __all__ = [
     "trim",
     "turned",
     "velocity",
+    "with_then",
     "write_csv",
 ]

@@ -84,3 +84,14 @@ def following(text, name):
             raise RecordError(f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are separated by ;")
         found.append((record, value))
     return found
+
+
+def with_then(arguments):
+    """Arguments of a command line with '--record A then B then C' written as '--record A --then B;C'."""
+    found, records, words = [], [], iter(arguments)
+    for word in words:
+        if word == "then" and found:
+            records.append(next(words, ""))
+        else:
+            found.append(word)
+    return [*found, "--then", ";".join(records)] if records else found

@@ -26,6 +26,8 @@ SHOWN_JOINTS = 12
 SUMMARY, JOINTS, COLUMNS = "summary.json", "joints.csv", "columns.csv"
 STATES = {"whole": colors.BLUE, "partly": colors.AMBER, "broken": colors.ORANGE, "before": colors.GREY}
 """Colours of joints by their state at the end."""
+IMPACTS_CUT = 2.0
+"""Largest shear in a diagram over the sustained one: beyond lie impacts of a few ms, and the fall of a house. [-]"""
 VISIBLE_UPLIFT = 1e-4
 """Smaller uplifts have no number in the plan. [m]"""
 
@@ -95,25 +97,30 @@ def style(axis, title, x="", y=""):
 
 
 def draw_loop(axis, results, storey, direction):
-    """Storey shear against storey drift, without impacts beyond twice the sustained shear; a collapsing storey is cut at a drift of 1/5."""
+    """Storey shear against storey drift, without impacts; a collapsing storey is cut at a drift of 1/5."""
     table, history = results.storeys, results.history
     drift = 100 * np.interp(table.time, history.time, history.drift(storey, direction))
     shear = np.where(np.abs(drift) < 20, table.column(f"shear_{direction}{storey}") / 1e3, np.nan)
     axis.plot(drift, shear, lw=0.5, color=colors.DIRECTIONS[direction])
-    reach = 2 * results.summary["quantities"]["storeys"][f"storey{storey}"]["shear"]["sustained"][direction] / 1e3
-    if reach > 0:
-        axis.set_ylim(-reach, reach)
+    cut_impacts(axis, results.summary["quantities"]["storeys"][f"storey{storey}"]["shear"]["sustained"][direction])
     style(axis, f"storey {storey}, {direction_name(direction)}", "drift [%]", "shear [kN]")
 
 
+def cut_impacts(axis, sustained):
+    """Limit the shears [kN] of a diagram. sustained [N]"""
+    if sustained > 0:
+        axis.set_ylim(-IMPACTS_CUT * sustained / 1e3, IMPACTS_CUT * sustained / 1e3)
+
+
 def draw_shears(axis, results):
-    """Base shear over time."""
+    """Base shear over time, without impacts."""
     table = results.storeys
     for direction in DIRECTIONS:
         axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction], label=direction_name(direction))
     peaks = results.summary["quantities"]["base_shear"]["sustained"]
     weight = weight_of(results.summary["quantities"]["mass_kg"])
     text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
+    cut_impacts(axis, max(peaks.values()))
     style(axis, f"base shear: {text} sustained; weight {weight:.0f} kN", "time [s]", "[kN]")
     axis.legend(fontsize=7, frameon=False, loc="lower left", ncols=2)
 
@@ -172,6 +179,8 @@ def draw_modes(axis, results):
             sign = 1 if shape[-1] >= 0 else -1
             axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width, color=colors.DIRECTIONS[direction])
             lines.append(f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode['mass_share'][direction]:.0f} % of the mass")
+    if results.summary["collapsed"]:
+        lines.append("after: none, the house has collapsed")
     axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right", fontsize=7)
     axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
     levels = len(results.summary["quantities"]["storeys"])

@@ -19,10 +19,10 @@ from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.lines import lines, main_mode, period_text
 from ..recording.sentences import counted, direction_name, joints_and_sheets, sentence
-from . import quantities, report_pictures
+from . import REPORT, quantities, report_pictures
 from .panels import panels
 
-PAGE, PDF = "report.html", "report.pdf"
+PAGE, PDF = REPORT
 JOINTS_SHOWN = 8
 """Rows of the table of joints."""
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

@@ -11,7 +11,7 @@ from ..base.errors import RunError
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
-from ..motion import GroundMotion, add_motion_options, motion_request
+from ..motion import GroundMotion, add_motion_options, motion_request, with_then
 from ..scene.scenario import Scenario
 from .identity import of_arrays
 
@@ -35,6 +35,7 @@ class Output:
     resume: bool = False
     or_anew: bool = False  # with resume: start anew when the checkpoint cannot be used
     views: bool = True  # pictures and player, made from the frames
+    report: bool = False
     frames: bool = True
     export: Path = None
     quiet: bool = False
@@ -64,6 +65,7 @@ def parser(script):
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S",
                       help="simulated time between checkpoints [s], 0: none (default %(default)g)")
     made.add_argument("--no-views", action="store_true", help="make no pictures (scripts/show/show_run.py makes them later from the recorded frames)")
+    made.add_argument("--report", action="store_true", help="write a report of one page, too: report.html, and report.pdf where Chromium is installed")
     made.add_argument("--no-frames", action="store_true", help="record no frames and make no pictures")
     made.add_argument("--export", metavar="FILE",
                       help="write the scene at the start of the run as JSON for other solvers (with --duration 0: nothing else)")
@@ -113,7 +115,7 @@ def town_parser():
 
 OUTPUT_OPTIONS = {
     **dict.fromkeys(("--out", "--checkpoint", "--export", "--ensemble", "--jobs"), 1),
-    **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--quiet"), 0),
+    **dict.fromkeys(("--resume", "--or-anew", "--no-views", "--no-frames", "--report", "--quiet"), 0),
 }
 """Options that do not decide the results, with the number of their values."""
 
@@ -135,8 +137,8 @@ def decisive(arguments):
 def read(house, earthquake, snow, argv):
     """Command line (as sys.argv) of a run script -> (Scenario, Output). Raises RunError, RecordError."""
     script = Path(argv[0]).stem
-    given = parser(script).parse_args(_joined(argv[1:]))
-    return _run(given, argv[1:], Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
+    given, arguments = _parsed(parser(script), argv)
+    return _run(given, arguments, Request(script, house, earthquake, SNOW_DEPTH if snow else 0.0, "use a script of a run with an earthquake"))
 
 
 def read_house(argv, motion=None):
@@ -144,10 +146,10 @@ def read_house(argv, motion=None):
 
     motion: GroundMotion that takes the place of a record
     """
-    given = house_parser().parse_args(_joined(argv[1:]))
+    given, arguments = _parsed(house_parser(), argv)
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
     shaken = motion is not None or given.quake or given.record is not None or given.seed is not None
-    return _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
+    return _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
 
 
 @dataclass(frozen=True)
@@ -160,13 +162,13 @@ class TownPlan:
 
 def read_town(argv):
     """Command line (as sys.argv) of scripts/town.py -> (TownPlan, Output). Raises RunError, RecordError, HouseError."""
-    given = town_parser().parse_args(_joined(argv[1:]))
-    for option in ("export", "ensemble", "disturb"):
-        if getattr(given, option) is not None:
+    given, arguments = _parsed(town_parser(), argv)
+    for option in ("export", "ensemble", "disturb", "report"):
+        if getattr(given, option):
             raise RunError(f"--{option}: not for towns; run a house with scripts/house.py")
     town = load_town(given.file)
     shaken = given.quake or given.record is not None or given.seed is not None
-    scenario, output = _run(given, argv[1:], Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
+    scenario, output = _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
     delays = town.delays()
     if given.duration is None and scenario.motion:
         scenario.duration += max(delays)
@@ -198,6 +200,8 @@ def _run(given, arguments, request):
     """(Scenario, Output). given: parsed options; arguments: of the command line; request: Request."""
     _check_numbers(given)
     _check_ensemble(given)
+    if given.report and given.no_frames:
+        raise RunError("--report and --no-frames exclude each other: a report shows recorded frames")
     shaking = motion_request(given)
     motion = _motion(shaking, request, given.dt)
     duration = given.duration if given.duration is not None else motion.duration if motion else QUIET_DURATION
@@ -211,6 +215,7 @@ def _run(given, arguments, request):
         resume=given.resume,
         or_anew=given.or_anew,
         views=not (given.no_views or given.no_frames),
+        report=given.report,
         frames=not given.no_frames,
         export=_path("--export", given.export),
         quiet=given.quiet,
@@ -226,6 +231,12 @@ def _path(option, value):
     if value is not None and not value.strip():
         raise RunError(f"{option} '': a path must not be empty")
     return None if value is None else Path(value)
+
+
+def _parsed(made, argv):
+    """(parsed options, arguments of the command line) of sys.argv."""
+    arguments = with_then(argv[1:])
+    return made.parse_args(_joined(arguments)), arguments
 
 
 def _joined(arguments):

@@ -9,7 +9,7 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
-from ..pictures import all_pictures
+from ..pictures import REPORT, all_pictures
 from ..recording import ensemble, frames
 from ..recording.sentences import sentence
 from ..scene.engines import find_engine
@@ -214,8 +214,7 @@ class Run:
         tables = quantities.tables(self.observer)
         found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": made_from(self.output.options)}
         written = self._results(found, tables)
-        if self.output.views:
-            written += self._pictures()
+        written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
@@ -232,16 +231,26 @@ class Run:
 
     def _pictures(self):
         try:
-            return all_pictures.write(self.output.folder)
+            return draw(self.output.folder, self.output.views, self.output.report)
         except OSError as problem:
             fault = f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them"
             raise RunError(f"{self.output.folder}: {fault}") from None
 
 
+def draw(folder, views, page):
+    """Write pictures and player (views) and the report (page) of a run in its folder; returns their paths. Raises RunError, OSError."""
+    written = all_pictures.write(folder) if views else []
+    if page:
+        from ..pictures import report  # here: matplotlib takes 0.3 s
+
+        written += report.write(folder)
+    return written
+
+
 def clear(folder, *more):
     """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises RunError."""
     try:
-        for name in (*summary.NAMES, *all_pictures.NAMES, *ensemble.NAMES, *more):
+        for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
             (folder / name).unlink(missing_ok=True)
         remove_parts(folder)
     except OSError as problem:

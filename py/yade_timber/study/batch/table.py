@@ -42,6 +42,9 @@ COLUMNS = {**OWN, **MOTION}
 
 DESCRIPTION = "description"
 
+MIXED = "the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the values here by blanks alone"
+"""Remedy for a table with blanks in the first line and commas in others."""
+
 
 class BatchError(RunError):
     """A table that cannot be run; the message is one line: table, line, column, admissible values."""
@@ -143,6 +146,8 @@ def read_table(path):
     for number, cells in body:
         if len(cells) != len(heads):
             raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; {_remedy(path, number)}")
+        if any(cell.endswith(",") for cell in cells):
+            raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in zip(heads, cells)}
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
@@ -177,7 +182,7 @@ def _remedy(path, number):
     if "," in first:
         return 'the first line has commas, which separate the values here, too: write decimal points (1.5) and put a value with commas in quotes ("a,b")'
     if "," in line and len(line.split(",")) == len(first.split()):
-        return "the first line has no commas, so blanks separate the columns: separate the names in it by commas, or the values here by blanks"
+        return MIXED
     return "blanks separate the columns: values contain none, * stands for a default"
 
 

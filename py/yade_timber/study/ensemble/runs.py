@@ -38,11 +38,15 @@ def complete(script, output):
 
 def _write(output, planned, done, errors):
     """Write results and pictures; returns the text for the terminal. Raises RunError."""
+    from ...pictures import report as report_page  # here: matplotlib takes 0.3 s
+
     try:
         content = results.content(done, errors)
         written = results.write(output.folder, content, done, planned)
         if output.views:
             written += all_pictures.write(output.folder)
+        if output.report:
+            written += report_page.write(output.folder)
     except OSError as problem:
         raise RunError(f"{output.folder}: the results cannot be written ({problem.strerror}); repeat the command") from None
     shown = done[content["shown"]]

@@ -10,6 +10,8 @@ USUAL_KINDS = ("brace", "fitting", "snow")
 """Without walls, which are as many as braces."""
 SHEATHING = "plywood"
 """Type of the walls that are added."""
+GROUPS = ("bay", "wall")
+"""What a brace or wall measure fills: one free bay, or all free bays of a line of columns in a storey."""
 
 
 @dataclass(frozen=True)
@@ -29,15 +31,16 @@ class Candidate:
 AS_IT_IS = Candidate("as_it_is", "house as it is")
 
 
-def candidates(house, snow, kinds=USUAL_KINDS, texts=("",)):
-    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]. Raises HouseError."""
+def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
+    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]; group: of GROUPS. Raises HouseError."""
     description = load_house(house)
     model = build_house(description, check=False)
+    measures = in_bays if group == "bay" else in_walls
     found = []
     if "brace" in kinds:
-        found += [Candidate(name, bay_text(model, name), (("braces", name),)) for name in free_bays(description)]
+        found += measures(model, free_bays(description))
     if "wall" in kinds:
-        found += [Candidate(name, bay_text(model, name), (("braces", name),)) for name in free_wall_bays(description, SHEATHING)]
+        found += measures(model, free_wall_bays(description, SHEATHING))
     if "fitting" in kinds:
         found += fittings(description, model)
     if "snow" in kinds and snow > 0:
@@ -56,16 +59,43 @@ def fittings(description, model):
     ]
 
 
+def in_bays(model, names):
+    """A measure for each brace or wall. names: in the order of free_bays"""
+    return [Candidate(name, bay_text(model, name), (("braces", name),)) for name in names]
+
+
+def in_walls(model, names):
+    """A measure for each line of columns in a storey, 'main.brace1.EW.y0': braces or walls in all its free bays at once."""
+    lines = {}
+    for name in names:
+        lines.setdefault(bay_line(name), []).append(name)
+    return [Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),)) for line, bays in lines.items()]
+
+
+def bay_line(name):
+    """'main.brace1.EW.y0' of 'main.brace1.EW.y0.3-4': the name without its bay, whose nodes may be fractions."""
+    start, end = bay_parts(name)[4:]
+    return name.removesuffix(f".{SHEATHING}").removesuffix(f".{start:g}-{end:g}")
+
+
 def bay_text(model, name):
     """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall; 'plywood wall: ...'."""
+    xs, ys = bay_ends(model, name)
+    along = bay_parts(name)[2]
+    return f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m {'east' if along == 'x' else 'north'}"
+
+
+def line_text(model, name, bays=1):
+    """'brace: main, storey 1, south wall' of a brace or wall by name; 'braces in 4 bays: ...' of several in one line."""
     structure, storey, along, *_ = bay_parts(name)
     measure = f"{SHEATHING} wall" if wall_parts(name) else "brace"
+    number = f"s in {bays} bays" if bays > 1 else ""
     xs, ys = bay_ends(model, name)
-    at, centre = (ys[0], sum(xs) / 2) if along == "x" else (xs[0], sum(ys) / 2)
+    at = ys[0] if along == "x" else xs[0]
     lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
     low, high = ("south", "north") if along == "x" else ("west", "east")
     side = low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
-    return f"{measure}: {structure}, storey {storey}, {side} wall, {centre:.1f} m {'east' if along == 'x' else 'north'}"
+    return f"{measure}{number}: {structure}, storey {storey}, {side} wall"
 
 
 def bay_ends(model, name):
