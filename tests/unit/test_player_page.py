@@ -187,6 +187,8 @@ def test_two_runs_in_step(driver, pages):
         ask(driver, f"player.seek({time})")
         for k, run in enumerate(pages[2]):
             assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    whole = "[...document.querySelectorAll('.origin')].every((e) => e.textContent && e.scrollWidth <= e.clientWidth)"
+    assert ask(driver, whole)
     assert [place.text.startswith("recorded up to 3.0 s: ") for place in driver.find_elements("class name", "now")] == [False, True]
     ask(driver, "player.seek(1)")
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
@@ -196,6 +198,7 @@ def test_two_runs_in_step(driver, pages):
     resize(driver, *PHONE, phone=True)
     wait(lambda: ask(driver, "innerWidth") == PHONE[0])
     check_fits(driver)
+    assert ask(driver, whole)
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
     assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
     assert second["y"] < ask(driver, "document.getElementById('transport').getBoundingClientRect().top")
