@@ -60,7 +60,11 @@ export function connect(player) {
   translated(() => (part.language.textContent = current() === "ja" ? "English" : "日本語"));
   connectFilm(player, part.film);
   document.addEventListener("pointerdown", ({ target }) => part.more.contains(target) || part.more.removeAttribute("open"));
-  find("help-button").addEventListener("click", () => part.help.showModal());
+  const showHelp = () => {
+    part.help.showModal();
+    part.help.scrollTop = 0; // the focus is on the button at its end
+  };
+  find("help-button").addEventListener("click", showHelp);
   addTicks(find("ticks"), events, player);
 
   const keys = {
@@ -86,7 +90,7 @@ export function connect(player) {
     "-": () => view.turn(0, 0, 1.15),
     "[": () => speed(-1),
     "]": () => speed(1),
-    "?": () => part.help.showModal(),
+    "?": showHelp,
     "Shift+ArrowLeft": () => view.turn(-TURN, 0),
     "Shift+ArrowRight": () => view.turn(TURN, 0),
     "Shift+ArrowUp": () => view.turn(0, TURN),
@@ -155,7 +159,7 @@ function addTicks(place, events, player) {
   }
 }
 
-/** Show the last event for a while beside its mark. */
+/** Show the last event for a while below its mark, within the time line. */
 function announce(place, events, { time: now, end }) {
   const event = events.findLast(({ time }) => time <= now + 1e-6 && now - time < ANNOUNCED);
   const text = event ? event.text : "";
@@ -163,6 +167,5 @@ function announce(place, events, { time: now, end }) {
   place.textContent = text;
   if (!event) return;
   const share = (100 * event.time) / end;
-  const [before, after] = share > 50 ? ["auto", `${100 - share}%`] : [`${share}%`, "auto"];
-  Object.assign(place.style, { left: before, right: after, maxWidth: `${Math.max(share, 100 - share)}%` });
+  Object.assign(place.style, { left: `${share}%`, transform: `translateX(${-share}%)` });
 }

@@ -9,7 +9,7 @@ const JAPANESE = {
   "From the east: south is left, north is right": "東から：左が南、右が北", "From the north: east is left, west is right": "北から：左が東、右が西",
   "Ground acceleration, m/s²": "地動加速度 m/s²", "Storey drift": "層間変形角", "N–S": "南北", "E–W": "東西", "up–down": "上下",
   "force in a joint: none … strength": "接合部の力：なし … 強さ", "joint partly broken": "一部が破断", "joint broken (pale: hidden)": "破断（淡色：陰）", "joint or wall broken (pale: hidden)": "破断（淡色：陰）", "broken before the start": "最初から破断",
-  snow: "雪", roof: "屋根", brace: "筋かい", floor: "床", beam: "梁", column: "柱", sill: "土台", foundation: "基礎",
+  snow: "雪", roof: "屋根", brace: "筋かい", floor: "床", beam: "梁", column: "柱", sill: "土台", foundation: "基礎", ground: "地面",
   "Click a member or a joint for its load.": "部材か接合部を押すと力が見えます。",
   "Drag to turn the house. Pinch or use the wheel to zoom. Drag with two fingers or the right button to move it. Click a curve, a mark on the time line or an event to go to its time. Click a member or a joint for its load.":
     "ドラッグで回転、ピンチかホイールで拡大、二本指か右ボタンで移動。曲線・時間軸の印・できごとを押すとその時刻へ。部材か接合部を押すと力が見えます。",
@@ -24,7 +24,7 @@ const JAPANESE = {
   "storey 1": "1 階", "storey 2": "2 階", "storey 3": "3 階", entrance: "玄関", "north side": "北側", "south side": "南側", "east side": "東側", "west side": "西側", inside: "内部",
   "north and east sides": "北東の角", "north and west sides": "北西の角", "south and east sides": "南東の角", "south and west sides": "南西の角",
   tension: "引張", compression: "圧縮", shear: "せん断",
-  "column-beam joint": "柱と梁の接合部", "brace-beam joint": "筋かいと梁の接合部", "brace-column joint": "筋かいと柱の接合部", "floor-beam joint": "床と梁の接合部", "roof-beam joint": "屋根と梁の接合部", "roof-roof joint": "屋根どうしの接合部",
+  "column-beam joint": "柱と梁の接合部", "brace-beam joint": "筋かいと梁の接合部", "brace-column joint": "筋かいと柱の接合部", "floor-beam joint": "床と梁の接合部", "roof-beam joint": "屋根と梁の接合部", "roof-roof joint": "屋根どうしの接合部", "beam-beam joint": "梁どうしの接合部",
   "wall-beam joint": "壁（梁の間）", "wall-column joint": "壁（柱の間）",
   "No 3D picture: this browser has no WebGL 2. Curves and events work.": "WebGL 2 がないため 3D 表示はできません。曲線とできごとは使えます。",
 };

@@ -29,6 +29,12 @@ def press(driver, *keys):
     ActionChains(driver).send_keys(*keys).perform()
 
 
+def click(driver, place):
+    """A click at {x, y} of the page."""
+    for kind in ("mousePressed", "mouseReleased"):
+        driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "clickCount": 1, **place})
+
+
 def pixels(driver, *points):
     """RGB where points are drawn; a point: (name of an element, number of the run, point in its body frame)."""
     places = [ask(driver, f"player.screen('{name}', {run}, {list(point)})") for name, run, point in points]

@@ -4,6 +4,7 @@
 import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import frames_sample
@@ -172,13 +173,20 @@ def test_a_letter_without_a_font_gives_one_notice(capsys, monkeypatch):
 
 @pytest.mark.skipif(not fonts.east_asian(), reason=f"no Japanese font is installed (package {fonts.PACKAGE})")
 def test_japanese_names_are_drawn(tmp_path):
-    """Ink where a missing letter would leave an empty box; the PDF embeds TrueType outlines."""
-    from yade_timber.pictures import figures
+    """Ink where a missing letter would leave an empty box, of which matplotlib warns; the PDF embeds TrueType outlines."""
+    from yade_timber.pictures import figures, report
 
-    figure = figures.new_figure(4, 2, 100)
-    figures.heading(figure, "木造住宅", "耐震")
+    def sheet():
+        figure = figures.new_figure(4, 2, 100)
+        figures.heading(figure, "木造住宅", "耐震")
+        return figure
+
+    figure = sheet()
     assert figures.drawable("木造住宅") == "木造住宅"
     written = figures.save(figure, tmp_path / "x", ("png", "pdf"))
     content = written[1].read_bytes()
     assert b"/Subtype /Type3" not in content and b"/FontFile2" in content
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        report.picture(sheet())
     assert "IPA" in fonts.best_file("木造 A") or fonts.best_file("木造 A") != fonts.best_file("A")

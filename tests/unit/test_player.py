@@ -14,7 +14,7 @@ import frames_sample
 import numpy as np
 import pytest
 from yade_timber.base.errors import RunError
-from yade_timber.pictures import key_times, player
+from yade_timber.pictures import japanese, key_times, player
 from yade_timber.pictures.packing import pack
 from yade_timber.recording import frames
 
@@ -146,6 +146,19 @@ def test_events_are_in_order():
     ]
     assert all(any(part in text for text in texts) for part in expected), texts
     assert key_times.onset(frames_sample.motion()) == pytest.approx(1.01)
+
+
+def structure(**facts):
+    """An entry of `structures` of a summary, undamaged but for these facts."""
+    return {"peak_drift": 1e-3, "residual_drift": 0.0, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False, **facts}
+
+
+def test_the_japanese_result_judges_all_structures():
+    """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged porch."""
+    found = frames_sample.summary("A") | {"collapsed": False, "peak_drift": {"storey1": {"ns": 0.05, "ew": 0.01}}, "structures": {
+        "main": structure(peak_drift=0.05), "entrance": structure(collapsed=True), "shed": structure(peak_drift=0.01), "porch": structure()}}
+    found["events"].append({"time_s": 2.6, "kind": "structure_fallen", "what": "entrance has fallen: a level is down by half a storey", "number": 1})
+    assert japanese.result(found) == "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。接合部 8 か所のうち 7 か所が破断。"
 
 
 def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from browser import errors, wait
-from player_page import PHONE, ask, load, press
+from player_page import PHONE, ask, click, load, press
 from yade_timber.pictures import player
 
 pytest_plugins = ["player_fixtures"]
@@ -135,12 +135,6 @@ def test_a_scroll_that_begins_on_a_curve_keeps_the_time(driver, pages):
     touch(driver, (x, y), (x - 30, y), (x - 60, y), (x - 90, y))
     wait(lambda: ask(driver, "player.time") < 2.5)
     driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
-
-
-def click(driver, place):
-    """A click at {x, y} of the page."""
-    for kind in ("mousePressed", "mouseReleased"):
-        driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "clickCount": 1, **place})
 
 
 def test_a_click_names_a_member_and_a_joint(still, pages):

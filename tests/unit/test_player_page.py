@@ -5,7 +5,7 @@ import frames_sample
 import numpy as np
 import pytest
 from browser import errors, picture, resize, wait
-from player_page import LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, between, load, pixels, press, roof_is_drawn
+from player_page import LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, between, click, load, pixels, press, roof_is_drawn
 from yade_timber.pictures import key_times, player
 from yade_timber.recording import frames
 
@@ -117,6 +117,50 @@ def test_the_state_is_in_sight_on_a_lying_phone(still):
     resize(still, *WIDE)
 
 
+def box(driver, selector):
+    return ask(driver, f"document.querySelector('{selector}').getBoundingClientRect().toJSON()")
+
+
+def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(driver, pages):
+    load(driver, pages[0] + "#t=2.9", LYING_PHONE, motion=False, phone=True)
+    ask(driver, "scrollTo(0, 0)")
+    place = ask(driver, "player.screen('roof')")
+    click(driver, place)
+    controls, card = box(driver, "#transport"), wait(lambda: (found := box(driver, ".card"))["height"] and found)
+    assert card["top"] >= box(driver, ".stage")["top"] and card["bottom"] <= controls["top"]
+    line, event = box(driver, "#ticks"), box(driver, "#event")
+    assert ask(driver, "document.getElementById('event').textContent") != ""
+    assert line["left"] - 1 <= event["left"] and event["right"] <= line["right"] + 1
+    ask(driver, "void document.querySelector('#more summary').click()")
+    menu = box(driver, ".menu")
+    assert 0 <= menu["top"] and menu["bottom"] <= controls["bottom"] and ask(driver, "(m => m.scrollHeight <= m.clientHeight + 1)(document.querySelector('.menu'))")
+    press(driver, "?")
+    assert ask(driver, "document.getElementById('help').open && document.getElementById('help').scrollTop") == 0
+    assert errors(driver) == []
+
+
+def test_labels_of_the_drift_limits_are_in_order(driver, pages):
+    """From the top down 1/10, 1/30, 1/120, apart by the height of a letter; recorded while the curves are drawn again."""
+    load(driver, pages[0] + "#t=1", motion=False)
+    ask(driver, """(() => {
+        window.labels = {};
+        const draw = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) { labels[text] = y; draw.call(this, text, x, y); };
+    })()""")
+    resize(driver, 1280, 800)
+    high, middle, low = wait(lambda: ask(driver, "'1/120' in labels && [labels['1/10'], labels['1/30'], labels['1/120']]"))
+    assert high > 0 and middle - high >= 9 and low - middle >= 9
+    resize(driver, *WIDE)
+
+
+def test_full_screen(driver, pages):
+    load(driver, pages[0] + "#t=1", motion=False)
+    for shown in (True, False):
+        press(driver, "f")
+        wait(lambda: ask(driver, "!!document.fullscreenElement") == shown)
+    assert errors(driver) == []
+
+
 def test_it_plays_by_itself_unless_the_user_wants_no_motion(driver, pages):
     load(driver, pages[0], PHONE, motion=False)
     assert not ask(driver, "player.playing")
@@ -143,6 +187,8 @@ def test_two_runs_in_step(driver, pages):
         ask(driver, f"player.seek({time})")
         for k, run in enumerate(pages[2]):
             assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    whole = "[...document.querySelectorAll('.origin')].every((e) => e.textContent && e.scrollWidth <= e.clientWidth)"
+    assert ask(driver, whole)
     assert [place.text.startswith("recorded up to 3.0 s: ") for place in driver.find_elements("class name", "now")] == [False, True]
     ask(driver, "player.seek(1)")
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
@@ -152,6 +198,7 @@ def test_two_runs_in_step(driver, pages):
     resize(driver, *PHONE, phone=True)
     wait(lambda: ask(driver, "innerWidth") == PHONE[0])
     check_fits(driver)
+    assert ask(driver, whole)
     first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
     assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
     assert second["y"] < ask(driver, "document.getElementById('transport').getBoundingClientRect().top")

@@ -2,7 +2,8 @@
 """Texts of the player in Japanese: title, result and events of a run. Numbers and names are the same as in English. Needs no YADE."""
 import re
 
-from ..recording.sentences import SMALL, joints_and_sheets, largest_drift, ratio
+from ..recording import verdict
+from ..recording.sentences import SMALL, fall_time, joints_and_sheets, largest_drift, main_structure, ratio
 
 DIRECTIONS = {"ns": "南北", "ew": "東西"}
 SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
@@ -21,10 +22,10 @@ def title(found):
 
 
 def result(found):
-    """Outcome of a summary: place in an ensemble, collapse or peak drift, residual drift, joints, columns."""
+    """Outcome of a summary: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns."""
     (broken, joints), (torn, sheets) = joints_and_sheets(found)
     columns, walls = found.get("columns", {}), f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
-    parts = [outcome(found), f"接合部 {joints} か所のうち {broken} か所{walls}が破断"]
+    parts = [outcome(found), *structures(found), f"接合部 {joints} か所のうち {broken} か所{walls}が破断"]
     if columns.get("fallen"):
         parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
     return ensemble(found) + "。".join(parts) + "。"
@@ -51,7 +52,18 @@ def outcome(found):
     left = largest_drift(found, "residual_drift")[0]
     residual = f"、残留変形角 {ratio(left, '')}{'未満' if left < SMALL else ''}" if drift >= 1 / 120 else ""
     peak = f"{ratio(drift, '')}（{DIRECTIONS.get(direction, direction)}、{storey[len('storey'):]} 階）" if drift >= SMALL else "1/1000 未満"
-    return f"倒壊せず。最大層間変形角 {peak}{residual}"
+    return f"{OUTCOMES[verdict.judge(main_structure(found))]}。最大層間変形角 {peak}{residual}"
+
+
+def structures(found):
+    """Verdicts on the structures other than the main one, unless they are undamaged."""
+    for name, facts in list(found.get("structures", {}).items())[1:]:
+        state, time = verdict.judge(facts), fall_time(name, found)
+        place = STRUCTURES.get(name, name)
+        if state == verdict.COLLAPSED:
+            yield f"{place}は" + ("倒壊" if time is None else f" {time:.1f} 秒に倒壊")
+        elif state != verdict.UNDAMAGED:
+            yield f"{place}は{OUTCOMES[state]}（最大層間変形角 {ratio(facts['peak_drift'])}）"
 
 
 def event(kind, text):

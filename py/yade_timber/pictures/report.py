@@ -19,7 +19,7 @@ from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.lines import lines, main_mode, period_text
 from ..recording.sentences import counted, direction_name, joints_and_sheets, sentence
-from . import REPORT, quantities, report_pictures
+from . import REPORT, fonts, quantities, report_pictures
 from .panels import panels
 
 PAGE, PDF = REPORT
@@ -91,6 +91,7 @@ def text(value):
 def picture(figure, part=None, name="", about=""):
     """An <img> with a figure, or with a part of it (Bbox [inch])."""
     data = io.BytesIO()
+    fonts.apply(figure)
     figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
     return f'<img class="{name}" alt="{text(about)}" src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">'
 

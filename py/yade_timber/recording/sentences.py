@@ -100,10 +100,15 @@ def structure(name, facts, found):
     """Verdict on a structure other than the main one: 'entrance collapsed at 21.3 s'; empty if it is undamaged."""
     state = verdict.judge(facts)
     if state == verdict.COLLAPSED:
-        time = next((event["time_s"] for event in found.get("events", []) if event["kind"] == "structure_fallen" and event["what"].startswith(name)), None)
+        time = fall_time(name, found)
         return f"{name} {state}" + ("" if time is None else f" at {time:.1f} s")
     lean = " and leans" if verdict.leans(facts) else ""
     return "" if state == verdict.UNDAMAGED else f"{name} {state}{lean} (peak drift {ratio(facts['peak_drift'])})"
+
+
+def fall_time(name, found):
+    """Time at which a structure other than the main one fell; None if it is not recorded. [s]"""
+    return next((event["time_s"] for event in found.get("events", []) if event["kind"] == "structure_fallen" and event["what"].startswith(name)), None)
 
 
 def joints(found):
