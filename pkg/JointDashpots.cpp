@@ -21,8 +21,10 @@ void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody
 	found.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine || engine->dead) return;
+	const bool isDue = scene.iter % timber::modeSteps == 0;
 	for (const shared_ptr<TimberJoint>& joint : engine->joints) {
-		if ((joint->dampingRatio == 0 && !alsoStiff) || joint->isBroken() || joint->id1 == joint->id2) continue;
+		const bool mayBeStiff = alsoStiff && (isDue || !joint->modes.areResolved(scene.dt, joint->stiffness()));
+		if ((joint->dampingRatio == 0 && !mayBeStiff) || joint->isBroken() || joint->id1 == joint->id2) continue;
 		if (!bodyAt(scene, joint->id1) || !bodyAt(scene, joint->id2)) continue;
 		const timber::SolverBody &a = bodies[joint->id1], &b = bodies[joint->id2];
 		if (timber::pairInverseMass(a, b) == 0) continue;

@@ -76,6 +76,23 @@ namespace {
 		return (tt + uu) / Number(2.) + sqrt(Number(half * half + tu * tu));
 	}
 
+	/// Rows of `count` points from those of a group.
+	template <class Number> void storeRows(const Number (*rows)[12], SweepPoint* to, size_t count)
+	{
+		for (int r = 0; r < 3; ++r)
+			for (int part = 0; part < 3; ++part) {
+				const Number* x = rows[r] + 4 * part;
+				if constexpr (std::is_same_v<Number, Lanes> && laneCount == 4) {
+					Number four[4] = { x[0], x[1], x[2], x[3] };
+					transpose(four);
+					for (size_t i = 0; i < count; ++i)
+						to[i].rows[r].part[part] = four[i].v;
+				} else
+					for (size_t i = 0; i < count; ++i)
+						to[i].rows[r].part[part] = PairVector::Quad { lane(x[0], i), lane(x[1], i), lane(x[2], i), lane(x[3], i) };
+			}
+	}
+
 } // namespace
 
 template <class Number>
@@ -114,32 +131,30 @@ PreparedPoint<Number>::PreparedPoint(
 	friction = p.friction;
 }
 
-template <class Number> SweepPoint PreparedPoint<Number>::point(size_t i) const
+template <class Number> void PreparedPoint<Number>::store(SweepPoint* to, size_t count) const
 {
-	SweepPoint to;
-	for (int r = 0; r < 3; ++r) {
-		double row[12];
-		for (int c = 0; c < 12; ++c)
-			row[c] = lane(rows[r][c], i);
-		to.rows[r] = PairVector::of(row, row + 6);
-		to.velocity[r] = lane(velocity[r], i);
-		to.impulse[r] = lane(impulse[r], i);
+	storeRows<Number>(rows, to, count);
+	for (size_t i = 0; i < count; ++i) {
+		SweepPoint& p = to[i];
+		for (int r = 0; r < 3; ++r) {
+			p.velocity[r] = lane(velocity[r], i);
+			p.impulse[r] = lane(impulse[r], i);
+		}
+		for (int t = 0; t < 2; ++t) {
+			p.shearBias[t] = lane(shearBias[t], i);
+			p.coupling[t] = lane(coupling[t], i);
+		}
+		p.normalFactor = lane(normalFactor, i);
+		p.normalBias = lane(normalBias, i);
+		p.normalMass = lane(normalMass, i);
+		p.shearFactor = lane(shearFactor, i);
+		p.shearMass = lane(shearMass, i);
+		p.friction = lane(friction, i);
+		p.rebound = noRebound;
+		p.release = lane(constraint.release, i);
+		p.response = lane(constraint.response, i);
+		p.energy = lane(constraint.energy, i);
 	}
-	for (int t = 0; t < 2; ++t) {
-		to.shearBias[t] = lane(shearBias[t], i);
-		to.coupling[t] = lane(coupling[t], i);
-	}
-	to.normalFactor = lane(normalFactor, i);
-	to.normalBias = lane(normalBias, i);
-	to.normalMass = lane(normalMass, i);
-	to.shearFactor = lane(shearFactor, i);
-	to.shearMass = lane(shearMass, i);
-	to.friction = lane(friction, i);
-	to.rebound = noRebound;
-	to.release = lane(constraint.release, i);
-	to.response = lane(constraint.response, i);
-	to.energy = lane(constraint.energy, i);
-	return to;
 }
 
 template struct PreparedPoint<double>;

@@ -63,8 +63,8 @@ template <class Number> struct PreparedPoint {
 	/// For a step of h [s]. rootA, rootB: of the bodies.
 	PreparedPoint(
 	        const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, const InverseRootMass& rootA, const InverseRootMass& rootB, double h);
-	/// The i-th point of the group.
-	SweepPoint point(size_t i) const;
+	/// Writes the first `count` points of the group.
+	void store(SweepPoint* to, size_t count) const;
 };
 
 /// Impulse of explicit springs and dashpots (Eqs. 17, 18, 21-24). As in the paper, the elastic force alone decides whether a point

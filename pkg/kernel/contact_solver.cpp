@@ -95,8 +95,7 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 	ConstraintGroup& group = groups[pair.first + first / laneCount];
 	if constexpr (std::is_same_v<Number, Lanes>) group = prepared.constraint;
 	else forMembers(group, prepared.constraint, [&](auto& all, const auto& one) { setLane(all, first % laneCount, one); });
-	for (size_t i = 0; i < (std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1); ++i)
-		pointsOf(pair)[first + i] = prepared.point(i);
+	prepared.store(pointsOf(pair) + first, std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1);
 }
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<double>&, double);
 template void ContactSolver::prepare(size_t, size_t, const std::vector<SolverBody>&, const ContactInput<Lanes>&, double);

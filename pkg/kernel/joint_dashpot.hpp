@@ -68,8 +68,13 @@ struct JointModes {
 	JointStiffness stiffness { 0, 0 }; ///< of each
 	double pairInverseMass = 0; ///< [1/kg]
 
-	/// Whether explicit springs would not resolve a step of h [s].
-	bool isStiff(double h) const { return h * frequencies.maxCoeff() > stiffPhase; }
+	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
+	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
+	/// Whether these modes are those of springs k (or of more of them), and a step of h [s] resolves them.
+	bool areResolved(double h, const JointStiffness& k) const
+	{
+		return springs > 0 && !isStiff(h) && stiffness.normal == k.normal && stiffness.shear == k.shear;
+	}
 	bool holdFor(const SpringGroup& group, double inverseMass) const
 	{
 		return springs == group.count() && stiffness.normal == group.stiffness.normal && stiffness.shear == group.stiffness.shear
