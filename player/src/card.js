@@ -19,11 +19,12 @@ export class Card {
     this.title = element("b");
     this.name = element("small");
     this.now = element("p");
+    this.most = element("p", { className: "most" });
     this.broke = element("p", { className: "broke" });
     this.canvas = element("canvas", { role: "img" });
     const close = element("button", { type: "button", className: "close", textContent: "×" });
     close.addEventListener("click", () => this.choose(null));
-    this.box = element("aside", { className: "card", hidden: true }, close, this.title, this.name, this.canvas, this.now, this.broke);
+    this.box = element("aside", { className: "card", hidden: true }, close, this.title, this.name, this.canvas, this.now, this.most, this.broke);
     this.ring = element("i", { className: "ring", hidden: true });
     place.append(this.ring, this.box);
     translated(() => {
@@ -89,12 +90,25 @@ export class Card {
       this.title.textContent = tr(kind) + (storey ? `, ${storeyName(storey)}` : "");
       this.name.textContent = name;
     }
+    this.most.textContent = this.largest(own);
     this.breaks = info.breaks.filter((entry) => own.includes(entry.joint)).sort((p, q) => p.time - q.time);
     const first = own.filter((j) => this.run.damaged[j]).length;
     const lines = this.breaks.slice(0, 3).map((entry) => this.sentence(entry, own.length > 1));
     if (this.breaks.length > 3) lines.push(`+ ${this.breaks.length - 3}`);
     if (first) lines.unshift(`${tr("broken before the start")}${own.length > 1 ? `: ${first}` : ""}`);
     this.broke.textContent = lines.join("\n") || (own.length ? tr("not broken") : tr("no joints"));
+  }
+
+  /** 'largest pull 3.1 kN, shear 0.6 kN', and the uplift at the foot of a column; empty where the run has no such data. */
+  largest(own) {
+    const { elements, joint_list: joints, feet } = this.run.info;
+    const known = own.map((j) => joints[j]).filter((joint) => joint.pull !== undefined);
+    const force = (key) => `${(Math.max(...known.map((joint) => joint[key])) / 1000).toFixed(1)} kN`;
+    const lines = known.length ? [`${own.length > 1 ? tr("its joints: ") : ""}${tr("largest pull")} ${force("pull")}${tr(", ")}${tr("shear")} ${force("shear")}`] : [];
+    const column = this.chosen.element ?? (feet.includes(own[0]) ? this.run.a[own[0]] : undefined);
+    const uplift = elements[column]?.uplift;
+    if (uplift !== undefined) lines.push(`${tr("largest uplift of the column's foot")} ${(1000 * uplift).toFixed(uplift < 0.01 ? 1 : 0)} mm`);
+    return lines.join("\n");
   }
 
   /** '21.77 s: tension, 3.1 kN (4 of 4 springs)' */

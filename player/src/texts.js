@@ -23,6 +23,7 @@ const JAPANESE = {
   "no joints": "接合部なし", "of its strength": "（強さに対する比）", "not broken": "破断していない",
   "storey 1": "1 階", "storey 2": "2 階", "storey 3": "3 階", entrance: "玄関", "north side": "北側", "south side": "南側", "east side": "東側", "west side": "西側", inside: "内部",
   "north and east sides": "北東の角", "north and west sides": "北西の角", "south and east sides": "南東の角", "south and west sides": "南西の角",
+  "its joints: ": "接合部：", ", ": "、", "largest pull": "最大引張", "largest uplift of the column's foot": "柱脚の最大浮き上がり",
   tension: "引張", compression: "圧縮", shear: "せん断",
   "column-beam joint": "柱と梁の接合部", "brace-beam joint": "筋かいと梁の接合部", "brace-column joint": "筋かいと柱の接合部", "floor-beam joint": "床と梁の接合部", "roof-beam joint": "屋根と梁の接合部", "roof-roof joint": "屋根どうしの接合部", "beam-beam joint": "梁どうしの接合部",
   "wall-beam joint": "壁（梁の間）", "wall-column joint": "壁（柱の間）",

@@ -97,6 +97,15 @@ def write(path, **options):
     return made
 
 
+def write_tables(folder):
+    """Write joints.csv and columns.csv beside the frames: joint k is pulled by 1.25 k kN; the south-west column falls."""
+    joints = [f"joint{k},{1250 * k},{800 - 100 * k},{'before' if k == 0 else 'broken'}" for k in range(8)]
+    columns = [f"column.{side},{uplift},{state}" for side, uplift, state in
+               (("SW", 2.5, "fallen"), ("SE", 0.0029, "standing"), ("NW", 0.0, "standing"), ("NE", 0.0314, "standing"))]
+    (folder / "joints.csv").write_text("\n".join(["joint,pull [N],shear [N],state", *joints]) + "\n")
+    (folder / "columns.csv").write_text("\n".join(["column,uplift [m],state", *columns]) + "\n")
+
+
 def walled_run():
     """The same with three wall sheets instead of the first six joints; joint k loses all its springs at FALL + 0.1 k [s]."""
     made = run()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """The player obeys keys, mouse and touch; its controls have names, and it uses no network."""
+import frames_sample
 import numpy as np
 import pytest
 from browser import errors, wait
@@ -153,3 +154,30 @@ def test_a_click_names_a_member_and_a_joint(still, pages):
     still.find_element("css selector", ".card .close").click()
     assert ask(still, "document.querySelector('.card').hidden")
     assert errors(still) == []
+
+
+def card_of(driver, place):
+    """Lines about the largest values in the card that a click at a place opens; the card is closed before."""
+    ask(driver, "void document.querySelector('.card .close').click()")
+    click(driver, place)
+    wait(lambda: not ask(driver, "document.querySelector('.card').hidden"))
+    return ask(driver, "document.querySelector('.card .most').textContent").split("\n")
+
+
+def test_the_card_shows_largest_forces_and_uplift(driver, tmp_path):
+    """Of a joint at a foot and at a head, of a column, in both languages; of a roof no uplift; nothing for a run without these tables."""
+    frames_sample.write_tables(tmp_path)
+    for file in ("other.h5", "frames.h5"):
+        page = player.make([(tmp_path / file, frames_sample.run())], tmp_path / "page.html")
+        load(driver, f"file://{page}#t=1", motion=False)
+        ask(driver, "document.getElementById('camera-front').click()")
+        foot, head, column, roof = (ask(driver, f"player.{place}") for place in ("joint(1)", "joint(7)", "screen('column.NE')", "screen('roof')"))
+        if file == "other.h5":
+            assert [card_of(driver, place) for place in (foot, head, column, roof)] == [[""]] * 4
+    assert card_of(driver, foot) == ["largest pull 1.3 kN, shear 0.7 kN", "largest uplift of the column's foot 2.9 mm"]
+    assert card_of(driver, head) == ["largest pull 8.8 kN, shear 0.1 kN"]
+    assert card_of(driver, column) == ["its joints: largest pull 8.8 kN, shear 0.5 kN", "largest uplift of the column's foot 31 mm"]
+    assert card_of(driver, roof) == ["its joints: largest pull 8.8 kN, shear 0.4 kN"]
+    ask(driver, "player.speak('ja')")
+    assert card_of(driver, foot) == ["最大引張 1.3 kN、せん断 0.7 kN", "柱脚の最大浮き上がり 2.9 mm"]
+    assert errors(driver) == []

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from yade_timber.base.errors import RunError
 from yade_timber.pictures import quantities, report
+from yade_timber.recording import peaks
 from yade_timber.recording.lines import MOST, lines, main_mode
 from yade_timber.recording.quantities import SUSTAINED, Storeys, ground_velocity, storeys
 from yade_timber.recording.frames import Motion
@@ -44,6 +45,15 @@ def test_files_and_summary(folder):
     for axis in ("ns", "ew"):
         assert known["base_shear"]["peak"][axis] == pytest.approx(found.storeys.peak(f"base_shear_{axis}"), abs=1e-3)
     assert known["storeys"]["storey1"]["mass_above_kg"] > known["storeys"]["storey2"]["mass_above_kg"] > 1000
+
+
+def test_peaks_are_those_of_the_summary(folder):
+    known, found = json.loads((folder / "summary.json").read_text())["quantities"], peaks.read(folder)
+    for k, key in enumerate(("largest_pull", "largest_shear")):
+        assert found.forces[known[key]["joint"]][k] == pytest.approx(known[key]["force"])
+        assert known[key]["force"] == pytest.approx(max(force[k] for force in found.forces.values())) and known[key]["force"] > 0
+    highest = known["largest_uplift"]
+    assert found.uplift[highest["column"]] == pytest.approx(highest["uplift_m"], abs=1e-6)
 
 
 def test_shear_is_a_spring_force(folder):

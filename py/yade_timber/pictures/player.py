@@ -18,7 +18,7 @@ import numpy as np
 from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..recording import frames
+from ..recording import frames, peaks
 from ..recording.sentences import DRIFT_LINES, joint_place, sentence
 from ..recording.walls import wall_sheets
 from . import japanese
@@ -38,7 +38,7 @@ LONGEST_TEXT = 400
 
 
 def make(runs, path):
-    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages.
+    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages, and the tables beside it give peaks.
 
     Raises RunError when a run cannot be shown, OSError when the page cannot be written.
     """
@@ -77,16 +77,21 @@ def packed(source, run):
     if not len(run.time):
         raise RunError(f"{source}: it has no frames")
     try:
-        return pack(info(run), arrays(run))
+        return pack(info(run, peaks_of(source, run)), arrays(run))
     except ValueError as problem:
         raise RunError(f"{source}: {problem}") from None
+
+
+def peaks_of(source, run):
+    """Peaks of an ended run from the tables in its folder; empty when `source` is not the frames of such a folder."""
+    return peaks.read(Path(source).parent) if run.summary and Path(source).name == frames.NAME else peaks.Peaks()
 
 
 # --- texts ------------------------------------------------------------------------------------------------------------
 
 
-def info(run):
-    """Texts of the page, and the description of its arrays."""
+def info(run, largest):
+    """Texts of the page, and the description of its arrays. largest: Peaks of the run"""
     e, j, found = run.elements, run.joints, run.summary or {}
     origin = provenance(run)
     return {
@@ -94,11 +99,13 @@ def info(run):
         "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
         "japanese": japanese_texts(found, origin) if found and "verdicts" not in found else None,
         "origin": plain(origin),
-        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey)}
+        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey), **uplift(largest, name)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
-        "joint_list": [{"kind": plain(kind), "place": plain(joint_place(kind, storey, side))} for kind, storey, side in zip(j.kind, j.storey, j.side)],
+        "joint_list": [{"kind": plain(kind), "place": plain(joint_place(kind, storey, side)), **forces(largest, name)}
+                       for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)],
+        "feet": feet(run),
         "breaks": breaks(run),
         "kinds": kinds({plain(kind) for kind in e.kind}),
         "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
@@ -114,6 +121,23 @@ def japanese_texts(found, origin):
     """Title, result and origin of an ended run in Japanese. found: its summary"""
     texts = {"title": japanese.title(found), "result": japanese.result(found), "origin": japanese.origin(origin)}
     return {name: plain(text) for name, text in texts.items()}
+
+
+def forces(largest, joint):
+    """{'pull', 'shear'}: largest forces of a joint [N]; empty when they are not known."""
+    return {key: round(value, 1) for key, value in zip(("pull", "shear"), largest.forces.get(joint, ()))}
+
+
+def uplift(largest, element):
+    """{'uplift'}: largest uplift of a column's foot [m]; empty for other elements, and when it is not known."""
+    return {"uplift": round(largest.uplift[element], 6)} if element in largest.uplift else {}
+
+
+def feet(run):
+    """Numbers of the joints at the feet of columns: their first element is a column, whose centroid is above them at the start."""
+    e, j = run.elements, run.joints
+    below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
+    return [k for k, kind in enumerate(j.kind) if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
 
 
 def breaks(run):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One page of engineering quantities of a run, from the files in its folder: storey shears, accelerations, modes, joints, uplift, energy."""
-import csv
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from ..base.gravity import weight_of
 from ..base.input_file import require_regular
 from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
+from ..recording.peaks import COLUMNS, JOINTS, rows
 from ..recording.quantities import NAME as STOREYS
 from ..recording.quantities import Storeys
 from ..recording.lines import main_mode, period_text
@@ -23,7 +23,7 @@ from .figures import A4, drawable, heading, heading_height, new_figure, save
 DPI = 150
 SHOWN_JOINTS = 12
 """Number of joints in the diagram of utilisations."""
-SUMMARY, JOINTS, COLUMNS = "summary.json", "joints.csv", "columns.csv"
+SUMMARY = "summary.json"
 STATES = {"whole": colors.BLUE, "partly": colors.AMBER, "broken": colors.ORANGE, "before": colors.GREY}
 """Colours of joints by their state at the end."""
 IMPACTS_CUT = 2.0
@@ -53,13 +53,7 @@ def read(folder):
         raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
     if not {"quantities", "weight"} <= summary.keys():
         raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities or weight; repeat the run")
-    tables = [list(csv.DictReader(_text(folder / name).splitlines())) for name in (JOINTS, COLUMNS)]
-    return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
-
-
-def _text(path):
-    require_regular(path)
-    return path.read_text(encoding="utf-8")
+    return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), rows(folder / JOINTS), rows(folder / COLUMNS))
 
 
 def write(stem, results):

@@ -12,11 +12,11 @@ from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
+from ..recording.peaks import COLUMNS, JOINTS
 from ..scene.engines import find_engine, gravity_now
 from . import observer
 from .modal import modes_now
 
-JOINTS, COLUMNS = "joints.csv", "columns.csv"
 NAMES = (quantities.NAME, JOINTS, COLUMNS)
 """Files that `Tables.write` makes."""
 AXES = quantities.AXES

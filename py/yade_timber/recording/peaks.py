@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run. Needs no YADE."""
+import csv
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..base.errors import RunError
+from ..base.input_file import exists, require_regular
+
+JOINTS, COLUMNS = "joints.csv", "columns.csv"
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """Largest values of a run.
+
+    forces  {name of a joint: (pull, shear) [N]}, without joints that were broken before the start
+    uplift  {name of a column: uplift of its foot [m]}, of columns that stand at the end
+    """
+
+    forces: dict = field(default_factory=dict)
+    uplift: dict = field(default_factory=dict)
+
+
+def rows(path):
+    """List of {column: text} of a CSV file. Raises RunError."""
+    require_regular(path)
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+    except (OSError, ValueError, csv.Error) as problem:
+        raise RunError(f"{path}: cannot be read as a table: {problem}") from None
+
+
+def read(folder):
+    """Peaks of a run's folder; empty where a table or a column is missing, as in older runs. Raises RunError for a table with other content."""
+    forces = _values(Path(folder) / JOINTS, "joint", ("pull [N]", "shear [N]"), lambda row: row["state"] != "before")
+    uplift = _values(Path(folder) / COLUMNS, "column", ("uplift [m]",), lambda row: row["state"] == "standing")
+    return Peaks(forces, {name: value for name, (value,) in uplift.items()})
+
+
+def _values(path, noun, columns, is_shown):
+    """{name: numbers in some columns} of the rows that are shown."""
+    table = rows(path) if exists(path) else []
+    if not table or not {noun, "state", *columns} <= table[0].keys():
+        return {}
+    return {row[noun]: tuple(_number(row[column], path, number) for column in columns) for number, row in enumerate(table, 2) if is_shown(row)}
+
+
+def _number(text, path, line):
+    """Finite number of a cell. Raises RunError with file and line."""
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not math.isfinite(value):
+        raise RunError(f"{path}:{line}: not a row of finite numbers")
+    return value
