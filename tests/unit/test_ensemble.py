@@ -132,7 +132,7 @@ def test_the_run_that_is_shown(found, number):
 @pytest.fixture
 def finished(tmp_path):
     """(output, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
-    output = SimpleNamespace(folder=tmp_path, ensemble=3, jobs=None, quiet=True, views=True, frames=True, options=("--scale", "2"))  # run.cli.Output
+    output = SimpleNamespace(folder=tmp_path, ensemble=3, jobs=None, report=False, quiet=True, views=True, frames=True, options=("--scale", "2"))  # run.cli.Output
     planned = runs.tasks("modelA_quake", tmp_path, output.options, 3)
     found = [summary(drift=0.1), summary(drift=0.12), summary("collapsed", 1.3, 2.9)]
     for number, (task, one) in enumerate(zip(planned, found)):
