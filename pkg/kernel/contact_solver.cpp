@@ -34,6 +34,27 @@ namespace {
 		return ends ? endingImpulse(c, pn0, un, pn) : pn;
 	}
 
+	/// One Gauss-Seidel visit of a point: (3) to (7). velocity: change of the pair's weighted velocities. Returns the squared change of the impulse.
+	[[gnu::always_inline]] inline double solvePoint(SweepPoint& c, PairVector& velocity)
+	{
+		const double un = c.velocity[0] + c.rows[0].dot(velocity), ut = c.velocity[1] + c.rows[1].dot(velocity),
+		             uu = c.velocity[2] + c.rows[2].dot(velocity);
+		const double pn = normalImpulse(c, c.impulse[0], un), change = pn - c.impulse[0];
+		double pt = c.shearFactor * c.impulse[1] + c.shearBias[0] - c.shearMass * ut - change * c.coupling[0], // (4)
+		        pu = c.shearFactor * c.impulse[2] + c.shearBias[1] - c.shearMass * uu - change * c.coupling[1];
+		const double limit = c.friction * pn, square = pt * pt + pu * pu;
+		if (square > limit * limit) {
+			const double share = limit / std::sqrt(square);
+			pt *= share, pu *= share;
+		}
+		const double changeT = pt - c.impulse[1], changeU = pu - c.impulse[2];
+		velocity.add(c.rows[0], change);
+		velocity.add(c.rows[1], changeT);
+		velocity.add(c.rows[2], changeU);
+		c.impulse[0] = pn, c.impulse[1] = pt, c.impulse[2] = pu;
+		return change * change + changeT * changeT + changeU * changeU;
+	}
+
 	template <class Number> [[maybe_unused]] bool isValid(const ContactInput<Number>& p)
 	{
 		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
@@ -159,26 +180,6 @@ void ContactSolver::warmStart(const SolverPair& pair)
 		for (int i = 0; i < 3; ++i)
 			velocity.add(pointsOf(pair)[k].rows[i], pointsOf(pair)[k].impulse[i]);
 	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
-}
-
-/// One Gauss-Seidel visit of a point: (3) to (7). velocity: change of the pair's weighted velocities. Returns the squared change of the impulse.
-[[gnu::always_inline]] inline double solvePoint(SweepPoint& c, PairVector& velocity)
-{
-	const double un = c.velocity[0] + c.rows[0].dot(velocity), ut = c.velocity[1] + c.rows[1].dot(velocity), uu = c.velocity[2] + c.rows[2].dot(velocity);
-	const double pn = normalImpulse(c, c.impulse[0], un), change = pn - c.impulse[0];
-	double pt = c.shearFactor * c.impulse[1] + c.shearBias[0] - c.shearMass * ut - change * c.coupling[0], // (4)
-	        pu = c.shearFactor * c.impulse[2] + c.shearBias[1] - c.shearMass * uu - change * c.coupling[1];
-	const double limit = c.friction * pn, square = pt * pt + pu * pu;
-	if (square > limit * limit) {
-		const double share = limit / std::sqrt(square);
-		pt *= share, pu *= share;
-	}
-	const double changeT = pt - c.impulse[1], changeU = pu - c.impulse[2];
-	velocity.add(c.rows[0], change);
-	velocity.add(c.rows[1], changeT);
-	velocity.add(c.rows[2], changeU);
-	c.impulse[0] = pn, c.impulse[1] = pt, c.impulse[2] = pu;
-	return change * change + changeT * changeT + changeU * changeU;
 }
 
 /// One Gauss-Seidel visit of each point of a pair.
