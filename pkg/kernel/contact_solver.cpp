@@ -142,6 +142,7 @@ void ContactSolver::startBodies(const std::vector<SolverBody>& bodies)
 	++solveCount;
 	weighted.resize(bodies.size());
 	forBodies([&](int k) {
+		assert(size_t(k) < bodies.size());
 		if (weighted[k].step == solveCount) return;
 		weighted[k] = {};
 		weighted[k].root = InverseRootMass(bodies[k]);
