@@ -26,7 +26,7 @@ class TimberPair {
 		bodies[1].position = poseB.position;
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * configuration.normal;
 		bodies[1].newSpin = bodies[1].spin;
-		solver.begin(50);
+		solver.begin(bodies, 50);
 		solver.addPair(0, 1, points.size());
 		const SolverStep step { solver, bodies, h };
 		prepareContacts(step, 0, properties, points, records);

@@ -26,6 +26,8 @@ if(TIMBER_X86_64_V3)
   add_link_options(-Wl,-z,x86-64-v3)
 endif()
 
+add_compile_options(-Wno-psabi) # functions that return vectors are inlined
+
 if(TIMBER_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

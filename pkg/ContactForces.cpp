@@ -127,7 +127,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const timber::SolverStep step { solver, bodies, scene->dt };
 	const int count = int(island.size()), pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
-	solver.begin(sweeps);
+	solver.begin(bodies, sweeps);
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pairs[island[k]].id1, pairs[island[k]].id2, pairs[island[k]].points);
 	for (int k = pairCount; k < count; ++k)

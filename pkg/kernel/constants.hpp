@@ -47,12 +47,12 @@ constexpr double deepNormalCosine = 0.5;
 
 /// Skin of the candidate search, as in Verlet lists: the candidates stay valid while the pair moves by less than this. [m]
 /// Larger: fewer searches, more candidates in each step.
-constexpr double candidateSkin = 4e-3;
+constexpr double candidateSkin = 8e-3;
 
 /// Skin for pairs at rest: those whose displacement changed by less than half of it in restInterval updates. [m]
 /// Larger: more candidates in each step; smaller: more searches. A search pays off within about 20 updates, or 40 with the one that follows
 /// when the pair moves again.
-constexpr double restSkin = candidateSkin / 20;
+constexpr double restSkin = candidateSkin / 40;
 constexpr int restInterval = 100; ///< [updates]
 static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance, "the skin must cover the distance of a flush support from a corner");
 
@@ -95,7 +95,7 @@ constexpr double impactDurations = 1.5;
 /// Rounding error of the velocity of separation at the end of an impact. [-]
 constexpr double reboundRounding = 1e-9;
 
-/// Velocity change by all other forces within the duration of an impact, over the touch speed, from which on the contact counts as loaded. [-]
+/// Velocity change by all other forces within the duration of an impact, or a step if that is longer, over the touch speed, from which on the contact counts as loaded. [-]
 /// Larger: loaded contacts are treated as impacts; smaller: impacts of loaded members are left to the step's scheme. Errors of houses are
 /// the same from 0.1 to 3.
 constexpr double impactLoadShare = 1;

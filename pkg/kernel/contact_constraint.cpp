@@ -76,21 +76,17 @@ namespace {
 		return (tt + uu) / Number(2.) + sqrt(Number(half * half + tu * tu));
 	}
 
-	/// Rows of `count` points from those of a group.
-	template <class Number> void storeRows(const Number (*rows)[12], SweepPoint* to, size_t count)
+	/// Four numbers of each point of a group: quad(i) of the i-th of `count` points.
+	template <class Number, class QuadOf> [[gnu::always_inline]] inline void storeQuads(const Number* x, size_t count, QuadOf quad)
 	{
-		for (int r = 0; r < 3; ++r)
-			for (int part = 0; part < 3; ++part) {
-				const Number* x = rows[r] + 4 * part;
-				if constexpr (std::is_same_v<Number, Lanes> && laneCount == 4) {
-					Number four[4] = { x[0], x[1], x[2], x[3] };
-					transpose(four);
-					for (size_t i = 0; i < count; ++i)
-						to[i].rows[r].part[part] = four[i].v;
-				} else
-					for (size_t i = 0; i < count; ++i)
-						to[i].rows[r].part[part] = PairVector::Quad { lane(x[0], i), lane(x[1], i), lane(x[2], i), lane(x[3], i) };
-			}
+		if constexpr (std::is_same_v<Number, Lanes> && laneCount == 4) {
+			Number four[4] = { x[0], x[1], x[2], x[3] };
+			transpose(four);
+			for (size_t i = 0; i < count; ++i)
+				quad(i) = four[i].v;
+		} else
+			for (size_t i = 0; i < count; ++i)
+				quad(i) = PairVector::Quad { lane(x[0], i), lane(x[1], i), lane(x[2], i), lane(x[3], i) };
 	}
 
 } // namespace
@@ -119,41 +115,39 @@ PreparedPoint<Number>::PreparedPoint(
 	at.project(relativeVelocity<Number>(p.armA, p.armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin), velocity);
 	at.project(p.impulse, impulse);
 	at.project(p.elasticShear, elastic);
-	normalFactor = normal.factor;
-	normalMass = normal.mass;
-	normalBias = normal.scale * (Number(h) * p.elasticNormal + normal.G * before[0]);
-	shearFactor = shear.factor;
-	shearMass = shear.mass;
-	for (int i = 0; i < 2; ++i) {
-		shearBias[i] = shear.scale * (Number(h) * elastic[1 + i] + shear.G * before[1 + i]);
-		coupling[i] = shear.mass * product<Number>(rows, 0, 1 + i);
+	elastic[0] = p.elasticNormal;
+	for (int i = 0; i < 3; ++i) {
+		const ImplicitDirection<Number>& direction = i == 0 ? normal : shear;
+		factor[i] = direction.factor;
+		mass[i] = direction.mass;
+		bias[i] = direction.scale * (Number(h) * elastic[i] + direction.G * before[i]);
+		coupling[i] = i == 0 ? Number(0.) : shear.mass * product<Number>(rows, 0, i);
 	}
+	for (Quad* quad : { &velocity, &impulse, &factor, &bias, &mass, &coupling })
+		(*quad)[3] = Number(0.);
 	friction = p.friction;
 }
 
 template <class Number> void PreparedPoint<Number>::store(SweepPoint* to, size_t count) const
 {
-	storeRows<Number>(rows, to, count);
+	for (int r = 0; r < 3; ++r)
+		for (int part = 0; part < 3; ++part)
+			storeQuads(rows[r] + 4 * part, count, [&](size_t i) -> SweepPoint::Quad& { return to[i].rows[r].part[part]; });
+	const auto store = [&](const Quad& quad, SweepPoint::Quad SweepPoint::*member) {
+		storeQuads(quad, count, [&](size_t i) -> SweepPoint::Quad& { return to[i].*member; });
+	};
+	store(velocity, &SweepPoint::velocity);
+	store(impulse, &SweepPoint::impulse);
+	store(factor, &SweepPoint::factor);
+	store(bias, &SweepPoint::bias);
+	store(mass, &SweepPoint::mass);
+	store(coupling, &SweepPoint::coupling);
 	for (size_t i = 0; i < count; ++i) {
-		SweepPoint& p = to[i];
-		for (int r = 0; r < 3; ++r) {
-			p.velocity[r] = lane(velocity[r], i);
-			p.impulse[r] = lane(impulse[r], i);
-		}
-		for (int t = 0; t < 2; ++t) {
-			p.shearBias[t] = lane(shearBias[t], i);
-			p.coupling[t] = lane(coupling[t], i);
-		}
-		p.normalFactor = lane(normalFactor, i);
-		p.normalBias = lane(normalBias, i);
-		p.normalMass = lane(normalMass, i);
-		p.shearFactor = lane(shearFactor, i);
-		p.shearMass = lane(shearMass, i);
-		p.friction = lane(friction, i);
-		p.rebound = noRebound;
-		p.release = lane(constraint.release, i);
-		p.response = lane(constraint.response, i);
-		p.energy = lane(constraint.energy, i);
+		to[i].friction = lane(friction, i);
+		to[i].rebound = noRebound;
+		to[i].release = lane(constraint.release, i);
+		to[i].response = lane(constraint.response, i);
+		to[i].energy = lane(constraint.energy, i);
 	}
 }
 
@@ -173,6 +167,6 @@ template <class Number> Vec3Of<Number> explicitImpulse(const ContactInput<Number
 template Vec3 explicitImpulse(const ContactInput<double>&, const SolverBody&, const SolverBody&, double);
 template Vec3s explicitImpulse(const ContactInput<Lanes>&, const SolverBody&, const SolverBody&, double);
 
-Vec3 worldImpulse(const ContactConstraint<double>& c, const double* impulse) { return PointAxes<double>(c).combine(impulse); }
+Vec3s worldImpulse(const ContactConstraint<Lanes>& c, const Lanes* impulse) { return PointAxes<Lanes>(c).combine(impulse); }
 
 } // namespace timber

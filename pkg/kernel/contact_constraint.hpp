@@ -42,23 +42,25 @@ template <class ConstraintX, class ConstraintY, class Work> void forMembers(Cons
 	work(x.rebound, y.rebound);
 }
 
-/// A point in the sweeps. Components: normal, tangent, second tangent. Symbols: glossary above.
+/// A point in the sweeps. Symbols: glossary of contact_solver.hpp.
 struct SweepPoint {
+	using Quad = PairVector::Quad; ///< normal, tangent, second tangent, 0
 	PairVector rows[3]; ///< of G
-	double velocity[3]; ///< u0 [m/s]
-	double impulse[3]; ///< p
-	double normalFactor, normalBias, normalMass; ///< f_n, b_n, M_n
-	double shearFactor, shearMass; ///< f_s, M_s
-	double shearBias[2], coupling[2]; ///< b_s, c
+	Quad velocity; ///< u0 [m/s]
+	Quad impulse; ///< p
+	Quad factor, bias, mass; ///< f, b, M
+	Quad coupling; ///< 0 for the normal, c
 	double friction; ///< mu
 	double rebound, release, response, energy; ///< w, r, a_n, U
 };
 
 /// A point with its constraint, or a group of points.
 template <class Number> struct PreparedPoint {
+	using Quad = Number[4]; ///< as in SweepPoint
 	ContactConstraint<Number> constraint;
 	Number rows[3][12];
-	Number velocity[3], impulse[3], normalFactor, normalBias, normalMass, shearFactor, shearMass, shearBias[2], coupling[2], friction;
+	Quad velocity, impulse, factor, bias, mass, coupling;
+	Number friction;
 
 	/// For a step of h [s]. rootA, rootB: of the bodies.
 	PreparedPoint(
@@ -72,7 +74,7 @@ template <class Number> struct PreparedPoint {
 template <class Number> Vec3Of<Number> explicitImpulse(const ContactInput<Number>& p, const SolverBody& a, const SolverBody& b, double h);
 
 /// p in the world frame: impulse in the axes of the constraint.
-Vec3 worldImpulse(const ContactConstraint<double>& c, const double* impulse);
+Vec3s worldImpulse(const ContactConstraint<Lanes>& c, const Lanes* impulse);
 
 /// v, shortened to the length if it is longer.
 template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)

@@ -181,10 +181,11 @@ namespace {
 	}
 
 	/// Whether the other forces on the bodies change the velocity too much for the restitution of this point alone. change: velocity of
-	/// separation after the step minus before [m/s]; own: the part of it by the point's impulse [m/s].
+	/// separation after the step minus before [m/s]; own: the part of it by the point's impulse [m/s]. In impacts shorter than a step the change
+	/// within the step counts: otherwise a load that returns the point to the contact in each step would push it through.
 	bool isLoaded(const ImpactState& impact, double change, double own, double h)
 	{
-		return (own - change) / h * impact.duration > impactLoadShare * impact.touchSpeed;
+		return (own - change) * std::max(impact.duration / h, 1.) > impactLoadShare * impact.touchSpeed;
 	}
 
 	/// The normal spring has no force any more. The rest of the overlap, which the step does not resolve, is excess.
@@ -218,8 +219,9 @@ namespace {
 		const double force = r.normalForce, ahead = forceAhead(c, force, v.after, h), byLaw = energy - ahead * v.after * h / 2;
 		r.impact.timeLeft -= h;
 		double stored = byLaw;
-		if (isLoaded(r.impact, v.after - v.before, impulse * c.response, h)) r.impact.rebound = noRebound;
-		if (v.after > std::min(c.rebound, c.release) * (1 - reboundRounding)) stored = 0, endImpact(r);
+		const bool loaded = isLoaded(r.impact, v.after - v.before, impulse * c.response, h);
+		if (loaded) r.impact.rebound = noRebound;
+		if (v.after > (loaded ? c.release : std::min(c.rebound, c.release)) * (1 - reboundRounding)) stored = 0, endImpact(r);
 		else if (r.impact.timeLeft <= 0) r.impact.cancel();
 		else stored = std::max(0., std::min(available, byLaw));
 		r.impact.stored = stored;

@@ -26,10 +26,10 @@ namespace {
 		return std::min(pn, std::max((c.release - base) / c.response, energyImpulse(c, base)));
 	}
 
-	/// Normal impulse: (3), (5), (6). un: current velocity of separation.
-	[[gnu::always_inline]] inline double normalImpulse(const SweepPoint& c, double pn0, double un)
+	/// Normal impulse: (3), (5), (6). un: current velocity of separation; unlimited: by (2).
+	[[gnu::always_inline]] inline double normalImpulse(const SweepPoint& c, double un, double unlimited)
 	{
-		const double pn = std::max(0., c.normalFactor * pn0 + c.normalBias - c.normalMass * un), after = un + c.response * (pn - pn0);
+		const double pn0 = c.impulse[0], pn = std::max(0., unlimited), after = un + c.response * (pn - pn0);
 		const bool ends = after > std::min(c.rebound, c.release) || (pn == 0 && after > 0 && c.rebound < noRebound);
 		return ends ? endingImpulse(c, pn0, un, pn) : pn;
 	}
@@ -37,22 +37,20 @@ namespace {
 	/// One Gauss-Seidel visit of a point: (3) to (7). velocity: change of the pair's weighted velocities. Returns the squared change of the impulse.
 	[[gnu::always_inline]] inline double solvePoint(SweepPoint& c, PairVector& velocity)
 	{
-		const double un = c.velocity[0] + c.rows[0].dot(velocity), ut = c.velocity[1] + c.rows[1].dot(velocity),
-		             uu = c.velocity[2] + c.rows[2].dot(velocity);
-		const double pn = normalImpulse(c, c.impulse[0], un), change = pn - c.impulse[0];
-		double pt = c.shearFactor * c.impulse[1] + c.shearBias[0] - c.shearMass * ut - change * c.coupling[0], // (4)
-		        pu = c.shearFactor * c.impulse[2] + c.shearBias[1] - c.shearMass * uu - change * c.coupling[1];
-		const double limit = c.friction * pn, square = pt * pt + pu * pu;
+		const SweepPoint::Quad u = c.velocity + velocity.dots(c.rows), unlimited = c.factor * c.impulse + c.bias - c.mass * u; // (2)
+		const double pn = normalImpulse(c, u[0], unlimited[0]);
+		SweepPoint::Quad p = unlimited - (pn - c.impulse[0]) * c.coupling; // (4)
+		p[0] = pn;
+		const double limit = c.friction * pn, square = p[1] * p[1] + p[2] * p[2];
 		if (square > limit * limit) {
 			const double share = limit / std::sqrt(square);
-			pt *= share, pu *= share;
+			p *= SweepPoint::Quad { 1, share, share, 0 };
 		}
-		const double changeT = pt - c.impulse[1], changeU = pu - c.impulse[2];
-		velocity.add(c.rows[0], change);
-		velocity.add(c.rows[1], changeT);
-		velocity.add(c.rows[2], changeU);
-		c.impulse[0] = pn, c.impulse[1] = pt, c.impulse[2] = pu;
-		return change * change + changeT * changeT + changeU * changeU;
+		const SweepPoint::Quad change = p - c.impulse, squares = change * change;
+		for (int i = 0; i < 3; ++i)
+			velocity.add(c.rows[i], change[i]);
+		c.impulse = p;
+		return squares[0] + squares[1] + squares[2];
 	}
 
 	template <class Number> [[maybe_unused]] bool isValid(const ContactInput<Number>& p)
@@ -65,12 +63,25 @@ namespace {
 
 } // namespace
 
-void ContactSolver::begin(int sweepLimit)
+void ContactSolver::begin(const std::vector<SolverBody>& bodies, int sweepLimit)
 {
 	assert(sweepLimit >= 0);
+	allBodies = &bodies;
 	maxSweeps = sweepLimit;
 	pairs.clear();
 	dashpots.clear();
+	weighted.resize(bodies.size());
+	++solveCount;
+}
+
+/// Starts a body of the island, once a step.
+void ContactSolver::startBody(int k)
+{
+	assert(k >= 0 && size_t(k) < weighted.size());
+	if (weighted[k].step == solveCount) return;
+	weighted[k] = {};
+	weighted[k].root = InverseRootMass((*allBodies)[k]);
+	weighted[k].step = solveCount;
 }
 
 size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
@@ -78,6 +89,8 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
 	const size_t first = pairs.empty() ? 0 : pairs.back().first + groupsOf(pairs.back().count), end = first + groupsOf(count);
 	pairs.push_back({ bodyA, bodyB, first, count, 0 });
+	startBody(bodyA);
+	startBody(bodyB);
 	if (groups.size() < end) { // prepare() overwrites those of the last step, except unused lanes
 		groups.resize(end);
 		points.resize(end * laneCount);
@@ -91,6 +104,8 @@ size_t ContactSolver::addDashpot(int bodyA, int bodyB)
 	dashpots.emplace_back();
 	dashpots.back().bodyA = bodyA;
 	dashpots.back().bodyB = bodyB;
+	startBody(bodyA);
+	startBody(bodyB);
 	return dashpots.size() - 1;
 }
 
@@ -112,7 +127,7 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 		input.impulse = explicitImpulse<Number>(given, a, b, h);
 		input.release = noRebound; // (5) is not applied
 	}
-	const PreparedPoint<Number> prepared(input, a, b, InverseRootMass(a), InverseRootMass(b), h);
+	const PreparedPoint<Number> prepared(input, a, b, weighted[pair.bodyA].root, weighted[pair.bodyB].root, h);
 	ConstraintGroup& group = groups[pair.first + first / laneCount];
 	if constexpr (std::is_same_v<Number, Lanes>) group = prepared.constraint;
 	else forMembers(group, prepared.constraint, [&](auto& all, const auto& one) { setLane(all, first % laneCount, one); });
@@ -137,19 +152,6 @@ template <class Work> void ContactSolver::forBodies(Work work)
 		work(joint.bodyA), work(joint.bodyB);
 }
 
-void ContactSolver::startBodies(const std::vector<SolverBody>& bodies)
-{
-	++solveCount;
-	weighted.resize(bodies.size());
-	forBodies([&](int k) {
-		assert(size_t(k) < bodies.size());
-		if (weighted[k].step == solveCount) return;
-		weighted[k] = {};
-		weighted[k].root = InverseRootMass(bodies[k]);
-		weighted[k].step = solveCount;
-	});
-}
-
 /// Fixed bodies are not written: they may belong to several islands, which other threads solve.
 void ContactSolver::finishBodies(std::vector<SolverBody>& bodies)
 {
@@ -167,9 +169,12 @@ void ContactSolver::finishBodies(std::vector<SolverBody>& bodies)
 /// Total impulses in the world frame.
 void ContactSolver::finishImpulses(const SolverPair& pair)
 {
-	for (size_t point = 0; point < pair.count; ++point) {
-		ConstraintGroup& group = groups[pair.first + point / laneCount];
-		setLane(group.impulse, point % laneCount, worldImpulse(constraintAt(pair, point), pointsOf(pair)[point].impulse));
+	for (size_t g = pair.first; g < pair.first + groupsOf(pair.count); ++g) {
+		Lanes impulse[3];
+		for (int c = 0; c < 3; ++c)
+			for (size_t i = 0; i < laneCount; ++i)
+				impulse[c].v[i] = points[g * laneCount + i].impulse[c];
+		groups[g].impulse = worldImpulse(groups[g], impulse);
 	}
 }
 
@@ -277,7 +282,7 @@ int ContactSolver::sweepToConvergence(const std::vector<SolverBody>& bodies, dou
 int ContactSolver::solve(std::vector<SolverBody>& bodies, double tolerance)
 {
 	assert(tolerance >= 0);
-	startBodies(bodies);
+	assert(allBodies == &bodies);
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
 	int sweeps = 0;

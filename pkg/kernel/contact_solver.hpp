@@ -83,8 +83,8 @@ public:
 	/// Up to laneCount points of a pair: the prepare and store phases process several at a time, the sweeps one by one. Unused lanes are undefined.
 	using ConstraintGroup = ContactConstraint<Lanes>;
 
-	/// Phase 1: starts a step. sweepLimit: upper bound of the sweeps over the points; 0: explicit springs and dashpots.
-	void begin(int sweepLimit);
+	/// Phase 1: starts a step of these bodies. sweepLimit: upper bound of the sweeps over the points; 0: explicit springs and dashpots.
+	void begin(const std::vector<SolverBody>& bodies, int sweepLimit);
 	/// Phase 1: reserves the constraints of two bodies with that many points. Returns the pair's index.
 	size_t addPair(int bodyA, int bodyB, size_t count);
 	/// Phase 2: constraints of the k-th pair for a step of h [s]: point `first`, or up to laneCount points from `first`, a multiple of
@@ -125,6 +125,7 @@ public:
 	}
 
 private:
+	const std::vector<SolverBody>* allBodies = nullptr; ///< of the step
 	int maxSweeps = 0;
 	std::vector<ConstraintGroup> groups;
 	std::vector<SweepPoint> points;
@@ -148,7 +149,7 @@ private:
 	}
 	SweepPoint* pointsOf(const SolverPair& pair) { return &points[pair.first * laneCount]; }
 	template <class Work> void forBodies(Work work);
-	void startBodies(const std::vector<SolverBody>& bodies);
+	void startBody(int k);
 	void finishBodies(std::vector<SolverBody>& bodies);
 	void finishImpulses(const SolverPair& pair);
 	void warmStart(const SolverPair& pair);

@@ -110,10 +110,15 @@ struct PairVector {
 			b[i] = part[(6 + i) / 4][(6 + i) % 4];
 		}
 	}
-	[[gnu::always_inline]] double dot(const PairVector& o) const
+	/// Four partial sums of the scalar product.
+	[[gnu::always_inline]] Quad partialDot(const PairVector& o) const { return part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2]; }
+	/// Scalar products with three vectors, and 0.
+	[[gnu::always_inline]] Quad dots(const PairVector (&rows)[3]) const
 	{
-		const Quad sum = part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2];
-		return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+		const Quad a = rows[0].partialDot(*this), b = rows[1].partialDot(*this), c = rows[2].partialDot(*this), zero = {};
+		const Quad ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+		const Quad c0 = __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
+		return __builtin_shufflevector(ab, c0, 0, 1, 4, 5) + __builtin_shufflevector(ab, c0, 2, 3, 6, 7);
 	}
 	[[gnu::always_inline]] void add(const PairVector& o, double factor)
 	{

@@ -66,7 +66,7 @@ struct Separation {
 		const PairProperties properties { mass, 0.5, 0.4, 1, ratio };
 		const std::vector<ContactPoint> points { pointOf(vertex, overlap) };
 		ContactSolver solver;
-		solver.begin(100);
+		solver.begin(bodies, 100);
 		solver.addPair(0, 1, 1);
 		const SolverStep step { solver, bodies, hh };
 		prepareContacts(step, 0, properties, points, records);

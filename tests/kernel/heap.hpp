@@ -50,7 +50,7 @@ inline int solveContacts(
 	islands.find(bodies.size(), links);
 	int maxSweeps = 0;
 	for (size_t island = 0; island < islands.count(); ++island) {
-		solver.begin(sweeps);
+		solver.begin(bodies, sweeps);
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
 			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));

@@ -28,7 +28,7 @@ class Drop {
 	PairProperties pair;
 	std::vector<SolverBody> bodies { 2 };
 	std::vector<PointRecord> records;
-	double dissipated = 0, elastic = 0, released = 0;
+	double dissipated = 0, elastic = 0, released = 0, work = 0; ///< [J]
 
 public:
 	/// steps: of h in the undamped contact; share: of a step, at the end of which the surfaces touch; push: force on the body [N].
@@ -56,7 +56,7 @@ public:
 			b.newVelocity = b.velocity, b.newSpin = b.spin;
 		if (depth > 0) bodies[1].newVelocity.z() -= h * push / mass;
 		ContactSolver solver;
-		solver.begin(sweeps);
+		solver.begin(bodies, sweeps);
 		solver.addPair(0, 1, points.size());
 		const SolverStep step { solver, bodies, h };
 		prepareContacts(step, 0, pair, points, records);
@@ -65,14 +65,16 @@ public:
 		storeForces(step, 0, pair, records, &energies);
 		dissipated += energies.dashpotNormal;
 		elastic = energies.elasticNormal + h / 2 * energies.elasticPower;
+		if (depth > 0) work -= h * push * (bodies[1].velocity.z() + bodies[1].newVelocity.z()) / 2;
 		bodies[1].velocity = bodies[1].newVelocity;
 		depth -= bodies[1].velocity.z() * h;
 	}
 	bool isOver() const { return depth <= 0 && bodies[1].velocity.z() > 0; }
 	double restitution() const { return bodies[1].velocity.z() / speed; }
 	double overlap() const { return depth; }
-	double energy() const { return kinetic(bodies[1].velocity.z()) + elastic + dissipated + released; }
+	double energy() const { return kinetic(bodies[1].velocity.z()) + elastic + dissipated + released - work; }
 	const ImpactState& impact() const { return records[0].impact; }
+	const PointSprings<double>& spring() const { return records[0]; }
 };
 
 } // namespace
@@ -138,6 +140,33 @@ TEST(Impact, LosesItsReboundByALoad)
 	for (int k = 0; k < 400; ++k)
 		drop.step();
 	EXPECT_NEAR(hertz.force(drop.overlap()) / load, 1, 1e-3);
+}
+
+/// A load under which the contact begins again and again does not push the body through the plate. Contacts of ten steps to half of one.
+TEST(Impact, DoesNotSinkUnderALoad)
+{
+	for (const Restitution& expected : restitutions)
+		for (const double steps : { 10., 5., 2., 1., 0.5 })
+			for (const double share : { 0.1, 0.5, 0.9 })
+				for (const double load : { 200., 500., 1000., 2000., 4500., 10000. }) { // [N]
+					Drop drop(expected.ratio, steps, share, load);
+					double early = 0, late = 0;
+					for (int k = 0; k < 1000; ++k) {
+						drop.step();
+						(k < 30 ? early : late) = std::max(k < 30 ? early : late, drop.overlap());
+					}
+					EXPECT_LE(late, 1.05 * early) << expected.ratio << " " << steps << " " << share << " " << load;
+				}
+}
+
+/// A load that is found in the step in which the contact reaches its velocity of separation: the contact goes on with its overlap.
+TEST(Impact, KeepsItsOverlapUnderALoad)
+{
+	Drop drop(0.1, 1, 0.9, 2000);
+	for (int k = 0; k < 6; ++k)
+		drop.step();
+	EXPECT_EQ(drop.impact().rebound, noRebound);
+	EXPECT_GT(drop.spring().overlap, 0);
 }
 
 /// Explicit dashpots, as in the paper, know no impacts.

@@ -119,7 +119,7 @@ struct Assembly {
 	{
 		ContactSolver solver;
 		std::vector<JointModes> modes(joints.size());
-		solver.begin(sweeps);
+		solver.begin(bodies, sweeps);
 		for (size_t k = 0; k < joints.size(); ++k) {
 			const Joint& j = joints[k];
 			std::vector<Vec3> anchors = j.points;
@@ -393,7 +393,7 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	const double h = 1e-3;
 	const std::vector<SolverBody> start = all.bodies;
 	ContactSolver solver;
-	solver.begin(5000);
+	solver.begin(all.bodies, 5000);
 	HeapPoint p = central(3000, 50000);
 	p.friction = 1e3; // sticks
 	p.armA = Vec3(0.05, 0.05, 2.8) - start[1].position;

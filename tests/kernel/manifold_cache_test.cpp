@@ -176,12 +176,12 @@ TEST(CandidateCache, ParallelEdgesThatTurn)
 /// Crossed laths pass through each other within one motion: the edges of the far sides come into contact, deeper than the sum of the radii.
 TEST(CandidateCache, LathsThatPassThroughEachOther)
 {
-	const auto lath = roundedBox({ 0.1, 0.0032, 0.0032 }, 1e-4);
+	const auto lath = roundedBox({ 0.2, 0.0064, 0.0064 }, 2e-4);
 	const Quat across = about(Vec3::UnitZ(), M_PI / 2);
 	const auto points = afterMove(lath, lath, { { 0, 0, move / 2 }, across }, { { 0, 0, -move / 2 }, across });
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
 	for (const auto& p : points)
-		EXPECT_NEAR(p.overlap, 0.0032 - move / 2, 1e-13); // rounding of positions
+		EXPECT_NEAR(p.overlap, 0.0064 - move / 2, 1e-13); // rounding of positions
 }
 
 /// Two ridges at a small angle in deep contact, whose edges do not cross yet. A small pitch shifts their crossing by the depth times the pitch

@@ -70,7 +70,7 @@ TEST(Preconditions, OfTheSolver)
 	EXPECT_REFUSED(solve(central(100, 10), 0));
 	EXPECT_REFUSED(solve(central(100, 10), 1e-4, -1));
 	[[maybe_unused]] ContactSolver solver;
-	EXPECT_REFUSED(solver.begin(-1));
+	EXPECT_REFUSED(solver.begin({}, -1));
 	EXPECT_REFUSED(solver.addPair(1, 1, 4));
 }
 
