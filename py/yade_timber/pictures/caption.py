@@ -71,22 +71,41 @@ class Caption:
             self.fonts[key] = ImageFont.truetype(key[1], max(SMALLEST, round(size * self.scale)))
         return self.fonts[key]
 
+    def _room(self):
+        """Width of a line. [pixel]"""
+        return self.size[0] - 2 * PAD * self.scale
+
+    def _fitting(self, size, text, bold=False):
+        """The font of the size, or a smaller one with which the text fits the width."""
+        return self._font(min(size, size * self._room() / max(self._font(size, text, bold).getlength(text), 1)), text, bold)
+
     def _write(self, pen, top, text, size, ink, bold=False):
         """Write a line, made smaller and at last cut to fit the width. top: of the line [pixel]"""
-        left = PAD * self.scale
-        room = self.size[0] - 2 * left
-        font = self._font(size, text, bold)
-        font = self._font(min(size, size * room / max(font.getlength(text), 1)), text, bold)
-        while font.getlength(text) > room and len(text) > 2:
+        font = self._fitting(size, text, bold)
+        while font.getlength(text) > self._room() and len(text) > 2:
             text = text[:-2] + "…"
-        pen.text((left, top), text, ink + (255,), font)
+        pen.text((PAD * self.scale, top), text, ink + (255,), font)
+
+    def _wrapped(self, text, size):
+        """Lines of a text that is too wide even in the smallest font, broken between words."""
+        font, lines = self._fitting(size, text), [""]
+        for word in text.split(" "):
+            longer = f"{lines[-1]} {word}".strip()
+            if lines[-1] and font.getlength(longer) > self._room():
+                lines.append(word)
+            else:
+                lines[-1] = longer
+        return lines
 
     def _head(self, title, view, origin):
         """Title, and origin of the run, at the top."""
-        sheet, pen = self._sheet((TITLE + SMALL + 1.6 * PAD) * self.scale)
+        lines = self._wrapped(f"{view[0].upper()}{view[1:]}. {origin}", SMALL)
+        step = 1.2 * max(SMALLEST, SMALL * self.scale)
+        sheet, pen = self._sheet((TITLE + SMALL + 1.6 * PAD) * self.scale + (len(lines) - 1) * step)
         gap = 0.5 * PAD * self.scale
         self._write(pen, gap, title, TITLE, INK, bold=True)
-        self._write(pen, 1.5 * gap + TITLE * self.scale, f"{view[0].upper()}{view[1:]}. {origin}", SMALL, SOFT)
+        for number, line in enumerate(lines):
+            self._write(pen, 1.5 * gap + TITLE * self.scale + number * step, line, SMALL, SOFT)
         return Overlay(sheet)
 
     def _foot(self, text):
