@@ -95,10 +95,21 @@ constexpr double impactDurations = 1.5;
 /// Rounding error of the velocity of separation at the end of an impact. [-]
 constexpr double reboundRounding = 1e-9;
 
-/// Velocity change by all other forces within the duration of an impact, or a step if that is longer, over the touch speed, from which on the contact counts as loaded. [-]
-/// Larger: loaded contacts are treated as impacts; smaller: impacts of loaded members are left to the step's scheme. Errors of houses are
-/// the same from 0.1 to 3.
+/// Velocity change by all other forces within the duration of an impact, or a step if that is longer, over the touch speed, from which on the contact counts as
+/// loaded. [-] Larger: loaded contacts are treated as impacts; smaller: impacts of loaded members are left to the step's scheme. Errors of houses are the same
+/// from 0.1 to 3.
 constexpr double impactLoadShare = 1;
+
+/// Iterations of Newton's method for the hardening of a contact in a visit of its point. [-]
+constexpr int hardeningSteps = 3;
+
+/// Closing displacement in a step, over the overlap, beyond which the hardening of a contact is taken into account. [-]
+/// Larger: contacts that close fast gain energy; smaller: more computation.
+constexpr double hardeningShare = 0.1;
+
+/// Overlap that may be due to rounding. [m] Contacts below it do not harden within a step: flush bodies would move differently with an overlap of
+/// zero and of 1e-16 m.
+constexpr double roundingOverlap = 1e-9;
 
 /// Product of the step and a joint's highest frequency above which its springs get Newmark's term. [-] Explicit springs are stable below 2,
 /// several joints of a member together below less.

@@ -126,6 +126,11 @@ PreparedPoint<Number>::PreparedPoint(
 	for (Quad* quad : { &velocity, &impulse, &factor, &bias, &mass, &coupling })
 		(*quad)[3] = Number(0.);
 	friction = p.friction;
+	hardening = p.hardening;
+	overlap = p.overlap;
+	damping = p.normalDamping;
+	closing = max(Number(0.), Number(-Number(h) * before[0]));
+	step = h;
 }
 
 template <class Number> void PreparedPoint<Number>::store(SweepPoint* to, size_t count) const
@@ -148,6 +153,11 @@ template <class Number> void PreparedPoint<Number>::store(SweepPoint* to, size_t
 		to[i].release = lane(constraint.release, i);
 		to[i].response = lane(constraint.response, i);
 		to[i].energy = lane(constraint.energy, i);
+		to[i].hardening = lane(hardening, i);
+		to[i].overlap = lane(overlap, i);
+		to[i].damping = lane(damping, i);
+		to[i].closing = lane(closing, i);
+		to[i].step = step;
 	}
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Constraint of a contact point: coefficients of equations (2) to (7) of contact_solver.hpp, whose glossary explains the symbols.
+/// Constraint of a contact point: coefficients of equations (2) to (8) of contact_solver.hpp, whose glossary explains the symbols.
 #pragma once
 #include "impact.hpp"
 #include "kinematics.hpp"
@@ -19,6 +19,8 @@ template <class Number> struct ContactInput {
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 	Number release = noRebound; ///< r: overlap over the step [m/s]
 	Number energy = 0.; ///< U [J]
+	Number hardening = 0.; ///< c; 0: linear spring [N/m^1.5]
+	Number overlap = 0.; ///< n_0; only read where the spring hardens [m]
 };
 
 /// One contact point of a pair: input and output of the sweeps.
@@ -49,9 +51,10 @@ struct SweepPoint {
 	Quad velocity; ///< u0 [m/s]
 	Quad impulse; ///< p
 	Quad factor, bias, mass; ///< f, b, M
-	Quad coupling; ///< 0 for the normal, c
+	Quad coupling; ///< 0 for the normal, c_s
 	double friction; ///< mu
 	double rebound, release, response, energy; ///< w, r, a_n, U
+	double hardening, overlap, damping, closing, step; ///< c, n_0, C_n, -h v (>= 0), h
 };
 
 /// A point with its constraint, or a group of points.
@@ -60,7 +63,8 @@ template <class Number> struct PreparedPoint {
 	ContactConstraint<Number> constraint;
 	Number rows[3][12];
 	Quad velocity, impulse, factor, bias, mass, coupling;
-	Number friction;
+	Number friction, hardening, overlap, damping, closing;
+	double step;
 
 	/// For a step of h [s]. rootA, rootB: of the bodies.
 	PreparedPoint(

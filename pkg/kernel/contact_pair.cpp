@@ -145,6 +145,10 @@ namespace {
 		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
 		p.release = (point.get(&ContactPoint::overlap) - record.get(&PointRecord::excess)) / Number(h);
 		p.energy = record.get(&PointRecord::energy);
+		p.overlap = record.get(&PointRecord::overlap);
+		const auto isHertz = p.normalStiffness * p.overlap > Number(1.25) * p.elasticNormal; // 1.5; linear: 1
+		p.hardening
+		        = select(logicalAnd(isHertz, p.overlap > Number(roundingOverlap)), Number(p.elasticNormal / (p.overlap * sqrt(p.overlap))), Number(0.));
 		return p;
 	}
 

@@ -26,7 +26,34 @@ namespace {
 		return std::min(pn, std::max((c.release - base) / c.response, energyImpulse(c, base)));
 	}
 
-	/// Normal impulse: (3), (5), (6). un: current velocity of separation; unlimited: by (2).
+	/// Normal impulse of a point whose spring hardens within the step: (7), by Newton's method. linear: p_n by (2).
+	double hardenedImpulse(const SweepPoint& c, double un, double linear)
+	{
+		const double h = c.step, a = c.response, scale = 1 - a * c.mass[0];
+		const auto stiffness = [&](double n) { return 1.5 * c.hardening * std::sqrt(n); };
+		const auto force = [&](double n) { return n * stiffness(n) / 1.5; };
+		const double F = force(c.overlap), K = stiffness(c.overlap);
+		double p = linear;
+		for (int k = 0; k < hardeningSteps; ++k) {
+			const double d = -h * (un + a * (p - c.impulse[0])) - hardeningShare * c.overlap;
+			if (d <= 0) break;
+			const double y = a * h * h * (force(c.overlap + d) - F) / d, beta = y / (4 * y + 2);
+			const double middle = c.overlap + std::max(0., d - c.closing) / 2, C = c.damping * std::sqrt(std::sqrt(middle / c.overlap));
+			const double more = beta * h * (force(c.overlap + d) - F - K * d) + (C - c.damping) * d;
+			const double slope = beta * h * (stiffness(c.overlap + d) - K) + C - c.damping + C * d / (8 * middle); // of `more` by d
+			p -= (p - linear - scale * more) / (1 + scale * slope * h * a);
+		}
+		return p;
+	}
+
+	/// Normal impulse by (2), or (7). un: current velocity of separation.
+	[[gnu::always_inline]] inline double unlimitedImpulse(const SweepPoint& c, double un, double linear)
+	{
+		const double closing = -c.step * (un + c.response * (linear - c.impulse[0]));
+		return c.hardening > 0 && closing > hardeningShare * c.overlap ? hardenedImpulse(c, un, linear) : linear;
+	}
+
+	/// Normal impulse: (3), (5), (6). un: current velocity of separation; unlimited: by (2) or (7).
 	[[gnu::always_inline]] inline double normalImpulse(const SweepPoint& c, double un, double unlimited)
 	{
 		const double pn0 = c.impulse[0], pn = std::max(0., unlimited), after = un + c.response * (pn - pn0);
@@ -34,11 +61,11 @@ namespace {
 		return ends ? endingImpulse(c, pn0, un, pn) : pn;
 	}
 
-	/// One Gauss-Seidel visit of a point: (3) to (7). velocity: change of the pair's weighted velocities. Returns the squared change of the impulse.
+	/// One Gauss-Seidel visit of a point: (3) to (8). velocity: change of the pair's weighted velocities. Returns the squared change of the impulse.
 	[[gnu::always_inline]] inline double solvePoint(SweepPoint& c, PairVector& velocity)
 	{
 		const SweepPoint::Quad u = c.velocity + velocity.dots(c.rows), unlimited = c.factor * c.impulse + c.bias - c.mass * u; // (2)
-		const double pn = normalImpulse(c, u[0], unlimited[0]);
+		const double pn = normalImpulse(c, u[0], unlimitedImpulse(c, u[0], unlimited[0]));
 		SweepPoint::Quad p = unlimited - (pn - c.impulse[0]) * c.coupling; // (4)
 		p[0] = pn;
 		const double limit = c.friction * pn, square = p[1] * p[1] + p[2] * p[2];

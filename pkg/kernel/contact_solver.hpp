@@ -17,28 +17,34 @@
 ///     D = theta h C + beta h2 K,   G = beta h2 K - (1 - theta) h C
 /// The solver applies (2) to one point after the other, with the limits of the contact:
 ///     normal      p_n = max(0, f_n p_n0 + b_n - M_n u_n)                                        (3)
-///     tangential  p_s = f_s p_s0 + b_s - M_s u_s - c (p_n - p_n0), shortened to mu p_n           (4)
+///     tangential  p_s = f_s p_s0 + b_s - M_s u_s - c_s (p_n - p_n0), shortened to mu p_n           (4)
 /// Let u' = u_n + a (p_n - p_n0) be the velocity that (3) gives, and r the one with which the overlap ends within the step. The spring then
 /// acts for a part of the step only: a point that separates, u' > r, returns at most its elastic energy U, the work p_n u' / 2,
 ///     separation  p_n <= max(p_r, p_U),   u'(p_r) = r,   p_U u'(p_U) = 2 U                      (5)
 /// A point in an impact (impact.hpp) separates with the velocity w: if u' exceeds w or r, or is > 0 without a force,
 ///     impact      p_n = max(0, p_n0 + (w - u_n) / a)                                              (6)
+/// Hertz's spring hardens: F(n) = c n^1.5, C(n) = C_n (n / n_0)^(1/4) about the overlap n_0 of the step. A point that closes by d = -h v' - 0.1 n_0 adds
+/// the difference between the force at the next placement and its linear extrapolation, and that of the dashpot for the part of d that the
+/// velocity v before the step does not explain. Otherwise a light member that is struck would move through its contact within a step:
+///     hardening   p_n = (2) + (1 - a M_n) (beta_d h (F(n_0 + d) - F(n_0) - K_n d) + (C(n_0 + (d + h v) / 2) - C_n) d)    (7)
+/// with d > 0, h v <= 0, d + h v >= 0, and beta_d of the secant stiffness (F(n_0 + d) - F(n_0)) / d.
 ///
 /// Mass-weighted velocities: W = M^1/2 V for the velocities and spins V of a pair, M^-1 = R R^T (Cholesky). A row of J gives a component of the
 /// relative velocity at a point, u = J V. With rows G = J R an impulse p changes u by G G^T p:
-///     u = u0 + G dW,   dW += G^T p                                                              (7)
+///     u = u0 + G dW,   dW += G^T p                                                              (8)
 /// with the component u0 before the sweeps and the change dW of W since then. Each point has three rows: normal and two tangents.
 ///
 /// Glossary (n: normal, s: tangential)
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse; a_s: the largest one [1/kg]
 ///     b_n, b_s   bias           impulse of the elastic force and of the velocity before the step [N s]
 ///     beta       -              Newmark's parameter [-]
-///     c          coupling       tangential impulse that opposes the slip caused by a unit normal impulse [-]
+///     c          hardening      constant of Hertz's spring [N/m^1.5]
+///     c_s        coupling       tangential impulse that opposes the slip caused by a unit normal impulse [-]
 ///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]
 ///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
 ///     f_n, f_s   impulse factor share of the current impulse that remains [-]
-///     G          -              weight of the velocity before the step [kg]; in (7): rows
+///     G          -              weight of the velocity before the step [kg]; in (8): rows
 ///     h          step           length of the step [s]
 ///     K_n, K_s   stiffness      of the springs (Eqs. 39, 40) [N/m]
 ///     M_n, M_s   mass           effective mass of bodies, spring and dashpot together [kg]
