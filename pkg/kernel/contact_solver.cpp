@@ -85,7 +85,7 @@ namespace {
 		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
 		        && isFinite(p.elasticShear) && isFinite(p.impulse) && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping)
 		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isNonNegative(p.release)
-		        && isNonNegative(p.energy);
+		        && isNonNegative(p.energy) && isNonNegative(p.hardening) && isNonNegative(p.overlap);
 	}
 
 } // namespace

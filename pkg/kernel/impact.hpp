@@ -9,8 +9,8 @@
 /// at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
 /// For impacts of few steps, down to fractions of one, the solver takes the velocity of separation from (2): contact_solver.hpp. In longer ones,
 /// which the steps resolve, only the energy is followed.
-/// Loads that change the velocity within the duration by more than the touch speed take the velocity of separation away: the contact is then a
-/// loaded one, of which only the energy is followed.
+/// Loads that change the velocity within the duration, or within a longer step, by more than the touch speed take the velocity of separation
+/// away: the contact is then a loaded one, of which only the energy is followed.
 ///
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz: 1.5) [-].
 #pragma once

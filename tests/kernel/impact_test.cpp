@@ -232,8 +232,8 @@ TEST(Impact, KeepsItsOverlapUnderALoad)
 	EXPECT_GT(drop.spring().overlap, 0);
 }
 
-/// A light body between a heavy one and a plate, down to impacts of a few steps. Without the hardening (7) the largest error at each step is two to
-/// five times as large.
+/// A light body between a heavy one and a plate, down to impacts of a few steps. Observed: 0.033, 0.018 and 0.0020, of second order. Without the
+/// hardening (7): 0.11, 0.075 and 0.0027; every bound fails.
 TEST(Impact, OfAHeavyBodyOnALightOneConverges)
 {
 	struct Bound {
