@@ -170,19 +170,10 @@ void ContactSolver::setImpact(size_t k, size_t point, double rebound)
 	pointsOf(pairs[k])[point].rebound = rebound;
 }
 
-/// work(index) for all bodies of the island; more than once for bodies of several pairs.
-template <class Work> void ContactSolver::forBodies(Work work)
-{
-	for (const SolverPair& pair : pairs)
-		work(pair.bodyA), work(pair.bodyB);
-	for (const DashpotConstraint& joint : dashpots)
-		work(joint.bodyA), work(joint.bodyB);
-}
-
 /// Fixed bodies are not written: they may belong to several islands, which other threads solve.
 void ContactSolver::finishBodies(std::vector<SolverBody>& bodies)
 {
-	forBodies([&](int k) {
+	const auto finish = [&](int k) {
 		WeightedBody& w = weighted[k];
 		if (w.step != solveCount || bodies[k].inverseMass == 0) return;
 		const BodyMotion motion = motionOf(bodies, k);
@@ -190,7 +181,11 @@ void ContactSolver::finishBodies(std::vector<SolverBody>& bodies)
 		bodies[k].newVelocity = velocity;
 		bodies[k].newSpin = spin;
 		w.step = -1; // finished
-	});
+	};
+	for (const SolverPair& pair : pairs)
+		finish(pair.bodyA), finish(pair.bodyB);
+	for (const DashpotConstraint& joint : dashpots)
+		finish(joint.bodyA), finish(joint.bodyB);
 }
 
 /// Total impulses in the world frame.

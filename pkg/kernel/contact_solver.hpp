@@ -154,7 +154,6 @@ private:
 		return one;
 	}
 	SweepPoint* pointsOf(const SolverPair& pair) { return &points[pair.first * laneCount]; }
-	template <class Work> void forBodies(Work work);
 	void startBody(int k);
 	void finishBodies(std::vector<SolverBody>& bodies);
 	void finishImpulses(const SolverPair& pair);
