@@ -16,15 +16,20 @@ add_compile_options(-Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trappin
 # What GCC makes of three neighbouring numbers by itself costs more than it gains: a fifth of the sweeps' time. pkg/kernel/simd.hpp says where vectors pay.
 add_compile_options(-fno-tree-slp-vectorize)
 
-# Four numbers at a time instead of two (pkg/kernel/simd.hpp), the same to the last bit. A module built so is refused by the loader of a machine that
-# has no such processor.
+# Processors of level x86-64-v3 (AVX2) take four numbers at a time instead of two (pkg/kernel/simd.hpp), with the same results to the last bit. A module
+# built so is refused by the loader of a machine that has no such processor.
+include(CheckCXXCompilerFlag)
 include(CheckCXXSourceRuns)
+check_cxx_compiler_flag(-march=x86-64-v3 TIMBER_KNOWS_X86_64_V3) # not on other architectures
 check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"bmi2\") ? 0 : 1; }" TIMBER_HAS_X86_64_V3)
-option(TIMBER_X86_64_V3 "Build for processors of level x86-64-v3 (AVX2)" ${TIMBER_HAS_X86_64_V3})
-if(TIMBER_X86_64_V3)
-  add_compile_options(-march=x86-64-v3 -mno-fma) # GCC 12 makes fmaddsub of neighbouring lanes whatever -ffp-contract says
-  add_link_options(-Wl,-z,x86-64-v3)
-endif()
+option(TIMBER_X86_64_V3 "Build for processors of level x86-64-v3" ${TIMBER_HAS_X86_64_V3})
+option(TIMBER_SECOND_MODULE "Build a second module, for processors of level x86-64-v3, which takes the place of the first one where it can" OFF)
+
+# Compile a target, and what links to it, for processors of level x86-64-v3.
+function(timber_use_x86_64_v3 target)
+  target_compile_options(${target} PUBLIC -march=x86-64-v3 -mno-fma) # GCC 12 makes fmaddsub of neighbouring lanes whatever -ffp-contract says
+  target_link_options(${target} PUBLIC -Wl,-z,x86-64-v3)
+endfunction()
 
 add_compile_options(-Wno-psabi) # functions that return vectors are inlined
 

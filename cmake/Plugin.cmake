@@ -5,16 +5,29 @@ string(REPLACE ";" " " build_features "${YADE_FEATURES}")
 configure_file(${PROJECT_SOURCE_DIR}/pkg/build_info.hpp.in ${PROJECT_BINARY_DIR}/generated/build_info.hpp)
 
 file(GLOB plugin_sources CONFIGURE_DEPENDS pkg/*.cpp)
-add_library(_yade_timber MODULE ${plugin_sources})
-target_include_directories(_yade_timber PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
-target_link_libraries(_yade_timber PRIVATE timber_kernel Yade::Yade)
-target_link_options(_yade_timber PRIVATE -Wl,-z,defs -Wl,--as-needed)
-target_precompile_headers(_yade_timber PRIVATE pkg/pch.hpp)
 set(package_dir ${PROJECT_BINARY_DIR}/python/yade_timber)
-set_target_properties(_yade_timber PROPERTIES
-  PREFIX "" INSTALL_RPATH ${YADE_LIB_DIR} BUILD_RPATH ${YADE_LIB_DIR} LIBRARY_OUTPUT_DIRECTORY ${package_dir})
-# YADE's macros leave unused parameters and ignored qualifiers in the including file.
-target_compile_options(_yade_timber PRIVATE -Wno-unused-parameter)
+set(TIMBER_SITE_DIR ${YADE_SITE_DIR} CACHE PATH "Python folder that the package is installed into")
+
+# A module over a kernel, in a folder of the Python package.
+function(timber_module name kernel folder)
+  add_library(${name} MODULE ${plugin_sources})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+  target_link_libraries(${name} PRIVATE ${kernel} Yade::Yade)
+  target_link_options(${name} PRIVATE -Wl,-z,defs -Wl,--as-needed)
+  target_precompile_headers(${name} PRIVATE pkg/pch.hpp)
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" OUTPUT_NAME _yade_timber INSTALL_RPATH ${YADE_LIB_DIR} BUILD_RPATH ${YADE_LIB_DIR} LIBRARY_OUTPUT_DIRECTORY ${package_dir}/${folder})
+  # YADE's macros leave unused parameters and ignored qualifiers in the including file.
+  target_compile_options(${name} PRIVATE -Wno-unused-parameter)
+  install(TARGETS ${name} LIBRARY DESTINATION ${TIMBER_SITE_DIR}/yade_timber/${folder})
+endfunction()
+
+timber_module(_yade_timber timber_kernel "")
+if(TIMBER_SECOND_MODULE AND TIMBER_KNOWS_X86_64_V3) # host.py imports it where the processor permits
+  timber_kernel_library(timber_kernel_v3)
+  timber_use_x86_64_v3(timber_kernel_v3)
+  timber_module(_yade_timber_v3 timber_kernel_v3 x86_64_v3)
+endif()
 
 # The uninstalled package: links to the sources beside the built module, so that tests see both as they are now.
 file(GLOB package_entries CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/py/yade_timber/*)
@@ -24,6 +37,4 @@ foreach(entry IN LISTS package_entries)
   file(CREATE_LINK ${entry} ${package_dir}/${name} SYMBOLIC)
 endforeach()
 
-set(TIMBER_SITE_DIR ${YADE_SITE_DIR} CACHE PATH "Python folder that the package is installed into")
-install(TARGETS _yade_timber LIBRARY DESTINATION ${TIMBER_SITE_DIR}/yade_timber)
 install(DIRECTORY py/yade_timber DESTINATION ${TIMBER_SITE_DIR} PATTERN __pycache__ EXCLUDE)

@@ -17,6 +17,9 @@ import threading
 from pathlib import Path
 
 RECORD_MARK = b"@timber-build"
+MODULE = "_yade_timber"
+FASTER = "x86_64_v3"
+"""Folder of a second module for processors with AVX2 (Debian package)."""
 REMEDY = "Rerun scripts/setup to build yade-timber for this YADE."
 
 
@@ -141,18 +144,29 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
     check_value("InteractionLoop functors", (1, 2, 0), plugin.count_contact_functors(loop), record, host)
 
 
+def import_module(package: str, directory):
+    """Import the compiled module in `directory`, or the one in FASTER if it is there and the loader finds this processor fit for it."""
+    if (Path(directory) / FASTER / f"{MODULE}.so").exists():
+        try:
+            return importlib.import_module(f".{FASTER}.{MODULE}", package)
+        except ImportError as problem:
+            if "ISA level" not in str(problem):
+                raise
+    return importlib.import_module(f".{MODULE}", package)
+
+
 def load(package: str, directory):
     """Check and load the compiled module `<package>._yade_timber` in `directory`, then register its classes.
 
     Returns (module, names of the registered classes). Raises ImportError as the module's documentation says.
     """
-    file = Path(directory) / "_yade_timber.so"
+    file = Path(directory) / f"{MODULE}.so"
     if not file.exists():
         raise ImportError(f"yade-timber's compiled module is missing ({file}). {REMEDY}")
     record, host = build_record(file), host_facts()
     check_build(record, host)
     wrapper = importlib.import_module("yade.wrapper")
-    plugin = importlib.import_module("._yade_timber", package)
+    plugin = import_module(package, directory)
     check_layout(plugin, wrapper, record, host)
     if not wrapper.Omega().running:
         check_containers(plugin, wrapper, record, host)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The import guard refuses each kind of wrong host and accepts the right one."""
+import importlib
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,44 @@ def test_module_of_another_yade_is_not_even_loaded(tmp_path, facts):
     (tmp_path / "_yade_timber.so").write_bytes(patched)
     with pytest.raises(ImportError, match="built for YADE 9+"):
         host.load("other", tmp_path)
+
+
+@pytest.fixture
+def attempts(tmp_path, monkeypatch):
+    """Names of the modules that host.import_module tries; the first one fails with the complaint `attempts.complaint`, if there is one."""
+
+    class Attempts(list):
+        complaint = None
+
+    made = Attempts()
+
+    def import_module(name, package):
+        made.append(name)
+        if made.complaint and len(made) == 1:
+            raise ImportError(made.complaint)
+        return name
+
+    monkeypatch.setattr(importlib, "import_module", import_module)
+    (tmp_path / "x86_64_v3").mkdir()
+    (tmp_path / "x86_64_v3" / "_yade_timber.so").touch()
+    return made
+
+
+def test_faster_module(tmp_path, attempts):
+    assert host.import_module("other", tmp_path) == ".x86_64_v3._yade_timber"
+    assert len(attempts) == 1
+
+
+def test_faster_module_on_another_processor(tmp_path, attempts):
+    attempts.complaint = "CPU ISA level is lower than required"
+    assert host.import_module("other", tmp_path) == "._yade_timber"
+    assert attempts == [".x86_64_v3._yade_timber", "._yade_timber"]
+
+
+def test_faster_module_that_is_damaged(tmp_path, attempts):
+    attempts.complaint = "invalid ELF header"
+    with pytest.raises(ImportError, match="ELF"):
+        host.import_module("other", tmp_path)
 
 
 def test_servers_are_closed(monkeypatch):
