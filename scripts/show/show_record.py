@@ -12,6 +12,7 @@ import sys
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
+from yade_timber.base.time_step import DEFAULT_DT
 from yade_timber.motion import (
     add_motion_options,
     arias,
@@ -53,7 +54,7 @@ def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("positional", nargs="?", metavar="RECORD", help="same as --record")
     add_motion_options(parser)
-    parser.add_argument("--dt", type=float, default=2.5e-4, help="time step of a run, for --resample [s] (default %(default)g)")
+    parser.add_argument("--dt", type=float, default=DEFAULT_DT, help="time step of a run, for --resample [s] (default %(default)g)")
     parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     options = parser.parse_args(with_then(sys.argv[1:]))

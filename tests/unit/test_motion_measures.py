@@ -51,6 +51,15 @@ def test_velocity_and_displacement_of_a_smooth_pulse():
     assert gm.pgv(motion, corner=None) == pytest.approx(100 * np.max(size * 4 * w * np.abs(s**3 * c)), rel=1e-3)
 
 
+def test_fine_motions_have_displacements():
+    """20 s at 1e-5 s, too many samples for the high-pass: as at 1e-3 s, with the same straight lines, to the error of the trapezoids there."""
+    t = np.arange(20001) * 1e-3
+    values = np.sin(2 * np.pi * t) * np.sin(np.pi * t / 20) ** 2
+    fine = one_component(np.interp(np.arange(2000001) * 1e-5, t, values), 1e-5)
+    found, expected = (gm.measures.displacement(motion).sum(axis=1) for motion in (fine, one_component(values, 1e-3)))
+    assert len(found) == 2000001 and found[::100] == pytest.approx(expected, abs=1e-4 * np.abs(expected).max())
+
+
 def test_motion_cut_within_its_shaking_does_not_drift():
     """A burst cut while it moves has a velocity at its first sample. The high-pass removes it, before that sample too.
 

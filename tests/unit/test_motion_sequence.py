@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv  # noqa: E402
+from yade_timber.motion.processing import scaled, trim, turned  # noqa: E402
 from yade_timber.motion.sequence import common_step, following, with_then  # noqa: E402
 from yade_timber.study.batch.table import read_table  # noqa: E402
 
@@ -29,6 +30,16 @@ def test_motions_follow_each_other_after_the_gap():
     assert np.array_equal(both.acceleration[800:], 0.5 * second.acceleration)
     assert [(part.source, part.start, part.duration, part.scale) for part in both.parts] == [("a.csv", 0.0, 3.0, 1.0), ("b.csv", 8.0, 2.0, 0.5)]
     assert both.parts[1].pga_gal["ns"] == pytest.approx(0.5 * second.pga_gal["ns"])
+
+
+def test_parts_of_a_processed_sequence():
+    """Scaled by two: factors and peaks double. From 2 s on: times are earlier, the first motion is shorter. Turned by 90 degrees: N-S becomes E-W."""
+    both = joined([motion(0.01, 300), motion(0.01, 200, "b", 1)], [1.0, 0.5], 5.0)
+    double, cut, side = scaled(both, 2.0).parts, trim(both, 2.0).parts, turned(both, 90.0).parts
+    assert [part.scale for part in double] == [2.0, 1.0] and double[1].pga_gal["ud"] == pytest.approx(2 * both.parts[1].pga_gal["ud"])
+    assert [(part.start, part.duration) for part in cut] == pytest.approx([(0.0, 1.0), (6.0, 2.0)])
+    assert cut[0].pga_gal == motion(0.01, 300).__class__(0.01, both.acceleration[200:300]).pga_gal and len(trim(both, 5.0).parts) == 1
+    assert [part.pga_gal["ew"] for part in side] == pytest.approx([part.pga_gal["ns"] for part in both.parts])
 
 
 def test_different_steps_keep_the_straight_lines_between_samples():
@@ -52,7 +63,7 @@ def test_steps_without_a_common_one():
         common_step([0.01, 0.00999], "a and b")
 
 
-@pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]), ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)])])
+@pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]), ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)]), ("me@host/b.csv", [("me@host/b.csv", 1.0)])])
 def test_records_with_their_factors(text, found):
     assert following(text, "--then") == found
 

@@ -94,6 +94,18 @@ def test_records_of_a_folder(tmp_path):
         motions.records(ROOT / "docs")
 
 
+def test_files_of_one_record_are_one_motion(tmp_path, monkeypatch):
+    """Azimuths other than 000 and 090, two components, components with letters, K-NET, one file of three components."""
+    names = ("RSN953_MUL009.AT2", "RSN953_MUL279.AT2", "RSN953_MUL-UP.AT2", "B-E.AT2", "B-N.AT2", "kobe_ns.csv", "kobe_ew.csv", "K1.NS", "K1.EW", "K1.UD", "whole.csv")
+    for name in names:
+        (tmp_path / name).touch()
+    monkeypatch.setattr(motions, "window", lambda *_: {})
+    found = {name: record["record"] for name, record in motions.records(tmp_path)}
+    joined = {name: ",".join(str(tmp_path / file) for file in files) for name, files in (("B", ("B-E.AT2", "B-N.AT2")), ("kobe", ("kobe_ew.csv", "kobe_ns.csv")))}
+    whole = {name: str(tmp_path / file) for name, file in (("RSN953_MUL", "RSN953_MUL"), ("K1", "K1"), ("whole", "whole.csv"))}
+    assert found == joined | whole
+
+
 # --- statistics -------------------------------------------------------------------------------------------------------
 
 

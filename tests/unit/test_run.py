@@ -365,6 +365,12 @@ def test_nothing_simulated(tmp_path):
     assert found["steps"] == 0 and found["made_from"]["options"] == ["--duration", "0", "--dt", "2e-4"]
 
 
+def test_a_motion_without_shaking(tmp_path):
+    """The quiet start of the shipped motion: no onset, and results as of any run."""
+    done = run("modelA_quake", "--end", 1, "--duration", 0.01, "--no-views", "--out", tmp_path)
+    assert done.returncode == 0 and summary(tmp_path)["record"]["onset_s"] is None, done.stderr
+
+
 def test_export_alone(tmp_path):
     """With no time to simulate nothing else is written; what lies in the folder stays, also when the file cannot be written."""
     assert run("modelA_snow", *SHORT, "--duration", 0.02, "--out", tmp_path).returncode == 0

@@ -6,12 +6,13 @@ Motions carry m/s2; results are in the customary gal, cm/s and cm.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
-from .filters import highpass_with_ends
+from .filters import PADDING, highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError
 
 CM = 0.01
@@ -22,6 +23,9 @@ VELOCITY_CORNER = 0.05
 
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
+
+MOST_SAMPLES = 2_000_000
+"""Samples of one component that are integrated, transients included: 100 s at 1e-4 s. Resampled motions may have more."""
 
 STEPS_PER_PERIOD = 20
 """Smallest number of steps per oscillator period; sampling then underestimates a peak by at most 1.2 %."""
@@ -82,13 +86,20 @@ def displacement(motion, corner=VELOCITY_CORNER):
 
 
 def _integral(motion, corner, times):
-    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a drift."""
-    values, pad = motion.acceleration, 0
+    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a drift.
+
+    Of a motion with more than MOST_SAMPLES every second, third ... sample is integrated, with straight lines between the results.
+    """
+    transients = 0.0 if corner is None else 2 * PADDING / corner / motion.dt
+    stride = math.ceil((len(motion) + transients) / MOST_SAMPLES)
+    kept, dt, pad = np.arange(0, len(motion), stride), stride * motion.dt, 0
+    values = motion.acceleration[kept]
     if corner is not None:
-        values, pad = highpass_with_ends(values, motion.dt, corner, 2)
+        values, pad = highpass_with_ends(values, dt, corner, 2)
     for _ in range(times):
-        values = scipy.integrate.cumulative_trapezoid(values, dx=motion.dt, axis=0, initial=0.0)
-    return values[pad : len(values) - pad]
+        values = scipy.integrate.cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
+    values = values[pad : len(values) - pad]
+    return values if stride == 1 else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T])
 
 
 # --- JMA instrumental intensity -----------------------------------------------------------------

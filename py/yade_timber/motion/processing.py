@@ -13,7 +13,7 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
-from .record import GAL, RecordError
+from .record import GAL, RecordError, peaks_gal
 
 PAD_SECONDS = 5.0
 """Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
@@ -60,7 +60,7 @@ def trim(motion, start=0.0, end=None):
     keep = (motion.time >= start - 1e-9) & (motion.time <= end + 1e-9)
     if np.count_nonzero(keep) < 2:
         raise RecordError(f"{motion.name}: nothing between {start:g} and {end:g} s; it lasts {motion.duration:g} s")
-    cut = _changed(motion, motion.acceleration[keep], f"cut to {start:g}-{end:g} s")
+    cut = _changed(motion, motion.acceleration[keep], f"cut to {start:g}-{end:g} s", start=float(motion.time[keep][0]))
     return replace(cut, begins=motion.begins + timedelta(seconds=motion.time[keep][0])) if motion.begins else cut
 
 
@@ -69,7 +69,7 @@ def scaled(motion, factor):
     if not np.isfinite(factor):
         raise RecordError(f"{motion.name}: scale factor {factor}; it must be finite")
     note = motion.source if factor == 1.0 else None
-    changed = _changed(motion, motion.acceleration * factor, f"scaled by {factor:.6g}")
+    changed = _changed(motion, motion.acceleration * factor, f"scaled by {factor:.6g}", factor=factor)
     return replace(changed, source=note) if note is not None else changed
 
 
@@ -117,7 +117,7 @@ def resample(motion, dt, method="bandlimited"):
     chosen = kept if method == "bandlimited" else _linear(motion, dt, len(kept))
     peak = np.abs(motion.acceleration).max()
     error = float(np.abs(chosen - exact).max() / peak) if peak > 0.0 else 0.0
-    return replace(_changed(motion, chosen, f"resampled to {dt:g} s ({method})"), dt=dt), error
+    return _changed(motion, chosen, f"resampled to {dt:g} s ({method})", dt=dt), error
 
 
 def _linear(motion, dt, count):
@@ -158,5 +158,19 @@ def shaking_window(motion, threshold=0.5):
     return float(above[0] * motion.dt), float(above[-1] * motion.dt)
 
 
-def _changed(motion, acceleration, change):
-    return replace(motion, acceleration=acceleration, source=f"{motion.source}; {change}".lstrip("; "))
+def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
+    """The motion with other samples. change: for its source; dt: their step [s]; factor: on the accelerations [-]; start: of the part that is kept [s]"""
+    dt = motion.dt if dt is None else dt
+    source = f"{motion.source}; {change}".lstrip("; ")
+    return replace(motion, dt=dt, acceleration=acceleration, source=source, parts=_changed_parts(motion.parts, acceleration, dt, factor, start))
+
+
+def _changed_parts(parts, acceleration, dt, factor, start):
+    """The motions of a sequence after a change: their times, factors and peaks, without those that are cut off."""
+    changed = []
+    for part in parts:
+        first, end = max(part.start - start, 0.0), min(part.start + part.duration - start, len(acceleration) * dt)
+        samples = acceleration[max(0, round(first / dt)) : max(0, round(end / dt))]
+        if len(samples):
+            changed.append(replace(part, start=first, duration=end - first, scale=factor * part.scale, pga_gal=peaks_gal(samples)))
+    return tuple(changed)

@@ -23,7 +23,7 @@ from .text import DOWN, UP, direction_of, read_lines
 RIGHT_ANGLE_TOLERANCE = 1.0
 """Largest deviation of two horizontal components from a right angle. [degrees] (PEER prints whole degrees)"""
 
-_SUFFIXES = (
+SUFFIXES = (
     ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
     ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
@@ -121,12 +121,12 @@ def _find_by_prefix(prefix):
         raise RecordError(f"{folder}: cannot be read ({error.strerror})") from None
     rests = {name[len(prefix.name) :]: folder / name for name in names if name.startswith(prefix.name)}
     partial = []
-    for _, pattern, _ in _SUFFIXES:
+    for _, pattern, _ in SUFFIXES:
         found = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
         if len(found) == 3:
             return found
         partial += [path.name for path in found]
-    forms = " or ".join(form for _, _, form in _SUFFIXES)
+    forms = " or ".join(form for _, _, form in SUFFIXES)
     seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
     raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")
 

@@ -123,8 +123,13 @@ class GroundMotion:
     @property
     def pga_gal(self):
         """Largest absolute acceleration of each component: {'ns', 'ew', 'ud'}. [gal]"""
-        peak = np.abs(self.acceleration).max(axis=0) / GAL
-        return {"ns": float(peak[1]), "ew": float(peak[0]), "ud": float(peak[2])}
+        return peaks_gal(self.acceleration)
+
+
+def peaks_gal(acceleration):
+    """Largest absolute values of (n, 3) accelerations east, north, up [m/s2]: {'ns', 'ew', 'ud'}. [gal]"""
+    peak = np.abs(acceleration).max(axis=0) / GAL
+    return {"ns": float(peak[1]), "ew": float(peak[0]), "ud": float(peak[2])}
 
 
 def require_possible(peak, where):

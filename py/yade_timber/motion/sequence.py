@@ -70,16 +70,22 @@ def refined(motion, factor):
     return np.column_stack([np.interp(times, np.arange(len(motion)), column) for column in motion.acceleration.T])
 
 
+def with_factor(entry):
+    """'B@0.8' -> ('B', 0.8); 'B', 'me@host/B' -> (the same, 1.0). A factor that is no number is returned as -1."""
+    record, sign, factor = entry.strip().rpartition("@")
+    if not sign or "/" in factor:
+        return entry.strip(), 1.0
+    try:
+        return record, float(factor)
+    except ValueError:
+        return record, -1.0
+
+
 def following(text, name):
     """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for messages."""
     found = []
     for entry in text.split(";"):
-        record, sign, factor = entry.strip().rpartition("@")
-        record, factor = (record, factor) if sign else (factor, "1")
-        try:
-            value = float(factor)
-        except ValueError:
-            value = -1.0
+        record, value = with_factor(entry)
         if not record or not 0 < value <= 1e6:
             raise RecordError(f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are separated by ;")
         found.append((record, value))

@@ -10,7 +10,7 @@ import uuid
 
 import yade.wrapper as yw
 
-from ..base.errors import RunError
+from ..base.errors import InputError, RunError
 from ..scene import viewer
 from .runner import Run
 
@@ -71,7 +71,7 @@ class LiveRun(Run):
                 if self.steps > 0 and not self.is_loaded():
                     raise RunError(f"{self.output.folder}: another scene was loaded before the end of the run; it has no results")
                 self.write()
-            except RunError as problem:
+            except InputError as problem:
                 print(f"error: {problem}", file=sys.stderr)
 
     def __repr__(self):

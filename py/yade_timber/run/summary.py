@@ -105,13 +105,14 @@ def record(scenario):
         return None
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
+    begin = onset(motion)  # None: no shaking
     return {
         "source": motion.source or motion.name,
         "pga_gal": pga,
         "scale": scenario.scale,
         "dt": motion.dt,
         "interpolation_error": round(error, 6),
-        "onset_s": onset(motion) + scenario.delay,
+        "onset_s": None if begin is None else begin + scenario.delay,
         "sequence": [part_of_record(part, scenario.scale) for part in motion.parts] or None,
     }
 

@@ -2,16 +2,20 @@
 """Ground motions of a ranking, as columns of a batch table: synthetic ones of several seeds, or the records of a folder, scaled to a target."""
 import re
 import warnings
+from itertools import groupby
 from pathlib import Path
 
 from ...base.errors import RunError
 from ...base.time_step import DEFAULT_DT
 from ...motion import MotionRequest, RecordError, onset, significant_duration
+from ...motion.readers import SUFFIXES, find_files
 
 START, END = 14.0, 34.0
 """Part of a synthetic motion that is run: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
 LEAD, TAIL = 4.0, 10.0
 """Part of a record that is run: from LEAD before its strong shaking to TAIL after the end of its significant duration. [s]"""
+ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:e|n|z|v)\.at2", r"[-_.](?:ns|ew|ud)\.(?:csv|acc)")
+"""Endings of the names of one record's files."""
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
 
@@ -30,23 +34,31 @@ def records(folder, target=None, units=None):
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")
     files = sorted(path for path in folder.iterdir() if path.suffix.lower() in RECORD_FILES)
-    found = {}
-    for path in files:
-        name, record = _record_of(path)
-        found.setdefault(name, record)
-    if not found:
+    if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
+    found = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
     return [(name, {"record": record, **stated, **window(record, units), **_text(target)}) for name, record in found.items()]
 
 
-def _record_of(path):
-    """(name, record as the option --record takes it) to which a file belongs: a prefix of three files, or the file itself."""
-    for pattern in (r"\.(EW|NS|UD)2?", r"[-_.]?(UP|UD|000|090|EW|NS|E|N|Z)\.AT2", r"[-_.](ew|ns|ud)\.(csv|acc)"):
-        prefix = re.sub(f"{pattern}$", "", path.name, flags=re.I)
-        if prefix != path.name:
-            return prefix, str(path.with_name(prefix))
-    return path.stem, str(path)
+def _prefix(path):
+    """Path without the ending that names a component; files of one record have the same."""
+    for pattern in ENDINGS:
+        split = re.fullmatch(f"(.+?){pattern}", path.name, re.I)
+        if split:
+            return path.with_name(split[1])
+    return path
+
+
+def _record(prefix, paths):
+    """(name, record as the option --record takes it) of the files with one prefix."""
+    if len(paths) == 1:
+        return paths[0].stem, str(paths[0])
+    try:
+        known = set(find_files(prefix)) == set(paths)
+    except RecordError:
+        known = False
+    return prefix.name, str(prefix) if known else ",".join(map(str, paths))
 
 
 def window(record, units=None):
