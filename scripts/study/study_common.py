@@ -41,9 +41,9 @@ def run_all(rows, options):
     """Run the rows (dicts with the same columns) as a batch; returns the rows of runs.csv. Raises BatchError, RunError, OSError."""
     if not rows:
         raise RunError("the options select no run")
-    table = options.out / "table.txt"
+    table = options.out / "table.csv"
     rows = [{**row, "start": options.start, "end": options.end, "dt": options.dt or "*"} for row in rows]
-    write_text(table, "\n".join(" ".join(map(str, line)) for line in [list(rows[0]), *(row.values() for row in rows)]) + "\n")
+    write_text(table, csv_text(list(rows[0]), [row.values() for row in rows]))
     table_rows = read_table(table)
     run_rows(table_rows, options.out, SCRIPTS, options.jobs)
     return write_runs(table_rows, options.out)

@@ -42,6 +42,10 @@ def test_variant_of_a_house(tmp_path):
     assert strongest[1] == 1.5 * strongest[0]
 
 
+def test_a_variant_may_be_named_like_a_number(tmp_path):
+    assert yt.house("A").variant(tmp_path / "1e3.yaml").name == "1e3"
+
+
 def test_drawing(tmp_path):
     assert (tmp_path / "b.png") in yt.house("B").draw(tmp_path / "b.png")
 

@@ -110,6 +110,18 @@ def test_comma_separated_values(table):
     assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"} and first.name.startswith("calm_long-")
 
 
+def test_a_value_may_contain_a_number_sign(table):
+    """A comment begins at the start of the line or after a blank, outside quotes."""
+    rows = table('house,record,set # columns\nA,rec#1.csv,"a=b # c"  # first\n# none\n')
+    assert [row.cells for row in rows] == [{"house": "A", "record": "rec#1.csv", "set": "a=b # c"}]
+
+
+def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path / "me"))
+    first, second = table('house,record\nA,"a.NS, b/a.EW"\nA,~/a.csv')
+    assert first.record == f"{tmp_path / 'a.NS'},{tmp_path / 'b' / 'a.EW'}" and second.record == str(tmp_path / "me" / "a.csv")
+
+
 @pytest.mark.parametrize("text, remedy", [
     ("house,scale\nC,0,5", "write decimal points"),
     ("house scale\nC 1,5", "write a decimal point: 1.5"),

@@ -27,6 +27,7 @@ from yade_timber.recording import ensemble, frames  # noqa: E402
 from yade_timber.recording.history import History  # noqa: E402
 from yade_timber.recording.sentences import sentence  # noqa: E402
 from yade_timber.run.identity import made_from  # noqa: E402
+from yade_timber.study import driver  # noqa: E402
 from yade_timber.study.ensemble import comparison, results, runs, statistics  # noqa: E402
 
 
@@ -133,7 +134,7 @@ def test_the_run_that_is_shown(found, number):
 def finished(tmp_path):
     """(output, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
     output = SimpleNamespace(folder=tmp_path, ensemble=3, jobs=None, report=False, quiet=True, views=True, frames=True, options=("--scale", "2"))  # run.cli.Output
-    planned = runs.tasks("modelA_quake", tmp_path, output.options, 3)
+    planned = runs.tasks("modelA_quake", "A", tmp_path, output.options, 3)
     found = [summary(drift=0.1), summary(drift=0.12), summary("collapsed", 1.3, 2.9)]
     for number, (task, one) in enumerate(zip(planned, found)):
         one["made_from"] = made_from(task.options)
@@ -153,13 +154,31 @@ def test_tasks_are_disturbed_but_the_first(finished):
     output, planned, _ = finished
     assert [task.options for task in planned] == [("--scale", "2"), ("--scale", "2", "--disturb", "2"), ("--scale", "2", "--disturb", "3")]
     assert [task.folder.relative_to(output.folder).as_posix() for task in planned] == ["runs/001", "runs/002", "runs/003"]
-    assert runs.tasks("modelA_quake", output.folder, output.options, 5)[:3] == planned
+    assert runs.tasks("modelA_quake", "A", output.folder, output.options, 5)[:3] == planned
+
+
+def test_a_changed_house_file_outdates_its_runs(tmp_path):
+    """A house file of any name, on the command line or given by the script."""
+    path = tmp_path / "mine.txt"
+    for options, house in (((str(path),), None), ((), str(path)), ((str(path),), str(path))):
+        path.write_text("extends: A\nname: mine\n")
+        before = made_from(options, house)
+        path.write_text("extends: B\nname: mine\n")
+        assert made_from(options, house) != before
+    assert made_from((), "A") == made_from(())  # shipped houses belong to the package
+
+
+def test_reason_of_a_run_without_results(finished):
+    """A killed run is not taken for that of another process; an exit status beyond all signals is no signal."""
+    _, planned, _ = finished
+    assert "stopped" in runs._reason(planned[0]) and str(planned[0].folder) in runs._reason(planned[0])
+    assert [driver._signal(status) for status in (0, 1, -9, 139, 255)] == [None, None, "SIGKILL", "SIGSEGV", None]
 
 
 def complete(output, planned, monkeypatch):
     """`complete` in which no run is started."""
     monkeypatch.setattr(runs, "run_missing", lambda tasks, *_: {task: task.summary for task in tasks})
-    runs.complete(ROOT / "scripts" / "modelA_quake.py", output)
+    runs.complete(ROOT / "scripts" / "modelA_quake.py", "A", output)
 
 
 def test_files_of_an_ensemble(finished, monkeypatch):

@@ -3,11 +3,10 @@
 from functools import cached_property
 from pathlib import Path
 
-import yaml
-
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..house import build_house, changed_house, free_bays, load_house
+from ..house.parser import house_text
 
 
 class House:
@@ -16,7 +15,7 @@ class House:
     Parameters
     ----------
     name : str or Path
-        Name of a shipped house (``"A"``, ``"B"``, ``"C"``, ``"B1"``, ``"B2"``, ``"C1"``, ``"C2"``, ``"l_house"``, ``"storehouse"``),
+        Name of a shipped house (``"A"``, ``"B"``, ``"C"``, ``"B1"``, ``"B2"``, ``"C1"``, ``"C2"``, ``"l_house"``, ``"storehouse"``, ``"tiled_house"``),
         or path of a YAML file.
 
     Raises
@@ -136,7 +135,7 @@ class House:
         data = changed_house(self.path, settings, braces, strength, where=lambda change: f"{self.name}, {change}")
         data["name"] = Path(path).stem
         try:
-            write_text(Path(path), f"# House {self.name} with changes\n{yaml.safe_dump(data, sort_keys=False)}")
+            write_text(Path(path), f"# House {self.name} with changes\n{house_text(data)}")
         except OSError as problem:
             raise RunError(f"{path}: the house file cannot be written: {problem.strerror}") from None
         return House(path)

@@ -42,7 +42,7 @@ def _ensemble(script, scenario, output):
     try:
         with session.reserved(output.folder):
             runner.clear(output.folder, frames.NAME, checkpoint.NAME)
-            ensemble.complete(script, output)
+            ensemble.complete(script, scenario.house, output)
     except KeyboardInterrupt:
         leave("stopped; the same command continues", 128 + signal.SIGINT)
     return RunResult(output.folder)

@@ -169,3 +169,15 @@ _Parser.yaml_implicit_resolvers = {
     first: [(tag, pattern) for tag, pattern in resolvers if tag in _PLAIN_TYPES] for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }  # dates are texts
 _Parser.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))  # 1e7 is a number in YAML 1.2, a text for PyYAML
+
+
+class _Writer(yaml.SafeDumper):
+    """Quotes texts that the parser would read as numbers."""
+
+
+_Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
+
+
+def house_text(data):
+    """YAML of the content of a house file."""
+    return yaml.dump(data, Dumper=_Writer, sort_keys=False)

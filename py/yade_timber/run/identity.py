@@ -11,6 +11,7 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
+from ..base.input_file import is_file
 from ..house import HouseError
 from ..house.loader import house_files
 from ..motion import RecordError
@@ -53,11 +54,15 @@ def _slip(joint):
     return joint.law, joint.friction_share, joint.softening_stretch, joint.ultimate_stretch
 
 
-def made_from(options):
-    """Content of `made_from` in summary.json. options: arguments of the command line that decide the results (cli.decisive)."""
+def made_from(options, house=None):
+    """Content of `made_from` in summary.json.
+
+    options: arguments of the command line that decide the results (cli.decisive); house: name or file that the script gives, unless they name it
+    """
     arguments = [str(argument) for argument in options]
+    own = [] if house is None or str(house) in arguments else [str(house)]
     try:
-        files = of_files(_named_files(arguments))
+        files = of_files(_named_files([*arguments, *own]))
     except (HouseError, RecordError, OSError):
         files = None  # the run itself reports the fault
     return {"options": arguments, "files": files, "package": package()}
@@ -110,6 +115,6 @@ def _named_files(arguments):
             files += find_files(value)
         elif option == "--then" and value:
             files += [file for record, _ in following(value, option) for file in find_files(record)]
-        elif value.endswith((".yaml", ".yml")):
+        elif value and not value.startswith("-") and is_file(Path(value)):
             files += house_files(value)
     return files

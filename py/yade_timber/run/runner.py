@@ -212,7 +212,8 @@ class Run:
             return
         self.take(O.time, last=True)
         tables = quantities.tables(self.observer)
-        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": made_from(self.output.options)}
+        origin = made_from(self.output.options, self.scenario.house)
+        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": origin}
         written = self._results(found, tables)
         written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]

@@ -30,18 +30,22 @@ RUN_OPTIONS = ("--no-views", "--quiet", "--resume", "--or-anew")
 
 @dataclass(frozen=True)
 class Task:
-    """A run: script name without .py, folder of its results, options that decide them, whether frames are recorded."""
+    """A run: script name without .py, folder of its results, options that decide them, whether frames are recorded.
+
+    house: name or file that the script gives, unless the options name it
+    """
 
     script: str
     folder: Path
     options: tuple = ()
     frames: bool = True
+    house: str = None
 
     @property
     def summary(self):
         """Content of summary.json, or None if the run is not done or was made from other options, files or another package."""
         found = _read(self.folder / SUMMARY)
-        return found if found and found.get("made_from") == made_from(self.options) else None
+        return found if found and found.get("made_from") == made_from(self.options, self.house) else None
 
     @property
     def error(self):
@@ -139,9 +143,9 @@ class _Process:
         """Record how the run ended; returns one line."""
         if self.child is None:
             return "skipped: another process computes this run"
-        status = self.child.returncode
-        if status < 0 or status > 128:
-            return f"stopped by {signal.Signals(-status if status < 0 else status - 128).name}; the next start continues this run"
+        stop = _signal(self.child.returncode)
+        if stop:
+            return f"stopped by {stop}; the next start continues this run"
         error = self._error()
         write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
         if error:
@@ -158,6 +162,12 @@ class _Process:
         if self.task.summary is None:
             return f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's Python"
         return None
+
+
+def _signal(status):
+    """Name of the signal that ended a process, None for another exit status."""
+    number = -status if status < 0 else status - 128
+    return signal.Signals(number).name if number in set(signal.Signals) else None
 
 
 def command(script, threads=1):

@@ -19,6 +19,7 @@ from ...house import HouseError, load_house
 from ...house.schema import decimal_point, nearest
 from ...motion import MotionRequest, RecordError
 from ...motion.readers import find_files
+from ...motion.sequence import with_factor
 
 NO_EARTHQUAKE = "none"
 """Value of the column `record` for a run without an earthquake."""
@@ -95,7 +96,7 @@ class Row:
         return None if given is None else ";".join(self._beside(part.strip()) for part in given.split(";"))
 
     def _beside(self, record):
-        return ",".join(str(self.table.parent / part) for part in record.split(","))
+        return ",".join(str(self.table.parent / Path(part.strip()).expanduser()) for part in record.split(","))
 
     @property
     def name(self):
@@ -106,7 +107,7 @@ class Row:
 
     def _then_digests(self):
         """Of the records that follow; none without a sequence."""
-        return [] if self.then is None else [_record_digest(entry.rpartition("@")[0] or entry) for entry in self.then.split(";")]
+        return [] if self.then is None else [_record_digest(with_factor(entry)[0]) for entry in self.then.split(";")]
 
 
 _FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
@@ -172,8 +173,16 @@ def _text_lines(path):
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as problem:
         raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or 'not UTF-8 text'}") from None
-    lines = [(number, re.sub(r"\s*#.*$", "", line)) for number, line in enumerate(text.splitlines(), 1)]
+    lines = [(number, _without_comment(line)) for number, line in enumerate(text.splitlines(), 1)]
     return [(number, line) for number, line in lines if line.strip()]
+
+
+def _without_comment(line):
+    """A comment begins with a # at the start of the line or after a blank, outside double quotes."""
+    for found in re.finditer(r'"[^"]*"?|(?<!\S)#', line):
+        if found[0] == "#":
+            return line[: found.start()].rstrip()
+    return line
 
 
 def _remedy(path, number):

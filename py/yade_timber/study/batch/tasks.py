@@ -6,10 +6,9 @@ from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
-import yaml
-
 from ...base.atomic_write import write_text
 from ...house import HouseError, build_house, changed_house, load_house
+from ...house.parser import house_text
 from ...motion import MotionRequest, RecordError
 from ...base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..driver import Task, run_missing
@@ -66,7 +65,7 @@ def write_house(row, folder):
     data = changed_house(row.house, settings, braces, row.value("strength", 1.0), row.where)
     path = Path(folder) / row.name / HOUSE
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, f"# House {row.cells['house']} with the changes of {row.table.name}\n{yaml.safe_dump(data, sort_keys=False)}")
+    write_text(path, f"# House {row.cells['house']} with the changes of {row.table.name}\n{house_text(data)}")
 
 
 # --- checks -----------------------------------------------------------------------------------------------------------
@@ -102,9 +101,10 @@ def _check_houses(rows, folder):
         with _located(row):
             if any(changes(row)):
                 write_house(row, folder)
-            if (row.house, changes(row)) not in built:
-                build_house(load_house(task_of(row, folder).options[0]))
-        built.add((row.house, changes(row)))
+            variant = row.house, changes(row), row.value("snow")
+            if variant not in built:
+                build_house(load_house(task_of(row, folder).options[0]), row.value("snow"))
+        built.add(variant)
 
 
 @contextmanager
