@@ -111,7 +111,7 @@ export function connect(player) {
     const now = clock.time.toFixed(2);
     if (part.time.textContent !== now) part.time.textContent = now;
     if (document.activeElement !== part.scrub || Number(part.scrub.value) !== clock.time) part.scrub.value = clock.time;
-    part.scrub.setAttribute("aria-valuetext", `${now} seconds`);
+    part.scrub.setAttribute("aria-valuetext", `${now} ${tr("seconds")}`);
     const label = tr(clock.playing ? "Pause" : "Play");
     if (part.play.getAttribute("aria-label") !== label) part.play.setAttribute("aria-label", label);
     document.body.classList.toggle("playing", clock.playing);
@@ -135,17 +135,17 @@ function connectFilm(player, button) {
   button.addEventListener("click", () => {
     if (player.film) return stop();
     const parts = stages.map(({ panel }) => ({ canvas: panel.view, title: () => panel.title, state: () => `${player.clock.time.toFixed(2)} s   ${panel.now.textContent}` }));
-    player.film = new Film(parts, (file) => download(file, `${player.runs[0].info.title.replace(/[^\p{L}\p{N}]+/gu, "_")}.webm`));
+    player.film = new Film(parts, (file, ending) => download(file, `${player.runs[0].info.title.replace(/[^\p{L}\p{N}]+/gu, "_")}.${ending}`));
     player.play(true);
     label();
   });
   player.ended = () => player.film && stop();
 }
 
-/** Whether the focused control needs a key itself: a list its arrows, a button reached by keyboard its space. */
+/** Whether the focused control needs a key itself: a list its arrows, a button or the menu reached by keyboard its space. */
 function needed({ key, target }, tabbed) {
   if (target instanceof HTMLSelectElement) return key === " " || key.startsWith("Arrow") || key === "Home" || key === "End";
-  return key === " " && tabbed && (target instanceof HTMLButtonElement || (target instanceof HTMLInputElement && target.type === "checkbox"));
+  return key === " " && tabbed && (target instanceof HTMLButtonElement || target.matches("summary") || (target instanceof HTMLInputElement && target.type === "checkbox"));
 }
 
 /** Marks of events on the time line; a click goes to the event. */

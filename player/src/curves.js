@@ -2,7 +2,7 @@
 // Ground motion and storey drifts over time, with a cursor; a click goes to that time.
 import { element, svg } from "./dom.js";
 import { rowAt } from "./run.js";
-import { storeyName, tr, translated } from "./texts.js";
+import { either, storeyName, tr, translated } from "./texts.js";
 
 /** Okabe and Ito (2008); storeys differ by dashes, too. */
 export const COLORS = { ns: "#0072b2", ew: "#d55e00", ud: "#8a8a8a" };
@@ -28,9 +28,12 @@ export class Curves {
   }
 
   figure(chart) {
-    chart.canvas = element("canvas", { role: "img", ariaLabel: chart.description });
+    chart.canvas = element("canvas", { role: "img" });
     const caption = element("figcaption");
-    translated(() => caption.replaceChildren(...chart.caption()));
+    translated(() => {
+      caption.replaceChildren(...chart.caption());
+      chart.canvas.ariaLabel = chart.description();
+    });
     return element("figure", { className: chart.name }, caption, chart.canvas);
   }
 
@@ -83,7 +86,7 @@ function motionChart(run, most) {
   return {
     name: "motion",
     caption: () => [element("span", {}, tr("Ground acceleration, m/s²")), ...["ns", "ew", "ud"].map(direction)],
-    description: `Ground acceleration over time, up to ${most.toFixed(1)} m/s²`,
+    description: () => `${tr("Ground acceleration, m/s²")}: ≤ ${most.toFixed(1)}`,
     lines: lines.map((line) => ({ ...line, value: (i) => run.acceleration[3 * i + line.k], time: (i) => start + i * dt, count })),
     scale: (value) => value / (1.05 * most),
     marks: [round(most)].flatMap((v) => [{ value: -v, text: `−${v}` }, { value: v, text: `${v}` }]),
@@ -102,7 +105,7 @@ function driftChart(run, most) {
   return {
     name: "drift",
     caption: () => [element("span", {}, tr("Storey drift")), ...["ns", "ew"].map(direction), ...dashes()],
-    description: `Storey drifts over time. ${run.info.result}`,
+    description: () => `${tr("Storey drift")}. ${either(run.info.result, run.info.japanese?.result)}`,
     lines: columns.map(({ key, storey }, k) => ({
       key,
       dash: DASHES[(storey - 1) % DASHES.length],

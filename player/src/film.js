@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Records what is played as a film (WebM), with a caption, and offers it as a download.
+// Records what is played as a film (WebM, MP4 in browsers without it), with a caption, and offers it as a download.
 const HEIGHT = 720; // largest [pixel]
 const RATE = 30; // pictures per second
 const BITS = 8e6; // per second
-const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
 
-export const possible = () => typeof MediaRecorder !== "undefined" && "captureStream" in HTMLCanvasElement.prototype;
+/** The type of film that the browser can record; undefined: none. */
+const recordable = () => typeof MediaRecorder !== "undefined" && "captureStream" in HTMLCanvasElement.prototype ? TYPES.find((type) => MediaRecorder.isTypeSupported(type)) : undefined;
 
-/** A film in the making. parts: [{ canvas, title(), state() }] side by side; done: called with the file (Blob) after `stop`. */
+export const possible = () => recordable() !== undefined;
+
+/** A film in the making. parts: [{ canvas, title(), state() }] side by side; done: called with the file (Blob) and the ending of its name after `stop`. */
 export class Film {
   constructor(parts, done) {
     this.parts = parts;
@@ -16,10 +19,11 @@ export class Film {
     this.size = [even(width * this.scale), even(height * this.scale)];
     this.canvas = Object.assign(document.createElement("canvas"), { width: this.size[0] * parts.length, height: this.size[1] });
     this.pen = this.canvas.getContext("2d");
-    const pieces = [];
-    this.recorder = new MediaRecorder(this.canvas.captureStream(RATE), { mimeType: TYPES.find((type) => MediaRecorder.isTypeSupported(type)), videoBitsPerSecond: BITS });
+    const [pieces, mimeType] = [[], recordable()];
+    const [type] = mimeType.split(";");
+    this.recorder = new MediaRecorder(this.canvas.captureStream(RATE), { mimeType, videoBitsPerSecond: BITS });
     this.recorder.addEventListener("dataavailable", ({ data }) => pieces.push(data));
-    this.recorder.addEventListener("stop", () => done(new Blob(pieces, { type: "video/webm" })));
+    this.recorder.addEventListener("stop", () => done(new Blob(pieces, { type }), type.replace("video/", "")));
     this.recorder.start(1000);
   }
 

@@ -2,7 +2,7 @@
 // The ground: a pale plane with a grid of 1 m that fades into the sky, the house's shadow, and the four directions.
 import { CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, ShaderMaterial, ShadowMaterial, SRGBColorSpace, Vector3 } from "three";
 
-const EXTENT = 120; // [m]
+const EXTENT = 120; // under one house; a town has more [m]
 
 const VERTEX = `
 varying vec2 place;
@@ -13,6 +13,7 @@ void main() {
 
 const FRAGMENT = `
 varying vec2 place;
+uniform float scale;
 float lines(vec2 p) {
   vec2 width = fwidth(p);
   vec2 near = abs(fract(p - 0.5) - 0.5) / max(width, 1e-6);
@@ -20,7 +21,7 @@ float lines(vec2 p) {
   return max(shown.x, shown.y);
 }
 void main() {
-  float far = smoothstep(9.0, 52.0, length(place));
+  float far = smoothstep(9.0 * scale, 52.0 * scale, length(place));
   float grid = max(0.30 * lines(place), 0.5 * lines(place / 5.0));
   vec3 color = mix(vec3(0.83, 0.82, 0.77), vec3(0.45, 0.46, 0.44), grid);
   gl_FragColor = vec4(color, 1.0 - far);
@@ -32,8 +33,9 @@ export class Ground extends Group {
     super();
     const [middle, size] = [box.getCenter(new Vector3()), box.getSize(new Vector3())];
     const reach = Math.max(size.x, size.y) / 2;
-    const plane = new PlaneGeometry(EXTENT, EXTENT);
-    const soil = new Mesh(plane, new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false }));
+    const scale = Math.max(1, reach / 15);
+    const plane = new PlaneGeometry(scale * EXTENT, scale * EXTENT);
+    const soil = new Mesh(plane, new ShaderMaterial({ uniforms: { scale: { value: scale } }, vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false }));
     const shadow = new Mesh(plane, new ShadowMaterial({ opacity: 0.26, depthWrite: false }));
     shadow.receiveShadow = true;
     soil.renderOrder = -3;

@@ -14,8 +14,6 @@ export class Panel {
     this.section = copy.querySelector(".run");
     const part = (name) => this.section.querySelector(`.${name}`);
     for (const name of ["view", "stage", "curves", "camera-name", "needle", "now", "error"]) this[name] = part(name);
-    this.view.setAttribute("aria-label", `${run.info.title}: the house in 3D. Drag to turn it, or use Shift and the arrow keys.`);
-    this.section.setAttribute("aria-label", run.info.title);
     part("event-list").hidden = !run.info.events.length;
     this.events = run.info.events.map(({ time, text, japanese }) => {
       const what = element("span");
@@ -27,6 +25,8 @@ export class Panel {
     });
     translated(() => {
       part("title").textContent = part("curves-title").textContent = this.title;
+      this.section.setAttribute("aria-label", this.title);
+      this.view.setAttribute("aria-label", `${this.title}: ${tr("the house in 3D. Drag to turn it, or use Shift and the arrow keys.")}`);
       for (const name of ["result", "origin"]) part(name).textContent = either(run.info[name], run.info.japanese?.[name]);
       part("origin").title = part("origin").textContent;
     });

@@ -43,8 +43,9 @@ export class Stage {
     if (shaken) this.moving.position.fromArray(this.run.ground);
     else this.moving.position.set(0, 0, 0);
     view.shape(this.aspect);
-    this.scene.fog.near = view.distance;
-    this.scene.fog.far = view.distance + 45;
+    const depth = Math.max(0, view.size / 2 - 15); // of the part of a town behind its middle that stays clear
+    this.scene.fog.near = view.distance + depth;
+    this.scene.fog.far = view.distance + 2 * depth + 45;
     this.renderer.render(this.scene, view.camera);
   }
 
@@ -62,12 +63,13 @@ function lights(box) {
   const [middle, size] = [box.getCenter(new Vector3()), box.getSize(new Vector3())];
   const sky = new HemisphereLight(0xffffff, 0xb9ab97, 1.9);
   const sun = new DirectionalLight(0xfff4e2, 2.1);
-  sun.position.set(13, -5, 17).add(middle);
+  const half = Math.max(size.x, size.y) / 2 + 7;
+  const away = Math.max(1, half / 20); // farther from a town
+  sun.position.set(13, -5, 17).multiplyScalar(away).add(middle);
   sun.target.position.copy(middle);
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
-  const half = Math.max(size.x, size.y) / 2 + 7;
-  Object.assign(sun.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 1, far: 60 });
+  Object.assign(sun.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 1, far: 60 * away });
   Object.assign(sun.shadow, { bias: -0.0006, normalBias: 0.02, radius: 2.5 });
   return [sky, sun, sun.target];
 }

@@ -4,6 +4,7 @@
 const JAPANESE = {
   "Loading the run …": "読み込み中…", Legend: "凡例", Events: "できごと", Play: "再生", Pause: "一時停止", Speed: "速さ", Front: "正面", Side: "側面", Free: "自由",
   Joints: "接合部", "Ground moves": "地面を動かす", Show: "表示", "Slow at the main event": "山場をゆっくり", "House at the start": "最初の形", "Glass walls": "ガラスの壁",
+  Playback: "再生の操作", seconds: "秒", "Time in seconds": "時刻（秒）", "the house in 3D. Drag to turn it, or use Shift and the arrow keys.": "家の立体図。ドラッグか Shift と矢印キーで回転",
   Person: "人", Movement: "変形の倍率", "Full screen": "全画面", "Record a film": "動画を録る", "Stop recording": "録画を止める", Close: "閉じる",
   "Keys and explanations": "操作と説明", "Controls and terms": "操作と用語", Time: "時刻", Camera: "カメラ",
   "From the east: south is left, north is right": "東から：左が南、右が北", "From the north: east is left, west is right": "北から：左が東、右が西",
@@ -16,8 +17,8 @@ const JAPANESE = {
   "play, pause": "再生・一時停止", "half a second back, forward": "0.5 秒もどる・進む", "one frame back, forward": "1 コマもどる・進む", "start, end": "最初・最後",
   "previous, next event": "前・次のできごと", "slower, faster": "遅く・速く", "front, side, free camera; next camera": "正面・側面・自由・次のカメラ",
   "turn the house, zoom in, zoom out": "回転・拡大・縮小", "show the ground moving, or fixed": "地面を動かす・止める", "show or hide joints": "接合部の表示", "full screen": "全画面",
-  "Storey drift: the sideways displacement of a floor relative to the floor below, divided by the height of the storey. Damage begins at 1/120 and is heavy from 1/30; at 1/10 the house leans. The scale is stretched near zero, and larger drifts are drawn at its border.":
-    "層間変形角：ある階の床が下の床に対して横にずれた量を階高で割ったもの。1/120 で損傷が始まり、1/30 で大きな損傷、1/10 で家が傾きます。目盛はゼロの近くで引き伸ばしてあります。",
+  "Storey drift: the sideways displacement of a floor relative to the floor below, divided by the height of the storey. Damage begins at 1/120 and is heavy from 1/30; from 1/10 on the house may fall over. The scale is stretched near zero, and larger drifts are drawn at its border.":
+    "層間変形角：ある階の床が下の床に対して横にずれた量を階高で割ったもの。1/120 で損傷が始まり、1/30 で大きな損傷、1/10 を超えると倒れるおそれがあります。目盛はゼロの近くで引き伸ばしてあります。",
   "Members are rigid. Walls are included only where the house file names them; nails and soil are not modelled. Use the model to compare houses, not to certify one.":
     "このモデルの部材は剛体です。壁は家のファイルにあるものだけを含み、釘と地盤は含みません。家を比べるためのもので、安全を保証するものではありません。",
   "no joints": "接合部なし", "of its strength": "（強さに対する比）", "not broken": "破断していない",

@@ -6,6 +6,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 const FOV = 32; // [degree]
 const TRANSITION = 450; // [ms] from one camera to the next
 const SPARE = 1.12; // size of the picture by the size of the house
+const NEAREST = 2; // distance of the camera [m]
 const LIFT = 0.012; // of the house above the middle, by the distance: the status line is below it
 
 /** Azimuth from east to north and elevation [degree], and the title of the view. */
@@ -20,7 +21,9 @@ export class View {
   /** points (Vector3): kept in the picture; changed: called when the picture must be redrawn. */
   constructor(points, changed) {
     Object.assign(this, { points, changed, name: "free", fov: FOV, transition: null });
-    this.camera = new PerspectiveCamera(FOV, 1, 0.5, 300);
+    this.size = new Box3().setFromPoints(points).getSize(new Vector3()).length(); // of a house or a town [m]
+    this.farthest = Math.max(90, 5 * this.size); // distance of the camera [m]
+    this.camera = new PerspectiveCamera(FOV, 1, 0.5, this.farthest + 2 * this.size + 100);
     this.camera.up.set(0, 0, 1);
     this.target = new Vector3();
     this.controls = [];
@@ -43,9 +46,11 @@ export class View {
   /** Let mouse and fingers on a canvas turn, move and zoom the camera. */
   listen(canvas) {
     const control = new OrbitControls(this.camera, canvas);
-    Object.assign(control, { target: this.target, maxPolarAngle: Math.PI / 2 - 0.01, minDistance: 2, maxDistance: 90, zoomSpeed: 1.4 });
-    control.addEventListener("start", () => this.take("free"));
-    control.addEventListener("change", () => this.changed());
+    Object.assign(control, { target: this.target, maxPolarAngle: Math.PI / 2 - 0.01, minDistance: NEAREST, maxDistance: this.farthest, zoomSpeed: 1.4 });
+    let held = false; // a press is not yet a movement of the camera
+    control.addEventListener("start", () => (held = true));
+    control.addEventListener("end", () => (held = false));
+    control.addEventListener("change", () => (held ? this.take("free") : this.changed()));
     this.controls.push(control);
   }
 
@@ -83,7 +88,7 @@ export class View {
     const place = new Spherical().setFromVector3(swap(this.camera.position.clone().sub(this.target)));
     place.theta += azimuth;
     place.phi = Math.min(Math.max(place.phi - elevation, 0.02), Math.PI / 2 - 0.01);
-    place.radius *= factor;
+    place.radius = Math.min(Math.max(place.radius * factor, NEAREST), this.farthest);
     this.put(swapBack(new Vector3().setFromSpherical(place)).add(this.target), this.target.clone());
     this.take("free");
   }

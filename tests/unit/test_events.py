@@ -58,6 +58,15 @@ def test_columns_loose_from_the_start_are_no_event():
     assert events(run) == [] and survey(run).count_columns(states(run)[0][1]) == {"total": 4, "fallen": 0, "loose": 1}
 
 
+def test_a_column_loose_from_the_start_may_fall():
+    """All columns of the sample fall; two of them were loose before: four events, not two."""
+    run = frames_sample.run()
+    run.broken[:] = 0
+    run.joints.damaged[[0, 4]] = True
+    run.broken[:, [0, 4]] = 4
+    assert survey(run).loose_at_start == 1 and max(event["number"] for event in events(run) if event["kind"] == "columns_lost") == 4
+
+
 def test_a_resumed_log_repeats_nothing():
     """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
     run = frames_sample.run()
@@ -153,6 +162,9 @@ def drifts(peak, residual):
         ({"structures": {"main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND, "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}},
           "events": [{"time_s": 21.35, "kind": "structure_fallen", "what": "carport has fallen: a level is down by half a storey", "number": 1}]},
          ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
+        ({"structures": {"main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}},
+          "events": [{"time_s": time, "kind": "structure_fallen", "what": f"{name} has fallen: a level is down by half a storey", "number": 1}
+                     for time, name in ((3.0, "porch2"), (9.0, "porch"))]}, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
         ({"snow": True, "snow_mass_kg": 5600.0, "events": [{"time_s": 20.2, "kind": "snow_fallen", "what": "", "number": 1}]}, ["snow 5.6 t, falling from 20.2 s"], []),
         ({"record": {"onset_s": 18.8}, "duration_s": 2.0}, ["before strong shaking sets in (18.8 s)"], []),
     ],

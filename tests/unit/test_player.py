@@ -196,7 +196,38 @@ def test_the_japanese_result_judges_all_structures():
     found = frames_sample.summary("A") | {"collapsed": False, "peak_drift": {"storey1": {"ns": 0.05, "ew": 0.01}}, "structures": {
         "main": structure(peak_drift=0.05), "entrance": structure(collapsed=True), "shed": structure(peak_drift=0.01), "porch": structure()}}
     found["events"].append({"time_s": 2.6, "kind": "structure_fallen", "what": "entrance has fallen: a level is down by half a storey", "number": 1})
-    assert japanese.result(found) == "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。接合部 8 か所のうち 7 か所が破断。"
+    assert japanese.result(found) == "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。接合部 8 か所のうち 7 か所が破断（ほかに最初から破断 1 か所）。"
+
+
+def test_the_japanese_result_has_all_warnings():
+    found = frames_sample.summary("A") | {
+        "collapsed": False, "structures": {"main": structure(peak_drift=0.3, residual_drift=0.2)}, "peak_drift": {"storey1": {"ns": 0.3, "ew": 0.01}},
+        "columns": {"total": 90, "fallen": 1, "loose": 3}, "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.02, "ew": 0.0}}, "snow": True,
+        "record": {"onset_s": 18.8}, "duration_s": 15.0,
+        "events": [{"time_s": time, "kind": kind, "what": "", "number": 1} for time, kind in ((12.0, "columns_lost"), (13.5, "snow_fallen"))]}
+    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下", "強い揺れ（18.8 秒）の前で計算を終了")
+    assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
+    small = found | {"structures": {"main": structure(), "entrance": structure(broken=2, peak_drift=5e-4)}}
+    assert "玄関は補修可能（最大層間変形角 1/1000 未満）" in japanese.result(small)
+
+
+@pytest.mark.parametrize("kind, text, lot, expected", [
+    ("collapse", "collapse: a floor has come down by half a storey", None, "倒壊：床が階高の半分以上落ちた"),
+    ("collapse", "h1: collapse: a floor has come down by half a storey", "h1", "h1：倒壊：床が階高の半分以上落ちた"),
+    ("tilt", "h2: a storey drift E-W passes 1/10", "h2", "h2：層間変形角が 1/10 を超える（東西）"),
+    ("structure_fallen", "h1: entrance has fallen: a level is down by half a storey", "h1", "h1：玄関が倒れた"),
+    ("structure_fallen", "entrance has fallen: a level is down by half a storey", None, "玄関が倒れた"),
+])
+def test_japanese_events_name_the_lot_of_a_town(kind, text, lot, expected):
+    assert japanese.event(kind, text, lot) == expected
+
+
+def test_a_long_run_has_a_player():
+    """Half an hour: times of the page are exact to 10 us."""
+    run = frames_sample.run(until=1.5)
+    run.time = [1800 * time for time in run.time]
+    info, arrays = unpack(player.packed("x", run))
+    assert arrays["time"] == pytest.approx(run.time, abs=1e-5) and arrays["time"][-1] > 1073.74
 
 
 def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():

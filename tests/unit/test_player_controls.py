@@ -55,6 +55,29 @@ def test_space_plays_after_a_click_and_presses_a_button_reached_by_tab(still):
     assert not ask(still, "player.playing")
 
 
+def test_space_opens_the_menu_reached_by_tab(still):
+    from selenium.webdriver.common.keys import Keys
+
+    ask(still, "document.getElementById('camera-free').focus()")
+    press(still, Keys.TAB, " ")
+    assert ask(still, "document.getElementById('more').open") and not ask(still, "player.playing")
+    press(still, " ")
+    assert not ask(still, "document.getElementById('more').open")
+
+
+def test_a_click_keeps_the_camera(still):
+    """A press is no movement; a drag makes the camera free."""
+    press(still, "1")
+    front = still.find_element("id", "camera-front")
+    wait(lambda: front.get_attribute("aria-pressed") == "true")
+    place = ask(still, "player.screen('roof')")
+    click(still, place)
+    assert front.get_attribute("aria-pressed") == "true" and "east" in still.find_element("class name", "camera-name").text
+    for kind, shift in (("mousePressed", 0), ("mouseMoved", 30), ("mouseMoved", 60), ("mouseReleased", 60)):
+        still.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "buttons": 1, "clickCount": 1, "x": place["x"] + shift, "y": place["y"]})
+    wait(lambda: front.get_attribute("aria-pressed") == "false")
+
+
 def test_keys_turn_the_house(still):
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """The player in a browser: it shows the recorded data, fits a phone, plays, and records a film."""
+import re
+
 import frames_sample
 import numpy as np
 import pytest
@@ -211,6 +213,8 @@ def test_the_page_speaks_japanese(still):
     ask(still, "player.seek(1.4)")
     assert "接合部" in still.find_element("class name", "now").text and "できごと" in still.find_element("class name", "event-list").text
     assert still.find_element("id", "camera-front").text == "正面" and ask(still, "document.documentElement.lang") == "ja"
+    names = ask(still, "[...document.querySelectorAll('[aria-label]')].filter((e) => e.offsetParent).map((e) => e.getAttribute('aria-label'))")
+    assert [name for name in names if not re.search("[\u3040-\u9fff]", name)] == []
     ask(still, "player.speak('en')")
     ask(still, "player.seek(1.5)")
     assert still.find_element("class name", "now").text == english and still.find_element("id", "camera-front").text == "Front"

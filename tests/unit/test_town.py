@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from yade_timber.motion import GroundMotion, write_csv
+from yade_timber.pictures import key_times
 from yade_timber.recording import frames
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
@@ -124,6 +125,7 @@ def test_houses_and_frames_of_the_town(town):
     placed, alone = whole.corners(-1, number), part.corners(-1, own)
     turned = alone @ [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]  # x to the north, y to the west
     assert placed - placed.mean(0) == pytest.approx(turned - turned.mean(0), abs=1e-4)  # float32 at 30 m
+    assert key_times.first_shown(whole) == 0  # a town has no history of its own
     assert len(whole.breaks["time"]) == sum(len(frames.load(town[1] / "lots" / row["lot"] / "frames.h5").breaks["time"]) for row in rows)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All pictures of a run and its player, from its recorded frames alone. Needs no YADE."""
+"""All pictures of a run and its player, from the files in its folder. Needs no YADE."""
 from functools import partial
 
 from ..recording import ensemble, frames

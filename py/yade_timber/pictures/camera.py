@@ -40,7 +40,8 @@ def look(name, points, aspect):
             seen = (offset @ axis) / (away - offset @ toward)
             target = target + away * (seen.min() + seen.max()) / 2 * axis
     eye = target + away * toward
-    return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, away), 0.5 / tangent)
+    far = away + 200.0 + 5 * np.ptp(points, axis=0).max()
+    return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, (max(0.2, 0.05 * away), far)), 0.5 / tangent)
 
 
 def kept(start, end):
@@ -49,8 +50,8 @@ def kept(start, end):
     return np.concatenate([start, np.clip(end[np.isfinite(end).all(1)], low, high)])
 
 
-def _matrix(eye, right, up, toward, tangent, aspect, away):
-    near, far = max(0.2, 0.05 * away), away + 200.0
+def _matrix(eye, right, up, toward, tangent, aspect, depths):
+    near, far = depths
     seen = np.eye(4)
     seen[:3, :3] = right, up, toward
     seen[:3, 3] = -seen[:3, :3] @ eye

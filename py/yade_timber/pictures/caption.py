@@ -56,7 +56,8 @@ class Caption:
         """'12.35 s   storey drift 1/85   3 of 382 joints broken'"""
         run, shown = self.run, min(time, self.run.time[-1])
         parts = [f"{time:6.2f} s{self.speed}"]
-        down = (run.summary or {}).get("collapse_time_s")
+        found = run.summary or {}
+        down = None if "verdicts" in found else found.get("collapse_time_s")  # a town has no collapse of its own
         if down is not None and time >= down:
             parts.append("collapsed")
         elif self.drifts is not None:

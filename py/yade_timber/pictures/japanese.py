@@ -3,7 +3,7 @@
 import re
 
 from ..recording import verdict
-from ..recording.sentences import SMALL, fall_time, joints_and_sheets, largest_drift, main_structure, ratio
+from ..recording.sentences import SMALL, fall_time, first_time, joints_and_sheets, largest_drift, main_structure, missed_onset, ratio
 
 DIRECTIONS = {"ns": "南北", "ew": "東西"}
 SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
@@ -22,13 +22,48 @@ def title(found):
 
 
 def result(found):
-    """Outcome of a summary: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns."""
-    (broken, joints), (torn, sheets) = joints_and_sheets(found)
-    columns, walls = found.get("columns", {}), f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
-    parts = [outcome(found), *structures(found), f"接合部 {joints} か所のうち {broken} か所{walls}が破断"]
-    if columns.get("fallen"):
-        parts.append(f"柱 {columns['total']} 本のうち {columns['fallen']} 本が倒れた")
-    return ensemble(found) + "。".join(parts) + "。"
+    """Outcome of a summary: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow."""
+    parts = [outcome(found), moving(found), *structures(found), joints(found), columns(found), snow(found), early(found)]
+    return ensemble(found) + "。".join(filter(None, parts)) + "。"
+
+
+def moving(found):
+    """Amplitude of the motion that remains; empty at rest."""
+    if not found.get("still_moving") or found["collapsed"]:
+        return ""
+    amplitude, _, direction = largest_drift(found, "final_amplitude")
+    return f"なお ±{below(amplitude)}（{DIRECTIONS.get(direction, direction)}）で揺れている"
+
+
+def joints(found):
+    """Broken and partly broken joints and wall sheets."""
+    (broken, total), (torn, sheets) = joints_and_sheets(found)
+    walls = f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
+    partly = found["broken"].get("partly_broken", 0) + found["broken"].get("wall_sheets_partly", 0)
+    before = found["broken"].get("damaged_at_start", {}).get("total", 0)
+    more = [f"一部破断 {partly} か所" if partly else "", f"最初から破断 {before} か所" if before else ""]
+    others = "、".join(filter(None, more))
+    return f"接合部 {total} か所のうち {broken} か所{walls}が破断" + (f"（ほかに{others}）" if others else "")
+
+
+def columns(found):
+    """Fallen and loose columns, and the time of the first loss; empty without."""
+    counts, first = found.get("columns", {}), first_time(found, "columns_lost")
+    lost = [f"{counts[kind]} 本が{text}" for kind, text in (("fallen", "倒れた"), ("loose", "外れた")) if counts.get(kind)]
+    since = "" if first is None else f"（{first:.1f} 秒から）"
+    return f"柱 {counts['total']} 本のうち{'、'.join(lost)}{since}" if lost else ""
+
+
+def snow(found):
+    """Time from which snow has fallen from the roofs; empty without."""
+    first = first_time(found, "snow_fallen") if found["snow"] else None
+    return "" if first is None else f"雪は {first:.1f} 秒から落下"
+
+
+def early(found):
+    """Remark on a run that ends before the strong shaking; empty for others."""
+    onset = missed_onset(found)
+    return "" if onset is None else f"強い揺れ（{onset:.1f} 秒）の前で計算を終了"
 
 
 def ensemble(found):
@@ -50,9 +85,11 @@ def outcome(found):
         return f"{found['collapse_time_s']:.1f} 秒に倒壊"
     drift, storey, direction = largest_drift(found)
     left = largest_drift(found, "residual_drift")[0]
-    residual = f"、残留変形角 {ratio(left, '')}{'未満' if left < SMALL else ''}" if drift >= 1 / 120 else ""
+    residual = f"、残留変形角 {below(left)}" if drift >= 1 / 120 else ""
     peak = f"{ratio(drift, '')}（{DIRECTIONS.get(direction, direction)}、{storey[len('storey'):]} 階）" if drift >= SMALL else "1/1000 未満"
-    return f"{OUTCOMES[verdict.judge(main_structure(found))]}。最大層間変形角 {peak}{residual}"
+    facts = main_structure(found)
+    lean = "（最後に傾いている）" if verdict.leans(facts) else ""
+    return f"{OUTCOMES[verdict.judge(facts)]}{lean}。最大層間変形角 {peak}{residual}"
 
 
 def structures(found):
@@ -63,11 +100,18 @@ def structures(found):
         if state == verdict.COLLAPSED:
             yield f"{place}は" + ("倒壊" if time is None else f" {time:.1f} 秒に倒壊")
         elif state != verdict.UNDAMAGED:
-            yield f"{place}は{OUTCOMES[state]}（最大層間変形角 {ratio(facts['peak_drift'])}）"
+            yield f"{place}は{OUTCOMES[state]}（最大層間変形角 {below(facts['peak_drift'])}）"
 
 
-def event(kind, text):
-    """Text of an event, from its kind and its English text; the English one where the kind is unknown."""
+def below(drift):
+    """A drift in the notation of engineers: 1/85, 1/1000 未満."""
+    return f"{ratio(drift, '')}{' 未満' if drift < SMALL else ''}"
+
+
+def event(kind, text, lot=None):
+    """Text of an event, from its kind and its English text; the English one where the kind is unknown. lot: of a town, with which the text begins"""
+    if lot is not None:
+        return f"{lot}：{event(kind, text.removeprefix(f'{lot}: '))}"
     if kind == "level":
         return next((ja for level, ja in LEVELS.items() if level in text), text)
     if kind == "first_break":

@@ -7,6 +7,7 @@ are rounded to multiples of their array's step. Each column is stored as differe
 """
 import base64
 import json
+import math
 import zlib
 
 import numpy as np
@@ -15,6 +16,8 @@ LEVEL = 6
 """Of zlib: two hundredths larger than at 9, in half of the time."""
 LARGEST = 2**30
 """Largest multiple of a step that is stored. [-]"""
+TIME_STEP = 1e-6
+"""Step of times, of long runs 1e-6 of the last one or more. [s]"""
 
 
 def pack(info, arrays):
@@ -23,6 +26,12 @@ def pack(info, arrays):
     text = json.dumps(header, allow_nan=False).encode()
     parts = [len(text).to_bytes(4, "little"), text, *(planes(name, values, step) for name, (values, step) in arrays.items())]
     return base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode()
+
+
+def times(values):
+    """(values, step) of increasing times [s] for `pack`."""
+    last = values[-1] if len(values) else 0.0
+    return values, TIME_STEP if last < LARGEST * TIME_STEP else 10.0 ** math.ceil(math.log10(last / LARGEST) + 1e-9)
 
 
 def planes(name, values, step):

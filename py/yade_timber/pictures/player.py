@@ -23,7 +23,7 @@ from ..recording.sentences import DRIFT_LINES, joint_place, sentence
 from ..recording.walls import wall_sheets
 from . import japanese
 from .key_times import largest_drift, onset, strongest_shaking
-from .packing import pack
+from .packing import pack, times
 from .provenance import provenance
 
 ASSETS = Path(__file__).resolve().parents[1] / "data" / "player"
@@ -113,7 +113,7 @@ def info(run, largest):
         "levels": [{"value": value, "text": text.split()[0]} for value, text in DRIFT_LINES],
         "events": events(run),
         "main": main_event(run),
-        "collapse": found.get("collapse_time_s"),
+        "collapse": None if "verdicts" in found else found.get("collapse_time_s"),  # of a house, not of a town
     }
 
 
@@ -173,14 +173,15 @@ def css(color):
 
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    recorded = ((event["time_s"], event["kind"], event["what"]) for event in (run.summary or {}).get("events", []))
-    found = [event for event in (*shaking(run), *passed_levels(run), *recorded) if 0 <= event[0] <= run.time[-1]]
-    return [{"time": float(time), "text": plain(text), "japanese": plain(japanese.event(kind, text))} for time, kind, text in sorted(found)]
+    recorded = ((event["time_s"], event["kind"], event["what"], event.get("lot")) for event in (run.summary or {}).get("events", []))
+    own = ((*event, None) for event in (*shaking(run), *passed_levels(run)))
+    found = sorted((event for event in (*own, *recorded) if 0 <= event[0] <= run.time[-1]), key=lambda event: event[:3])
+    return [{"time": float(time), "text": plain(text), "japanese": plain(japanese.event(kind, text, lot))} for time, kind, text, lot in found]
 
 
 def shaking(run):
     """(time, kind, text) of the ground motion."""
-    if run.motion:
+    if run.motion and run.motion.acceleration.any():
         yield onset(run.motion), "shaking", "the shaking begins"
         if run.summary:
             yield strongest_shaking(run), "shaking", "strongest shaking"
@@ -229,7 +230,7 @@ def joints(found):
 def series(run):
     orientation = continuous(np.asarray(run.orientation, float))
     return {
-        "time": (run.time, 1e-6),
+        "time": times(run.time),
         "positions": (run.position, POSITION_STEP),
         "orientations": (orientation[..., [1, 2, 3, 0]], ORIENTATION_STEP),
         "loads": (np.minimum(run.load, 1.5), 0.01),
@@ -254,4 +255,4 @@ def curves(run):
     time = run.history.time if found else np.empty(0)
     values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
     motion = {"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)} if run.motion else {}
-    return {"history_time": (time, 1e-6), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}
+    return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

@@ -113,6 +113,7 @@ void main() {
 
 GROUND_FRAGMENT = """#version 330
 uniform float reach;  // distance up to which the grid is seen [m]
+uniform vec2 middle;  // of the ground [m]
 in vec2 place;
 out vec4 picture;
 float lines(vec2 p, vec2 width) {  // width: of a pixel
@@ -124,7 +125,7 @@ void main() {
   vec2 width = max(fwidth(place), 1e-6);
   float grid = max(0.16 * lines(place, width), 0.26 * lines(0.2 * place, 0.2 * width));
   vec3 color = mix(vec3(0.84, 0.83, 0.78), vec3(0.45, 0.46, 0.44), grid);
-  picture = vec4(color, 1.0 - smoothstep(0.2 * reach, reach, length(place)));
+  picture = vec4(color, 1.0 - smoothstep(0.2 * reach, reach, length(place - middle)));
 }"""
 
 SHADE_VERTEX = GROUND_VERTEX

@@ -11,12 +11,14 @@ HORIZON, ZENITH = (0.93, 0.945, 0.94), (0.72, 0.82, 0.90)
 AMBIENT, DIRECT = (0.80, 0.62), 0.42
 """Brightness of faces that look up and down, and that the sun adds. [-]"""
 HAZE_DEPTH = 60.0
-"""Distance behind the house at which the haze is HAZE. [m]"""
+"""Distance behind a house at which the haze is HAZE; farther behind a town. [m]"""
 HAZE = 0.5
 EDGE_INK, EDGE_WIDTH = (0.16, 0.13, 0.10, 0.7), 1.2
 """Colour and opacity, and width [pixel] of the lines along edges."""
 GROUND_REACH = 60.0
-"""Distance at which the ground has faded into the sky. [m]"""
+"""Distance from a house at which the ground has faded into the sky; farther from a town. [m]"""
+HOUSE_SIZE = 30.0
+"""Largest plan of a house. [m]"""
 MARK_SIZE, MARK_PIXELS = 0.25, (9.0, 26.0)
 """Size of a mark [m], and its limits [pixel]."""
 STATES = {"partly": 1.0, "broken": 2.0, "before": 3.0}
@@ -32,6 +34,8 @@ class Stage:
         self.frames, self.camera, (self.sun, self.light) = frames, camera, light
         e = frames.elements
         self.numbers = nearest_first(frames, camera.eye)
+        places = e.position[self.numbers, :2]
+        self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE)
         self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
         self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
@@ -92,11 +96,12 @@ class Stage:
         ahead = view.target - view.eye
         ahead /= np.linalg.norm(ahead)
         width, height = self.canvas.size
-        shared = dict(camera=view.matrix @ shift, sun=self.sun, toward=(*-ahead, -ahead @ view.target), haze=HORIZON, haziness=(HAZE, HAZE_DEPTH), shade=0)
+        depth, reach = self.spread * HAZE_DEPTH, self.spread * GROUND_REACH
+        shared = dict(camera=view.matrix @ shift, sun=self.sun, toward=(*-ahead, -ahead @ view.target), haze=HORIZON, haziness=(HAZE, depth), shade=0)
         put(program("SHADOW"), sun=self.sun)
         put(program("SOLID"), **shared, light=self.light, ambient=AMBIENT, direct=DIRECT)
         put(program("EDGE"), **shared, eye=(*view.eye, 1), ink=EDGE_INK, size=(width, height), width=EDGE_WIDTH)
-        put(program("GROUND"), **shared, bounds=2 * GROUND_REACH * np.array([-1, -1, 1, 1]), reach=GROUND_REACH)
+        put(program("GROUND"), **shared, bounds=np.concatenate([self.middle - 2 * reach, self.middle + 2 * reach]), reach=reach, middle=self.middle)
         put(program("SHADE"), **shared, bounds=shadows)
         put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
         put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS, partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))

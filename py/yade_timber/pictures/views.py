@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed. Needs no YADE."""
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -161,8 +162,9 @@ def draw_ends(ax, view, size):
         ax.annotate(name, (end, 0), (0, -4), "axes fraction", "offset points", fontsize=size, va="top", ha=side)
 
 
-def scale_bar(ax, box, size, length=1.0):
-    """A bar of `length` [m] in the upper right corner. size: of its text [pt]"""
+def scale_bar(ax, box, size):
+    """A bar of 1, 10 or 100 m in the upper right corner, at most a sixth of the width. size: of its text [pt]"""
+    length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
     right, up = box[1] - 0.25, box[3] - 0.35
     ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
     ax.annotate(f"{length:g} m", (right - length / 2, up), (0, -0.4 * size), textcoords="offset points", fontsize=size, ha="center", va="top")

@@ -50,11 +50,10 @@ class EventLog:
 
     def _observe_columns(self, time, state):
         """An event for the first lost column, and each time the number has doubled: a collapse gives a few events, not ninety."""
-        counts = self.survey.count_columns(state)
-        lost = counts["fallen"] + counts["loose"] - self.survey.loose_at_start
+        total, lost = self.survey.count_columns(state)["total"], int(self.survey.lost_columns(state).sum())
         known = max((event.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * known):
-            self.add(time, "columns_lost", f"{lost} of {counts['total']} columns inclined by more than 45 degrees or without a joint", lost)
+            self.add(time, "columns_lost", f"{lost} of {total} columns inclined by more than 45 degrees or without a joint", lost)
 
     def _roof_name(self, roof):
         """'west roof' of an element 'main.roof.west', 'entrance's roof' of 'entrance.roof'."""

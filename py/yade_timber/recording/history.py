@@ -42,7 +42,7 @@ class History(Series):
 
     def largest_drift(self):
         """(F,) largest absolute drift of any storey and direction at each sample. [-]"""
-        return np.abs([values for _, _, values in self.drifts()]).max(0)
+        return np.abs([values for _, _, values in self.drifts()]).max(0) if self.storeys else np.zeros(self.samples)
 
     def energy(self, term):
         """(F,) term of the energy balance. [J]"""

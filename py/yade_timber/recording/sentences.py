@@ -25,10 +25,21 @@ def sentence(found):
     """
     if "verdicts" in found:
         return town(found)
-    onset = (found.get("record") or {}).get("onset_s")
-    early = f"the run ends before strong shaking sets in ({onset:.1f} s)" if onset and found.get("duration_s", onset) < onset else ""
+    onset = missed_onset(found)
+    early = "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
     parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), early)
     return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
+
+
+def missed_onset(found):
+    """Onset of the strong shaking of a run that ends before it [s], else None."""
+    onset = (found.get("record") or {}).get("onset_s")
+    return onset if onset and found.get("duration_s", onset) < onset else None
+
+
+def first_time(found, kind):
+    """Time of the first event of a kind [s], or None."""
+    return next((event["time_s"] for event in found.get("events", []) if event["kind"] == kind), None)
 
 
 def ensemble(found):
@@ -108,7 +119,8 @@ def structure(name, facts, found):
 
 def fall_time(name, found):
     """Time at which a structure other than the main one fell; None if it is not recorded. [s]"""
-    return next((event["time_s"] for event in found.get("events", []) if event["kind"] == "structure_fallen" and event["what"].startswith(name)), None)
+    falls = (event for event in found.get("events", []) if event["kind"] == "structure_fallen")
+    return next((event["time_s"] for event in falls if event["what"].startswith(f"{name} has fallen")), None)
 
 
 def joints(found):
@@ -139,7 +151,7 @@ def columns(found):
     """Fallen and loose columns, if any, and the time of the first loss."""
     counts = found.get("columns", {"total": 0, "fallen": 0, "loose": 0})
     texts = [f"{counts[kind]} {kind}" for kind in ("fallen", "loose") if counts[kind]]
-    first = next((event["time_s"] for event in found.get("events", []) if event["kind"] == "columns_lost"), None)
+    first = first_time(found, "columns_lost")
     since = "" if first is None else f", the first at {first:.1f} s"
     return f"{' and '.join(texts)} of {counts['total']} columns{since}" if texts else ""
 
@@ -148,7 +160,7 @@ def snow(found):
     """Mass of the snow, and whether some has fallen."""
     if not found["snow"]:
         return ""
-    first = next((event["time_s"] for event in found.get("events", []) if event["kind"] == "snow_fallen"), None)
+    first = first_time(found, "snow_fallen")
     return f"snow {found['snow_mass_kg'] / 1000:.1f} t" + ("" if first is None else f", falling from {first:.1f} s")
 
 

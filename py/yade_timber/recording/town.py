@@ -14,7 +14,7 @@ SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 
 def summary(name, found):
     """Summary of a town for sentences and pictures. found: {name of a lot: its summary}"""
-    events = [{**event, "what": f"{lot}: {event['what']}"} for lot, one in found.items() for event in one["events"] if event["kind"] in SHOWN]
+    events = [{**event, "lot": lot, "what": f"{lot}: {event['what']}"} for lot, one in found.items() for event in one["events"] if event["kind"] in SHOWN]
     found = list(found.values())
     worst = max((verdict.STATES.index(lot["verdict"]) for lot in found), default=0)
     return {
