@@ -46,8 +46,9 @@ void StructureMonitor::recordJoint(const TimberJoint& joint, const timber::Joint
 	raise(opening[k], (s2.pos - s1.pos + s2.ori * mean(joint.anchors2) - s1.ori * mean(joint.anchors1)).dot(normal));
 	if (joint.isBroken()) return;
 	const Real along = total.force.dot(normal); // on body 1
-	raise(pull[k], along);
-	raise(shear[k], (total.force - along * normal).norm());
+	const bool isWall = joint.ks == 0; // its springs act along the normal, which lies in the plane of the wall
+	if (!isWall) raise(pull[k], along);
+	raise(shear[k], isWall ? math::abs(along) : (total.force - along * normal).norm());
 	raise(load[k], joint.loadOf(total));
 }
 

@@ -10,6 +10,7 @@ drawn only where every point has at least 20 motions.
 """
 
 from pathlib import Path
+from textwrap import fill
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -150,7 +151,7 @@ def plot(table, snows, path):
     axes[0, 0].set_ylabel("share of runs in which the house collapses")
     runs = max(point["runs"] for point in table)
     caption = f"Points: {runs} motions each; bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, maximum likelihood, with bands"
-    figure.suptitle(caption, fontsize=9)
+    figure.suptitle(fill(caption, 75 * len(snows)), fontsize=9)
     save(figure, path)
     plt.close(figure)
 

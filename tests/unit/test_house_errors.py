@@ -111,6 +111,7 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "no such storey": ("section: 0.1, grid", "section: 0.1, storeys: 2, grid", 22, ["columns[1]", "storey 2", "[1]"]),
     "brace without a column": ("runs: [[0, 1]]", "runs: [[0, 0.5]]", 25, ["store", "[0, 0.5]", "node 0.5", "0, 1, 2"]),
     "brace over a column": ("runs: [[0, 1]]", "runs: [[0, 2]]", 25, ["store", "[0, 2]", "node 1"]),
+    "shift of an origin": ("place: {origin: [0, 0]}", "place: {origin: [0, 0], shift: 3}", 10, ["place.shift", "origin"]),
     "brace on the spot": ("runs: [[0, 1]]", "runs: [[1, 1]]", 25, ["store", "[1, 1]"]),
     "brace off the lines": ("along: x, at: 0, runs", "along: x, at: 0.5, runs", 25, ["store", "node 0.5", "none"]),
     "column on nothing": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2], y: [0, 0.5, 1]", 22, ["column store.column1.x1y0.5", "x 1.000, y 0.750, z 0.100"]),

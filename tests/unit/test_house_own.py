@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, check_house, load_house  # noqa: E402
+from yade_timber.house import HouseError, build_house, check_house, load_house  # noqa: E402
 
 SHED = """\
 extends: base
@@ -49,6 +49,34 @@ def shed(tmp_path, roof, nx=2, ny=3, snow=None, lines=None, walls=None):
 
 def top(elements):
     return max(e.solid.bounds[1][2] for e in elements)
+
+
+def test_a_lean_keeps_all_joints(tmp_path):
+    """Boxed eaves, loads, snow; and two structures whose columns stand at different heights."""
+    for text in ("extends: tiled_house\nname: own\nsnow: {depth: 1}\n", "extends: l_house\nname: own\n"):
+        upright, leaning = (house(tmp_path, text + more).counts()["joints_by_kind"] for more in ("", "plumb: {drift: 0.02, towards: east}\n"))
+        assert leaning == upright
+        check_house(house(tmp_path, text + "plumb: {drift: 0.02, towards: north}\n"))
+
+
+def test_a_brace_needs_a_joint_on_the_level_member(tmp_path):
+    """A brace of 15 mm touches sill and beam with less than joint_search.min_area; its joint with the column is not enough."""
+    thin = "extends: storehouse\nname: own\nstructures: {store: {braces: {thickness: 0.015}}}\n"
+    with pytest.raises(HouseError, match="has no joint at its bottom, where a contact area .*min_area"):
+        check_house(house(tmp_path, thin))
+    joints = house(tmp_path, thin + "joint_search: {min_area: 2e-4}\n").counts()["joints_by_kind"]
+    assert joints["brace_beam"] == 16
+
+
+def test_joints_between_the_sides_of_columns_are_no_feet(tmp_path):
+    """Wings of the L-shaped house: their columns are joined side by side, at half height."""
+    joints = [joint for joint in house(tmp_path, "extends: l_house\nname: own\n").joints if joint.kind == "wing_wing" and "column" in joint.a]
+    assert joints and {joint.end for joint in joints} == {""}
+
+
+def test_a_rule_may_list_a_pair_twice(tmp_path):
+    text = "extends: storehouse\nname: own\njoints:\n  x: {between: [[beam, floor], [beam, floor]], type: corner_fitting, kind: q, across: true}\n"
+    assert house(tmp_path, text).counts()["joints"] > 0
 
 
 def test_gable_roof_against_closed_forms(tmp_path):

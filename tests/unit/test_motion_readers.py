@@ -17,6 +17,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 from yade_timber.motion import GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim, write_csv  # noqa: E402
+from yade_timber.motion.readers import find_files  # noqa: E402
 from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
 
 N = 40
@@ -182,6 +183,30 @@ def test_at2_prefix_with_compass_letters(tmp_path):
     motion = read_motion(tmp_path / "RSN1_NIG019")
     for name, wave in WAVES.items():
         np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
+
+
+@pytest.mark.parametrize("ends", [("-E", "-N", "-V"), ("_e", "_n", "_z")])
+def test_at2_prefix_with_single_letters(tmp_path, ends):
+    for end in ends:
+        write(tmp_path, f"CHICHI{end}.AT2", "PEER\n" + f"A, 1, STA, {end[1:].upper()}\nACCELERATION IN UNITS OF G\nNPTS=  3, DT= .01 SEC\n.1 .2 .3\n")
+    assert [path.name for path in find_files(tmp_path / "CHICHI")] == [f"CHICHI{end}.AT2" for end in ends]
+
+
+def test_prefix_up_to_the_point_that_a_shell_completes(tmp_path):
+    same_waves(read_motion(f"{knet_record(tmp_path)}."), KNET_ROUNDING)
+
+
+def test_numbers_of_fortran_and_the_end_of_a_dos_file(tmp_path):
+    path = write(tmp_path, "a.csv", "# dt: 0.01\nns [gal]\n-.1416764D-03\n.1D-1\n0.2E+01\n\x1a")
+    assert read_motion(path).ns / GAL == pytest.approx([-0.1416764e-3, 0.01, 2.0])
+
+
+@pytest.mark.parametrize("head", ["# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n', "# dt: 0.01;;\nns [gal];ew [gal];;\n"])
+def test_csv_from_a_spreadsheet(tmp_path, head):
+    """Quoted comments, short rows filled with delimiters."""
+    rows = "1,2,,\n3,4,,\n" if "," in head else "1;2;;\n3;4;;\n"
+    motion = read_motion(write(tmp_path, "a.csv", head + rows))
+    assert motion.dt == 0.01 and motion.ew / GAL == pytest.approx([2, 4])
 
 
 def test_peknold(tmp_path):

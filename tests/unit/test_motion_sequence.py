@@ -53,7 +53,7 @@ def test_different_steps_keep_the_straight_lines_between_samples():
     assert both.parts[1].start == pytest.approx(0.002 * 1501, rel=1e-12)
 
 
-@pytest.mark.parametrize("steps, common", [((0.01, 0.005), 0.005), ((0.01, 0.02, 0.004), 0.002), ((0.01, 0.01), 0.01), ((1 / 120, 0.01), 1 / 600)])
+@pytest.mark.parametrize("steps, common", [((0.00781249, 0.00781249), 0.00781249), ((0.01, 0.005), 0.005), ((0.01, 0.02, 0.004), 0.002), ((0.01, 0.01), 0.01), ((1 / 120, 0.01), 1 / 600)])
 def test_common_step(steps, common):
     assert common_step(steps, "x") == pytest.approx(common, rel=1e-12)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from yade_timber.base.errors import RunError
+from yade_timber.house import changed_house
 from yade_timber.study.retrofit import candidates as measures
 from yade_timber.study.retrofit import motions, overview, race
 from yade_timber.study.retrofit import runs as rounds
@@ -98,7 +99,8 @@ def test_files_of_one_record_are_one_motion(tmp_path, monkeypatch):
     """Azimuths other than 000 and 090, two components, components with letters, K-NET, one file of three components."""
     names = ("RSN953_MUL009.AT2", "RSN953_MUL279.AT2", "RSN953_MUL-UP.AT2", "B-E.AT2", "B-N.AT2", "kobe_ns.csv", "kobe_ew.csv", "K1.NS", "K1.EW", "K1.UD", "whole.csv")
     for name in names:
-        (tmp_path / name).touch()
+        (tmp_path / name).write_text("ns,ew,ud\n1,2,3\n")
+    (tmp_path / "_SearchResults.csv").write_text("Record,Magnitude\n953,6.7\n")
     monkeypatch.setattr(motions, "window", lambda *_: {})
     found = {name: record["record"] for name, record in motions.records(tmp_path)}
     joined = {name: ",".join(str(tmp_path / file) for file in files) for name, files in (("B", ("B-E.AT2", "B-N.AT2")), ("kobe", ("kobe_ew.csv", "kobe_ns.csv")))}
@@ -164,6 +166,23 @@ def test_words_of_a_ranking():
         ("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"), ("dropped", f"{race.NO_DIFFERENCE}: dropped after 4 motions")]  # fmt: skip
     assert found[0].ratio == pytest.approx(math.sqrt(0.55 * 0.56)) and (found[0].low, found[0].high) == pytest.approx((0.5, 0.61))
     assert found[0].p == pytest.approx(4 * 2 / 2**12) and found[3].p is None
+
+
+def test_equal_motions_do_not_decide_the_direction():
+    """Both collapse under 11 of 20 motions; under the others the measure halves the drift."""
+    house = entry("house", [1.0] * 20)
+    good = entry("good", [1.0] * 11 + [0.5 + 0.01 * k for k in range(9)])
+    result, = race.ranking([good], house.responses)
+    assert (result.ratio, result.words) == (1.0, "better") and result.p < 0.05
+
+
+def test_double_fittings_are_twice_as_strong(tmp_path):
+    """Also where a rule of joints has a strength of its own."""
+    path = tmp_path / "own.yaml"
+    path.write_text("extends: storehouse\nname: own\njoints:\n  column_ends: {strength: 20000}\n")
+    double, = measures.candidates(path, 0.0, ("fitting",), ("column_ends",))
+    data = changed_house(path, dict(double.cells)["set"].split(";"))
+    assert data["joints"]["column_ends"]["strength"] == 40000 and data["joints"]["column_ends"]["number"] == 4
 
 
 def test_the_summary_names_what_is_better_and_asks_for_weaker_motions():

@@ -32,8 +32,10 @@ def build_house(description, snow_depth=None, check=True):
     _require_storeys(structures)
     elements = [_ground(data, structures)]
     for structure in structures.values():
-        elements += _structure_elements(structure, depth, data["snow"]["material"], data["plumb"])
+        elements += _structure_elements(structure, depth, data["snow"]["material"])
         require_few(len(elements), structure.table.where, f"structures.{structure.name}")
+    if data["plumb"]["drift"]:
+        _lean(elements[1:], structures, data["plumb"])
     _number_repeats(elements)
     apply_loads(elements, structures, data["loads"])
     _check_snow(data, elements, depth)
@@ -81,13 +83,8 @@ def _number_repeats(elements):
             element.name += f".{seen[element.name]}"
 
 
-def _structure_elements(structure, depth, snow_material, plumb):
-    elements = []
-    for layer in structure.layers:
-        elements += _layer_elements(structure, layer, depth, snow_material)
-    if plumb["drift"]:
-        _lean(elements, structure, plumb)
-    return elements
+def _structure_elements(structure, depth, snow_material):
+    return [element for layer in structure.layers for element in _layer_elements(structure, layer, depth, snow_material)]
 
 
 def _layer_elements(structure, layer, depth, snow_material):
@@ -100,16 +97,16 @@ def _layer_elements(structure, layer, depth, snow_material):
     return lay_roof(structure, layer) + lay_snow(structure, layer, depth, snow_material)
 
 
-def _lean(elements, structure, plumb):
-    """Construction tolerance: everything above the first columns' feet is sheared by `drift` (horizontal per vertical metre).
+def _lean(elements, structures, plumb):
+    """Construction tolerance: everything above the lowest columns' feet is sheared by `drift` (horizontal per vertical metre).
 
     A shear keeps bodies convex, faces flush and volumes; horizontal faces stay horizontal.
     """
-    foot = structure.layer_of_storey(1).z0 if 1 in structure.storeys else 0.0
+    foot = min((structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys), default=0.0)
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
     for element in elements:
         rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
-        element.vertices = element.vertices + plumb["drift"] * rise[:, None] * direction
+        element.move(element.vertices + plumb["drift"] * rise[:, None] * direction)
 
 
 def _ground(data, structures):

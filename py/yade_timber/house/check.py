@@ -7,10 +7,9 @@ from ..base.joint_kinds import WALL_KINDS
 from .errors import HouseError
 from .geometry import contact_polygon, separation
 from .joint_values import END_JOINED
-from .joints import near_pairs
+from .joints import LYING, near_pairs
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
-LYING = 0.1  # vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees
 
 
 def check_house(model):
@@ -43,8 +42,8 @@ def _report_overlap(a, b, gap, count):
 
 
 def _check_ends(model, touching):
-    """Each column and brace needs a joint at its foot and one at its head."""
-    jointed = {(joint.a, joint.end) for joint in model.joints}
+    """Each column and brace needs a joint on a level face at its foot and one at its head."""
+    jointed = {(joint.a, joint.end) for joint in model.joints if abs(joint.normal[2]) > LYING}
     for member in model.of_kind(*END_JOINED):
         for end in ("bottom", "top"):
             if (member.name, end) not in jointed:

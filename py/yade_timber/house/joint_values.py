@@ -35,8 +35,9 @@ def rules_by_kinds(rules):
     """{(kind a, kind b, across): (name, rule)}; a is the brace of the two, else the column, else the first kind of the rule."""
     found = {}
     for name, rule in rules.items():
-        for a, b in ((a, b) for a in rule["between"][0] for b in rule["between"][1]):
-            found.setdefault((*sorted((a, b), key=_rank), rule["across"]), []).append((name, rule))
+        pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
+        for pair in pairs.values():
+            found.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
     return found
 
 

@@ -11,6 +11,9 @@ from .joint_values import END_JOINED, joint_values, rules_by_kinds
 from .limits import MAX_PAIRS
 from .model import JointSpec
 
+LYING = 0.1
+"""Vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees. [-]"""
+
 
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
@@ -53,7 +56,8 @@ def _joint(a, b, rule, contact, data):
     polygon, normal, area = contact
     points = spring_points(polygon, normal)
     end_joined = a.kind in END_JOINED
-    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if end_joined else ""
+    at_end = end_joined and (a.kind != "column" or abs(normal[2]) > LYING)  # columns of two wings have joints between their sides
+    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if at_end else ""
     return JointSpec(a.name, b.name, points, normal, area, storey=a.storey, side=a.side if end_joined else a.side or b.side, end=end,
                      group=a.group, **joint_values(data, rule))
 

@@ -40,6 +40,11 @@ class Element:
             raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its dimensions") from None
         return polyhedron
 
+    def move(self, vertices):
+        """Give it other corners (n, 3) [m]."""
+        self.vertices = vertices
+        self.__dict__.pop("solid", None)
+
     @property
     def volume(self):
         """[m3]"""

@@ -146,6 +146,8 @@ def _origin(table, local, others, name):
     """World position (2,) [m] of the structure's grid origin."""
     place = table["place"]
     if place["origin"] is not None:
+        if place["shift"]:
+            raise HouseError(f"{place.at('shift')}: structures.{name}.place.shift: belongs to 'beside'; change the origin instead")
         return np.array(place["origin"])
     if place["beside"] not in others:
         known = ", ".join(others) or "none yet"

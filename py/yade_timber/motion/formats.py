@@ -306,13 +306,19 @@ def _plain_csv(path, lines, units):
     return _columns_to_channels(path, names, rows * factor, step)
 
 
+COMMENT = ("#", '"#')
+"""Beginnings of a comment; a spreadsheet quotes it."""
+FILLING = ",; \t"
+"""What a spreadsheet adds to short rows."""
+
+
 def _csv_columns(lines):
     """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such row."""
     for index, line in enumerate(lines):
-        if line.startswith("#") or not line.strip():
+        if line.startswith(COMMENT) or not line.strip(FILLING):
             continue
         delimiter = next((d for d in (",", ";", "\t") if d in line), ",")
-        cells = [_column_name(cell) for cell in line.split(delimiter)]
+        cells = [_column_name(cell) for cell in line.rstrip(FILLING).split(delimiter)]
         names = [name for name, _ in cells]
         known = set(names) <= {"ns", "ew", "ud", "time"} and len(set(names)) == len(names)
         if not known or set(names) <= {"time"}:
@@ -343,9 +349,12 @@ def _csv_comments(path, lines):
     """{key: (value, file:line: key)} of the lines '# key: value' or '# key = value' before the row of names."""
     pairs = {}
     for number, line in enumerate(lines, 1):
+        if not line.startswith(COMMENT):
+            continue
+        line = line.strip(FILLING + '"')
         text = line[1:].replace("=", ":", 1) if "=" in line.partition(":")[0] else line[1:]
         key, _, value = (part.strip() for part in text.partition(":"))
-        if line.startswith("#") and key.replace(" ", "").isalpha() and value:
+        if key.replace(" ", "").isalpha() and value:
             pairs[key.lower()] = value, f"{path}:{number}: {key.lower()}"
     return pairs
 

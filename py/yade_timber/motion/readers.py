@@ -27,7 +27,7 @@ SUFFIXES = (
     ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
     ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew))\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
+    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
 )
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
@@ -119,7 +119,8 @@ def _find_by_prefix(prefix):
         names = sorted(p.name for p in folder.iterdir()) if is_folder(folder) else []
     except OSError as error:
         raise RecordError(f"{folder}: cannot be read ({error.strerror})") from None
-    rests = {name[len(prefix.name) :]: folder / name for name in names if name.startswith(prefix.name)}
+    start = prefix.name.rstrip(".")  # a shell completes the prefix up to the point
+    rests = {name[len(start) :]: folder / name for name in names if name.startswith(start)}
     partial = []
     for _, pattern, _ in SUFFIXES:
         found = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]

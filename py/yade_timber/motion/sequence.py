@@ -54,12 +54,14 @@ def joined(motions, scales, gap=DEFAULT_GAP):
 
 def common_step(steps, where):
     """Largest time step [s] of which all steps are multiples."""
+    if len(set(steps)) == 1:
+        return steps[0]
     fractions = [Fraction(step).limit_denominator(DENOMINATOR) for step in steps]
     whole = [abs(float(fraction) - step) <= 1e-9 * step for fraction, step in zip(fractions, steps)]
     common = Fraction(gcd(*(f.numerator for f in fractions)), lcm(*(f.denominator for f in fractions)))
     if not all(whole) or min(steps) > 100 * common:
         raise RecordError(f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample")
-    return float(common) if len(set(steps)) > 1 else steps[0]
+    return float(common)
 
 
 def refined(motion, factor):

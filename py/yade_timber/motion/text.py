@@ -66,7 +66,7 @@ def read_lines(path):
         except UnicodeDecodeError:
             continue
         if "\0" not in text and text.strip():
-            return _checked_lines(path, text.splitlines())
+            return _checked_lines(path, text.rstrip("\x1a").splitlines())  # DOS's end of a file
     raise RecordError(f"{path}: empty or not a text file; a record must be text in UTF-8 or CP932")
 
 
@@ -82,12 +82,17 @@ def _checked_lines(path, lines):
 def finite(text, where):
     """A finite number of at most MAX_NUMBER. Raises RecordError."""
     try:
-        value = float(text)
+        value = float(_with_e(text))
     except ValueError:
         value = np.nan
     if not abs(value) <= MAX_NUMBER:
         raise RecordError(f"{where}: {shown(text.strip())} is not a finite number up to {MAX_NUMBER:g}")
     return value
+
+
+def _with_e(text):
+    """Fortran's exponents, 0.1D-03, as 0.1E-03."""
+    return re.sub(r"(?<=[0-9.])[dD](?=[-+0-9])", "E", text) if "D" in text or "d" in text else text
 
 
 def positive(text, where):
@@ -113,7 +118,7 @@ def numbers(path, lines, first):
     """
     tokens = []
     for number, line in enumerate(lines, first):
-        tokens += line.split()
+        tokens += _with_e(line).split()
         _require_few_samples(len(tokens), f"{path}:{number}")
     try:
         values = np.array(tokens, dtype=float)

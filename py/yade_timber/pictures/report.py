@@ -138,7 +138,7 @@ def motion(frames, found):
         return "<h2>The motion</h2><p>No earthquake.</p>"
     applied = report_pictures.ground_motion(frames)
     source = (found.get("record") or {}).get("source", "")
-    intensity = jma_intensity(applied).official if applied.duration >= 0.3 else None
+    intensity = jma_intensity(applied).official if applied.duration >= 0.3 and applied.acceleration.any() else None
     peaks = ", ".join(f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
     values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None else f", JMA intensity {intensity:.1f}")
     scale = f", times {found['record']['scale']:g}" if found["record"]["scale"] != 1 else ""

@@ -165,9 +165,9 @@ class DamageSurvey:
         return [name for name in self.structures if any(-move[2] > height / 2 for move, height in self._moves(state, name))]
 
     def drift(self, state, structure):
-        """Largest storey drift of a structure, resultant of N-S and E-W. [-]"""
+        """Largest storey drift of a structure, N-S or E-W. [-]"""
         moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
-        return max((float(np.hypot(*(above - below)[:2]) / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
+        return max((float(np.abs((above - below)[:2]).max() / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
 
     def leaning_structures(self, state):
         """Names of the structures, the main one excepted, that have not fallen and have a drift above the tilt."""

@@ -53,10 +53,16 @@ def fittings(description, model):
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
     return [
-        Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", f"joints.{name}.number={2 * group.get('number', 1):g}"),))
+        Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", _doubled(name, group)),))
         for name, group in groups.items()
         if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])
     ]
+
+
+def _doubled(name, group):
+    """Value of the column `set`: twice the number of fittings, and of the strength where the group has one of its own."""
+    strength = "" if group.get("strength") is None else f";joints.{name}.strength={2 * group['strength']:g}"
+    return f"joints.{name}.number={2 * group.get('number', 1):g}{strength}"
 
 
 def in_bays(model, names):

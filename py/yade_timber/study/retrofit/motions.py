@@ -8,13 +8,15 @@ from pathlib import Path
 from ...base.errors import RunError
 from ...base.time_step import DEFAULT_DT
 from ...motion import MotionRequest, RecordError, onset, significant_duration
+from ...motion.formats import sniff
 from ...motion.readers import SUFFIXES, find_files
+from ...motion.text import read_lines
 
 START, END = 14.0, 34.0
 """Part of a synthetic motion that is run: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
 LEAD, TAIL = 4.0, 10.0
 """Part of a record that is run: from LEAD before its strong shaking to TAIL after the end of its significant duration. [s]"""
-ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:e|n|z|v)\.at2", r"[-_.](?:ns|ew|ud)\.(?:csv|acc)")
+ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:ns|ew|ud)\.(?:csv|acc)")
 """Endings of the names of one record's files."""
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
@@ -33,12 +35,17 @@ def records(folder, target=None, units=None):
     folder = Path(folder).resolve()
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")
-    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in RECORD_FILES)
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
     if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
     found = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
     return [(name, {"record": record, **stated, **window(record, units), **_text(target)}) for name, record in found.items()]
+
+
+def _is_other_table(path):
+    """Whether a CSV file is no record, as a list of search results."""
+    return path.suffix.lower() == ".csv" and sniff(read_lines(path)) is None
 
 
 def _prefix(path):

@@ -57,6 +57,13 @@ def signed_rank(differences):
     return float(stats.wilcoxon(differences).pvalue) if len(differences) else 1.0
 
 
+def is_lower(differences):
+    """Whether the differences are negative by the ranks that `signed_rank` compares."""
+    differences = np.asarray(differences, float)
+    differences = differences[differences != 0]
+    return float(np.sign(differences) @ stats.rankdata(np.abs(differences))) < 0
+
+
 def holm(values, count):
     """p values corrected for `count` tests by Holm's method, of which those that are not given have p = 1."""
     order = np.argsort(values)
@@ -125,5 +132,5 @@ def _result(entry, base, p):
     elif p is None:
         words = f"{NO_DIFFERENCE}: dropped after {entry.dropped} motions"
     else:
-        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if ratio < 1 else "worse"
+        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if is_lower(entry.differences(base)) else "worse"
     return Result(entry, ratio, low, high, collapses, p, words)
