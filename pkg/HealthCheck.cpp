@@ -16,7 +16,7 @@ void HealthCheck::validate() const
 /// doSort: bodies were added or replaced since the collider ran.
 bool HealthCheck::hasSceneChanged() const
 {
-	const auto isSame = [](const Engine* checked, const shared_ptr<Engine>& now) { return checked == now.get(); };
+	const auto isSame = [](const CheckedEngine& checked, const shared_ptr<Engine>& now) { return checked == CheckedEngine(now.get(), now->dead); };
 	return scene->doSort || checkedEngines.size() != scene->engines.size()
 	        || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
 }
@@ -39,7 +39,7 @@ void HealthCheck::checkScene()
 	checkedScene = current;
 	checkedEngines.clear();
 	for (const shared_ptr<Engine>& e : scene->engines)
-		checkedEngines.push_back(e.get());
+		checkedEngines.emplace_back(e.get(), e->dead);
 }
 
 /// Parts of a body are replaced between checks of the scene only; numbers of its state may change at any time.
@@ -57,9 +57,10 @@ void HealthCheck::checkState(const Body& b) const
 
 void HealthCheck::action()
 {
+	if (!(scene->dt > 0 && std::isfinite(scene->dt))) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
+	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
 	const bool changed = hasSceneChanged();
 	if (!changed && scene->iter % every != 0) return;
-	if (!(scene->dt > 0)) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be > 0");
 	if (changed) checkScene();
 	for (const shared_ptr<Body>& b : *scene->bodies)
 		if (b) checkState(*b);

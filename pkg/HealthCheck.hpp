@@ -6,7 +6,8 @@
 namespace yade {
 
 class HealthCheck : public GlobalEngine {
-	std::vector<const Engine*> checkedEngines; ///< list of engines at the last check of the scene
+	using CheckedEngine = std::pair<const Engine*, bool>; ///< engine, whether it is dead
+	std::vector<CheckedEngine> checkedEngines; ///< at the last check of the scene
 	boost::weak_ptr<Scene> checkedScene;
 
 	bool hasSceneChanged() const;

@@ -2,6 +2,7 @@
 #include <Joints.hpp>
 #include <kernel/threads.hpp>
 #include <validation.hpp>
+#include <set>
 
 namespace yade {
 
@@ -212,10 +213,24 @@ void JointEngine::collectBodies()
 	}
 }
 
+void JointEngine::checkJoints() const
+{
+	std::set<const TimberJoint*> known;
+	const auto refuse = [](size_t k, const string& fault) { throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault); };
+	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
+	for (size_t k = 0; k < joints.size(); ++k) {
+		const TimberJoint& joint = *joints[k];
+		if (!known.insert(&joint).second) refuse(k, "the same joint is in the list before");
+		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
+			refuse(k, "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2) + ": they must be ids of two bodies");
+	}
+}
+
 /// Packs the joints again if there are others, or if attributes have changed.
 void JointEngine::packJoints()
 {
 	if (packed->isCurrent && packed->joints.size() == joints.size()) return;
+	checkJoints();
 	packed.reset(new timber::PackedJoints);
 	for (const shared_ptr<TimberJoint>& joint : joints)
 		joint->pack(packed);

@@ -119,6 +119,7 @@ class JointEngine : public GlobalEngine {
 
 	bool hasBody(Body::id_t) const;
 	void collectBodies();
+	void checkJoints() const;
 	void packJoints();
 	timber::JointPlacement placement(const timber::PackedJoint& joint) const
 	{

@@ -14,6 +14,8 @@ namespace yade {
 namespace {
 	bool isKindOf(const string& name, const string& base) { return name == base || Omega::instance().isInheritingFrom_recursive(name, base); }
 
+	const char* const integrator = "an integrator (SymplecticIntegrator)";
+
 	/// Task of an engine. Engines of a lower rank come before those of a higher one.
 	struct Role {
 		const char* name;
@@ -30,7 +32,7 @@ namespace {
 		{ "gravity", 3, false, { "UniformGravity", "FieldApplier" } },
 		{ "GroundMotionEngine", 3, false, { "GroundMotionEngine" } },
 		{ "ContactForces", 4, true, { "ContactForces" } },
-		{ "an integrator (SymplecticIntegrator)", 5, true, { "SymplecticIntegrator", "NewtonIntegrator" } },
+		{ integrator, 5, true, { "SymplecticIntegrator" } },
 		{ "HouseMonitor", 6, false, { "HouseMonitor" } },
 		{ "StructureMonitor", 6, false, { "StructureMonitor" } },
 		{ "RestSkipper", 7, false, { "RestSkipper" } },
@@ -144,9 +146,16 @@ void checkEngines(const Scene& scene)
 {
 	std::map<const Role*, int> count;
 	const Role* last = nullptr;
+	const Engine* late = nullptr; // behind ContactForces, without a role
 	for (const shared_ptr<Engine>& engine : scene.engines) {
+		if (engine->dead) continue;
 		const Role* role = roleOf(*engine);
+		if (!role && last && last->name == string("ContactForces")) late = engine.get();
 		if (!role) continue;
+		if (late && role->name == integrator)
+			refuseEngines(late->getClassName()
+			        + " stands between ContactForces and the integrator, so that contacts would not know its forces. Move it before ContactForces "
+			          "or to the end");
 		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor")) refuseEngines(string(role->name) + " is there twice");
 		if (last && role->rank < last->rank) refuseEngines(string(role->name) + " must come before " + last->name);
 		last = role;
@@ -157,7 +166,6 @@ void checkEngines(const Scene& scene)
 
 void checkContacts(const Scene& scene)
 {
-	if (scene.isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
 	const InteractionLoop& loop = findLoop(scene);
 	const auto& boxes = findCollider(scene).boundDispatcher->functors;
 	const std::vector<const Body*> kinds = kindsOfBodies(scene);

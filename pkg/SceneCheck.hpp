@@ -8,7 +8,7 @@ namespace yade {
 /// The list of engines is complete, without doubles and in order. Throws std::runtime_error.
 void checkEngines(const Scene&);
 
-/// Each pair of shapes, materials and contact laws that can occur has a functor; the cell is not periodic. Throws std::runtime_error.
+/// Each pair of shapes, materials and contact laws that can occur has a functor. Throws std::runtime_error.
 void checkContacts(const Scene&);
 
 /// Shape, material, state and mass of a body are those that the package's engines can deal with. Throws std::runtime_error.

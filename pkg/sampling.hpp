@@ -9,6 +9,7 @@ namespace yade {
 /// next: simulated time of the next sample [s]; interval: between samples, 0 for each step [s]
 inline bool isSampleDue(const Scene& scene, Real interval, Real& next)
 {
+	if (next > scene.time + interval + scene.dt) next = scene.time; // O.resetTime()
 	if (scene.time < next - scene.dt / 2) return false;
 	next = math::max(next, scene.time) + interval;
 	return true;

@@ -99,6 +99,84 @@ def test_missing_engine(kind):
     is_one_line(error, "O.engines", kind.__name__, "missing")
 
 
+@pytest.mark.parametrize("kind", [yw.CollisionTrigger, yw.ContactForces, yw.SymplecticIntegrator])
+def test_dead_engine(kind):
+    """Noticed in the next step."""
+    column_on_plate()
+    find_engine(kind).dead = True
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "O.engines", kind.__name__, "missing")
+
+
+def test_other_integrator():
+    column_on_plate()
+    O.engines = [*without(yw.SymplecticIntegrator), yw.NewtonIntegrator(damping=0)]
+    with pytest.raises(RuntimeError, match="integrator .SymplecticIntegrator. is missing"):
+        O.step()
+
+
+def test_forces_behind_the_contacts():
+    """Refused between ContactForces and the integrator; anywhere else YADE's engines may stand."""
+    _, column = column_on_plate()
+    push, chain = yw.ForceEngine(ids=[column], force=(0, 0, -1)), list(O.engines)
+    for place in (1, 2, len(chain) - 2, len(chain)):
+        O.engines = [*chain[:place], push, *chain[place:]]
+        O.step()
+    O.engines = [*chain[:-1], push, chain[-1]]
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "ForceEngine", "between ContactForces and the integrator", "before ContactForces")
+
+
+@pytest.mark.parametrize("dt", [0.0, math.inf])
+def test_time_step_in_a_running_scene(dt):
+    """Refused before it destroys the state."""
+    _, column = column_on_plate()
+    O.dt = dt
+    with pytest.raises(RuntimeError, match="O.dt = .*: it must be finite and > 0"):
+        O.step()
+    assert all(math.isfinite(x) for x in O.bodies[column].state.pos)
+
+
+def test_joints_of_a_list():
+    """A joint that is there twice, joins a body with itself or with none."""
+    plate, column = column_on_plate()
+    engine = find_engine(yw.JointEngine)
+    joint = engine.joints[0]
+    for other, words in ((joint, "same joint"), (yw.TimberJoint(id1=plate, id2=plate), "two bodies"), (yw.TimberJoint(id1=plate, id2=99), "two bodies")):
+        if other is not joint:
+            other.updateAttrs({name: getattr(joint, name) for name in ("anchors1", "anchors2", "normal", "kn", "ks", "strength")})
+        O.engines = [yw.JointEngine() if isinstance(e, yw.JointEngine) else e for e in O.engines]
+        for one in (joint, other):
+            find_engine(yw.JointEngine).append(one)
+        with pytest.raises(RuntimeError) as error:
+            O.step()
+        is_one_line(error, "JointEngine.joints[1]", words)
+
+
+def test_material_in_contact():
+    """Stiffness and friction of the contacts follow; the geometry of a shape in the scene cannot be changed in place."""
+    plate, column = column_on_plate()
+    assert O.interactions[plate, column].phys.friction == pytest.approx(0.5)
+    O.bodies[column].material = yt.timber(friction=0.1)
+    O.run(3, True)
+    assert O.interactions[plate, column].phys.friction == pytest.approx(0.1)
+    with pytest.raises(ValueError, match=f"the shape of body {column} in the scene"):
+        O.bodies[column].shape.radius = 0.01
+
+
+def test_reset_time_keeps_the_monitors():
+    _, column = column_on_plate()
+    monitor = yw.StructureMonitor(bodies=[column], parts=[0], interval=1e-3)
+    O.engines = [*O.engines, monitor]
+    O.run(200, True)
+    before = len(monitor.rows)
+    O.resetTime()
+    O.run(200, True)
+    assert len(monitor.rows) >= 2 * before - 8 > before
+
+
 @pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine, yw.UniformGravity, yw.ContactForces, yw.SymplecticIntegrator, yw.HealthCheck])
 def test_doubled_engine(kind):
     column_on_plate()
@@ -179,6 +257,5 @@ def test_loop_with_the_functors_of_snow_only():
 def test_periodic_cell():
     column_on_plate()
     O.periodic = True
-    O.engines = yt.engines()
     with pytest.raises(RuntimeError, match="periodic"):
         O.step()

@@ -30,6 +30,8 @@ REGISTERED = re.compile(r":yattrtype:`(.*?)`")
 CONVERSION_ERRORS = (TypeError, OverflowError)
 """Of Boost.Python for a value of another type."""
 
+GEOMETRY = ("vertices", "radius")
+"""Attributes of a shape that the geometry of a body follows from."""
 VALIDATED_OF_YADE = ("density",)
 """Attributes of YADE's base classes on which the package's classes depend."""
 
@@ -55,8 +57,17 @@ def _set_attribute(self, name, value):
         raise AttributeError(_unknown(cls, name))
     if attribute.fset is None:
         raise AttributeError(f"{cls.__name__}.{name} is read-only")
+    if name in GEOMETRY and isinstance(self, yw.RoundedPolyhedron):
+        _refuse_shape_in_scene(self, name)
     with _restored(self):
         _assign(self, attribute, name, value)
+
+
+def _refuse_shape_in_scene(shape, name):
+    """Boxes, contacts and mass of a body in the scene would remain those of the old geometry."""
+    for body in yw.Omega().bodies:
+        if body.shape == shape:
+            raise ValueError(f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape to the body")
 
 
 def _assign(self, attribute, name, value):

@@ -129,6 +129,6 @@ def _check(body, name):
     if body.shape is None:
         raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out")
     _plugin.check_replaced_part(body)
-    if name == "shape":  # the functors of its contacts are those of the old one
+    if name in ("shape", "material"):  # functors, stiffness and friction of its contacts are those of the old part
         for interaction in body.intrs():
             O.interactions.erase(interaction.id1, interaction.id2)

@@ -6,6 +6,9 @@ from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
 
+LEAST_RADIUS = 1e-4
+"""Smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]"""
+
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 
@@ -105,6 +108,8 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     material = timber() if material is None else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
     fixed = arguments.flag("fixed", fixed)
     radius = 0 if radius is None else arguments.positive("radius", radius, "m")
+    if 0 < radius < LEAST_RADIUS:
+        arguments.refuse(ValueError, "radius", radius, f"at least {LEAST_RADIUS:g} m: contacts carry no more than at an overlap of both radii")
     name, kind = arguments.text("name", name), arguments.text("kind", kind)
     look = {} if color is None else {"color": arguments.vector("color", color)}
     body = principal_body(arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind, **look)
