@@ -38,7 +38,7 @@ def arguments():
     made = parser(__doc__, blocks=1, steps=1, house_name="C")
     made.add_argument("--houses", type=count, nargs="+", default=[1, 5, 50, 200], metavar="N", help="numbers of houses (default 1 5 50 200)")
     made.add_argument("--threads", type=count, nargs="+", default=[1, 2], metavar="N", help="numbers of threads (default 1 2)")
-    made.add_argument("--chunks", type=count, default=4, help="measured chunks of steps; their median counts (default %(default)s)")
+    made.add_argument("--chunks", type=count, default=10, help="measured chunks of steps; their median counts (default %(default)s)")
     made.add_argument("--rounds", type=count, default=3, help="processes for each row, run alternately; their median counts (default %(default)s)")
     made.add_argument("--single", action="store_true", help=argparse.SUPPRESS)  # of the process that measures one town
     return made.parse_args()
