@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Optimisations that skip unneeded work: time with and without each of them, and the difference of the results.
 
-    yade -j1 -n -x scripts/bench/benchmark_skips.py [--house C2] [--steps 2000] [--blocks 3] [--out FOLDER]
+    yade -j1 -n -x scripts/bench/benchmark_skips.py [--house C2] [--steps 2000] [--blocks 9] [--out FOLDER]
 
 CPU time, measured alternately with and without, each time in a new scene. Difference of the results: largest distance between the final
 positions of an element. The cache of contact features is measured by benchmark_peers.py ('nothing cached').
@@ -33,7 +33,7 @@ HEADS = ("skipped work", "scene", "with the skip", "without", "speed-up", "large
 
 
 def arguments():
-    return parser(__doc__, blocks=3, steps=2000, house_name="C2").parse_args()
+    return parser(__doc__, blocks=9, steps=2000, house_name="C2").parse_args()
 
 
 # --- scenes: each returns the function that is measured, with or without the skip ----------------------------------------
