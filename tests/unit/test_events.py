@@ -67,6 +67,17 @@ def test_a_column_loose_from_the_start_may_fall():
     assert survey(run).loose_at_start == 1 and max(event["number"] for event in events(run) if event["kind"] == "columns_lost") == 4
 
 
+def test_drift_of_a_structure_is_the_larger_component():
+    """All levels of the main structure moved by 3 cm to the east and 4 cm to the north: 4 cm over the height of its lowest storey, not 5."""
+    run = frames_sample.run(until=1.0)
+    known, state = survey(run), states(run)[0][1]
+    name = known.structures[0]
+    levels = [level for level in known.levels if level.structure == name]
+    moved = run.elements.position.copy()
+    moved[[mark for level in levels for mark in level.marks]] += (0.03, 0.04, 0.0)
+    assert known.drift(State(moved, state.orientation, state.broken), name) == pytest.approx(0.04 / levels[0].height, rel=1e-6)
+
+
 def test_a_resumed_log_repeats_nothing():
     """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
     run = frames_sample.run()

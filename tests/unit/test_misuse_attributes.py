@@ -227,6 +227,7 @@ CALLS = [
     (lambda: yt.box((1, 1, 1), (0, 0, 0), fixed="no"), "fixed"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), radius="thin"), "radius"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), radius=-0.1), "radius"),
+    (lambda: yt.box((1, 1, 1), (0, 0, 0), radius=1e-6), "radius"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), name=5), "name"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), color="red"), "color"),
     (lambda: yt.polyhedron([]), "vertices"),

@@ -166,6 +166,19 @@ def test_material_in_contact():
         O.bodies[column].shape.radius = 0.01
 
 
+def test_peaks_of_a_wall_are_shears():
+    """A spring along its normal alone (ks = 0), pressed together: its force is a shear in the wall's plane, no pull."""
+    O.reset()
+    plate = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
+    block = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.5)))  # above the plate, carried by the joint alone
+    monitor = yw.StructureMonitor(bodies=[block], parts=[0], jointInterval=0)
+    O.dt, O.engines = 1e-4, [*yt.engines(), monitor]
+    yt.connect(plate, block, [(0, 0, 0.5)], normal=(0, 0, 1), stiffness=(1e5, 0), strength=1e4, damping_ratio=1.0)
+    O.run(5000, True)
+    weight = 9.81 * O.bodies[block].state.mass
+    assert monitor.pull[0] == 0 and monitor.shear[0] == pytest.approx(weight, rel=1e-6)  # critically damped: no overshoot; observed 4e-12
+
+
 def test_reset_time_keeps_the_monitors():
     _, column = column_on_plate()
     monitor = yw.StructureMonitor(bodies=[column], parts=[0], interval=1e-3)

@@ -4,7 +4,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
-from ..recording.sentences import broken_of, ratio
+from ..recording.sentences import broken_of, collapse_time, ratio
 from ..recording.walls import count_apart
 from . import fonts
 from .figures import drawable
@@ -56,8 +56,7 @@ class Caption:
         """'12.35 s   storey drift 1/85   3 of 382 joints broken'"""
         run, shown = self.run, min(time, self.run.time[-1])
         parts = [f"{time:6.2f} s{self.speed}"]
-        found = run.summary or {}
-        down = None if "verdicts" in found else found.get("collapse_time_s")  # a town has no collapse of its own
+        down = collapse_time(run.summary or {})
         if down is not None and time >= down:
             parts.append("collapsed")
         elif self.drifts is not None:

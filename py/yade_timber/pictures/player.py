@@ -19,7 +19,7 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..recording import frames, peaks
-from ..recording.sentences import DRIFT_LINES, joint_place, sentence
+from ..recording.sentences import DRIFT_LINES, collapse_time, joint_place, sentence
 from ..recording.walls import wall_sheets
 from . import japanese
 from .key_times import largest_drift, onset, strongest_shaking
@@ -113,7 +113,7 @@ def info(run, largest):
         "levels": [{"value": value, "text": text.split()[0]} for value, text in DRIFT_LINES],
         "events": events(run),
         "main": main_event(run),
-        "collapse": None if "verdicts" in found else found.get("collapse_time_s"),  # of a house, not of a town
+        "collapse": collapse_time(found),
     }
 
 

@@ -37,6 +37,11 @@ def missed_onset(found):
     return onset if onset and found.get("duration_s", onset) < onset else None
 
 
+def collapse_time(found):
+    """Time at which a house collapsed [s]; None without, and for a town, which has none of its own."""
+    return None if "verdicts" in found else found.get("collapse_time_s")
+
+
 def first_time(found, kind):
     """Time of the first event of a kind [s], or None."""
     return next((event["time_s"] for event in found.get("events", []) if event["kind"] == kind), None)

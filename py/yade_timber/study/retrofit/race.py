@@ -52,15 +52,18 @@ def needed_motions(count):
 
 def signed_rank(differences):
     """Two-sided p of Wilcoxon's signed-rank test; 1 without a difference that is not zero."""
-    differences = np.asarray(differences, float)
-    differences = differences[differences != 0]
+    differences = _not_zero(differences)
     return float(stats.wilcoxon(differences).pvalue) if len(differences) else 1.0
+
+
+def _not_zero(differences):
+    differences = np.asarray(differences, float)
+    return differences[differences != 0]
 
 
 def is_lower(differences):
     """Whether the differences are negative by the ranks that `signed_rank` compares."""
-    differences = np.asarray(differences, float)
-    differences = differences[differences != 0]
+    differences = _not_zero(differences)
     return float(np.sign(differences) @ stats.rankdata(np.abs(differences))) < 0
 
 
