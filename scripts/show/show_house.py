@@ -5,7 +5,7 @@ import json
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.house import build_house, load_house, shipped_houses, weigh
+from yade_timber.house import build_house, diagnose, load_house, shipped_houses, weigh
 from yade_timber.pictures import drawings
 from yade_timber.pictures.figures import stem_of
 
@@ -22,7 +22,8 @@ def main():
     options = arguments()
     with errors_in_a_line(options.out or "the picture"):
         model = build_house(load_house(options.house), options.snow)
-        print(json.dumps({**model.counts(), "weight": weigh(model)}, indent=2))
+        judged = diagnose(model)
+        print(json.dumps({**model.counts(), "weight": weigh(model), "diagnosis": judged}, indent=2))
         written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)
     print("written: " + ", ".join(map(str, written)))
 

@@ -9,6 +9,7 @@ from .bays import free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses
+from .diagnosis import comparison, diagnose
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
 from .overlay import brace_parts, changed_house, wall_parts
@@ -16,5 +17,6 @@ from .town import Lot, Town, load_town
 from .weight import weigh
 
 __all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec", "Lot", "Town",
-           "brace_parts", "build_house", "changed_house", "check_house", "free_bays", "free_wall_bays", "load_house", "load_town", "overlaps", "shipped_houses",
+           "brace_parts", "build_house", "changed_house", "check_house", "comparison", "diagnose",
+           "free_bays", "free_wall_bays", "load_house", "load_town", "overlaps", "shipped_houses",
            "wall_parts", "weigh"]

@@ -17,7 +17,7 @@ from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
 from .structure import Structure, require_few
-from .walls import sheathe
+from .walls import multiplier, sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
@@ -127,4 +127,4 @@ def _model(description, elements, joints, structures, depth):
     levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"} for s in structures.values()}
     grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
     return HouseModel(data["name"], data["description"], elements, joints, {k: dict(v) for k, v in data["materials"].items()},
-                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids)
+                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids, {name: multiplier(table) for name, table in data["wall_types"].items()})

@@ -2,7 +2,7 @@
 """A built house: elements (convex polyhedra), joints (spring points), and counts of both."""
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -114,6 +114,7 @@ class HouseModel:
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}
+    multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
 
     def __repr__(self):
         return f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of snow>"

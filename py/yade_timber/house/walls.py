@@ -94,6 +94,11 @@ def backbone(table):
             STIFFNESS_RATIO * allowable if table["stiffness"] is None else table["stiffness"])
 
 
+def multiplier(table):
+    """Wall multiplier of a type: its own, else that of its strength, as the allowable shear is two thirds of it. [-]"""
+    return table["multiplier"] or table["strength"] / (STRENGTH_RATIO * ALLOWABLE)
+
+
 def sheathe(structure, elements, data):
     """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file."""
     members = [element for element in elements if element.group in (structure.name, "")]

@@ -115,7 +115,7 @@ def house(frames, found):
     braces += "; orange: joints broken from the start" * any(frames.joints.damaged)
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
-        f"<p>Plans, north up{braces}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}</p>"
+        f"<p>Plans, north up{braces}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
         f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W</th></tr>{rows}</table>"
     )
 
@@ -130,6 +130,12 @@ def weight(known):
     per_area = "" if known["per_floor_area_kn_m2"] is None else f", {known['per_floor_area_kn_m2']:.2f} kN per m² of {known['floor_area_m2']:.0f} m² of floor"
     snow = f"; snow {known['snow_kn']:.0f} kN" if known["snow_kn"] else ""
     return f"Weight {known['total_kn']:.0f} kN{per_area}{snow}."
+
+
+def diagnosis(found):
+    """The seismic index beside the run, and why they disagree; empty for runs of before it was reported."""
+    known = found.get("diagnosis")
+    return "" if known is None else text(f" By the diagnosis of engineers: {known['sentence']}. {known['disagreement']}")
 
 
 def motion(frames, found):

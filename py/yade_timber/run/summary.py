@@ -8,7 +8,7 @@ import yade.wrapper as yw
 from .. import _plugin
 from ..base.atomic_write import write_text
 from ..base.table import csv_text
-from ..house import weigh
+from ..house import comparison, diagnose, weigh
 from ..motion import interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
@@ -49,6 +49,7 @@ def summary(scenario, observed, tables, wall_s):
         "snow_depth_m": scenario.snow_depth,
         "snow_mass_kg": model.counts()["mass_snow"],
         "weight": weigh(model),
+        "diagnosis": diagnose(model),
         "joint_damping": scenario.joint_damping,
         "record": record(scenario),
         "dt": scenario.dt,
@@ -78,6 +79,7 @@ def summary(scenario, observed, tables, wall_s):
         "energy": energy_balance(queries.energy()),
         "versions": versions(),
     }
+    found["diagnosis"]["disagreement"] = comparison(found["diagnosis"], found["collapsed"])
     found["structures"] = structures(found, observed, state)
     found["quantities"] = quantities.summarised(tables, observed)
     return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}

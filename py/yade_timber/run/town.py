@@ -160,11 +160,11 @@ class TownRun:
             place = lot.name, found["model"], lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
             times = ["" if found[key] is None else found[key] for key in ("tilt_time_s", "collapse_time_s")]
             joints, sheets = joints_and_sheets(found)
-            rows.append((*place, found["verdict"], drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
+            rows.append((*place, found["verdict"], found["diagnosis"]["iw"], drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
         return csv_text(COLUMNS, rows)
 
 
-COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "peak drift [-]", "residual drift [-]", "tilt [s]",
+COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]", "peak drift [-]", "residual drift [-]", "tilt [s]",
            "collapse [s]", "broken joints", "joints", "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
 

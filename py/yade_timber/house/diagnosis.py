@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Diagnosis of a house by the published rules: wall quantity, its balance, uplift of columns, seismic index Iw = Qu eKfl dK / Qr.
+
+Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources: diagnosis_tables.py.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.gravity import weight_of
+from ..base.joint_kinds import WALL_COLUMN
+from . import diagnosis_tables as rules
+from .loads import upper_area
+from .weight import floor_area
+
+DIRECTIONS = {"ew": 0, "ns": 1}
+"""Direction and the index of its axis."""
+
+
+@dataclass(frozen=True)
+class RatedBay:
+    """A bay with braces or sheets without openings: its columns (elements) and the sum of its multipliers [-]."""
+
+    low: object
+    high: object
+    multiplier: float
+
+    @property
+    def run(self):
+        """(2,) between the axes of the columns [m]."""
+        return (self.high.solid.centroid - self.low.solid.centroid)[:2]
+
+    @property
+    def axis(self):
+        return int(np.argmax(np.abs(self.run)))
+
+    @property
+    def quantity(self):
+        """Effective wall length. [m]"""
+        return self.multiplier * float(np.hypot(*self.run))
+
+    @property
+    def centre(self):
+        """(2,) [m]"""
+        return (self.low.solid.centroid + self.high.solid.centroid)[:2] / 2
+
+
+def diagnose(model):
+    """The part `diagnosis` of summaries: least iw and wall quantity of the first structure, as its verdict, and the numbers of each structure.
+
+    None for numbers that the rules do not give: more than three storeys, a structure without floor area.
+    """
+    structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
+    sides = list(_sides(next(iter(structures.values()))))
+    indices = [side["iw"] for side in sides if side["iw"] is not None]
+    quantities = [side["wall_quantity_ratio"] for side in sides if side["wall_quantity_ratio"] is not None]
+    weakest = min(indices, default=None)
+    found = {"iw": weakest, "judgement": judgement(weakest), "wall_quantity_ratio": min(quantities, default=None), "structures": structures}
+    return {**found, "sentence": sentence(found)}
+
+
+def _sides(structure):
+    return (side for storey in structure["storeys"].values() for side in storey["directions"].values())
+
+
+def judgement(iw):
+    """Of a seismic index, or None."""
+    return None if iw is None else next(word for least, word in rules.BANDS if iw >= least)
+
+
+def sentence(diagnosis):
+    """'seismic index Iw 0.54: likely to collapse under a very rare earthquake; wall quantity 61 % of the required one', for people."""
+    if diagnosis["iw"] is None:
+        return "no seismic index: the rules are for one to three storeys with a floor area"
+    return (f"seismic index Iw {diagnosis['iw']:.2f}: {diagnosis['judgement']} under a very rare earthquake; "
+            f"least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one")
+
+
+def comparison(diagnosis, collapsed):
+    """One sentence where the index and the outcome of a run disagree, and why; '' where they agree."""
+    iw = diagnosis["iw"]
+    if iw is None or collapsed == (iw < 1.0):
+        return ""
+    if collapsed:
+        return (f"The house collapsed although Iw is {iw:.2f}: the index counts walls against a standard earthquake and assumes sound joints; "
+                "the run has this motion, this snow and these joints.")
+    return (f"The house stands although Iw is {iw:.2f}: the index is for a very rare earthquake and standard weights; "
+            "the run has this motion and the weight of this house.")
+
+
+def _structure(model, group):
+    storeys, bays = sorted(model.storey_levels[group]), _bays(model, group)
+    roof = _roof_class(model, group)
+    return {
+        "roof": roof,
+        "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays) for storey in storeys},
+        "uplift": _uplift(model, group, bays),
+    }
+
+
+@dataclass(frozen=True)
+class _Rules:
+    """Requirements on a structure: class of its roof, number of storeys, depth of snow [m]."""
+
+    roof: str
+    storeys: int
+    snow: float
+
+    def quantity(self, storey):
+        """[m of wall per m2 of floor], None beyond three storeys."""
+        rows = rules.WALL_QUANTITY["light" if self.roof == "light" else "heavy"].get(self.storeys)
+        return rows and rows[storey - 1] / 100
+
+    def strength(self, storey):
+        """Qr [kN/m2], None beyond three storeys."""
+        rows = rules.REQUIRED_STRENGTH[self.roof].get(self.storeys)
+        first, last = rules.SNOW_DEPTHS
+        snow = rules.SNOW_STRENGTH * min(self.snow, last) if self.snow >= first else 0.0
+        return rows and rows[storey - 1] + snow
+
+
+def _storey(model, group, storey, required, bays):
+    here, area = [bay for bay in bays if bay.low.storey == storey], floor_area(model, group, storey)
+    eccentricity = _eccentricities(here, _mass_centre(model, group, storey))
+    return {"floor_area_m2": round(area, 3),
+            "directions": {name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
+                           for name, axis in DIRECTIONS.items()}}
+
+
+def _direction(bays, axis, area, eccentricity, place):
+    required, storey, plan = place
+    mine = [bay for bay in bays if bay.axis == axis]
+    existing = sum((bay.quantity for bay in mine), 0.0)
+    if required.strength(storey) is None or area <= 0:
+        needed = qr = None
+    else:
+        needed, qr = required.quantity(storey) * area, required.strength(storey) * area
+    qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * existing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
+    factor = eccentricity_factor(eccentricity)
+    quarters = None if needed is None else _quarters(mine, axis, plan, needed)
+    return {
+        "wall_quantity_m": round(existing, 3),
+        "required_quantity_m": _rounded(needed),
+        "wall_quantity_ratio": _rounded(existing / needed if needed else None),
+        "quarters": quarters,
+        "balanced": None if quarters is None else is_balanced(*quarters, eccentricity),
+        "eccentricity": _rounded(eccentricity),
+        "qu_kn": round(qu, 3), "qr_kn": _rounded(qr), "ekfl": round(factor, 3), "dk": rules.DETERIORATION,
+        "iw": _rounded(qu * factor * rules.DETERIORATION / qr if qr else None),
+    }
+
+
+def _rounded(value):
+    return None if value is None else round(value, 3)
+
+
+def eccentricity_factor(eccentricity):
+    """eKfl. eccentricity: None without walls in either direction, which counts as the largest. [-]"""
+    if eccentricity is None:
+        eccentricity = rules.ECCENTRICITY_END
+    if eccentricity < rules.ECCENTRICITY_START:
+        return 1.0
+    return 0.5 if eccentricity >= rules.ECCENTRICITY_END else min(1.0, 1 / (3.33 * eccentricity + 0.5))
+
+
+def is_balanced(low, high, eccentricity):
+    """By Notification 1352: both quarters fulfilled, or not too different; or the eccentricity within its limit."""
+    least, most = sorted((low, high))
+    return bool(least > 1 or (most > 0 and least / most >= rules.QUARTER_RATIO)
+                or (eccentricity is not None and eccentricity <= rules.ECCENTRICITY_LIMIT))
+
+
+def _quarters(bays, axis, plan, needed):
+    """[low, high] existing over required wall quantity of the outer quarters at either side of the walls' direction. plan: (2, 2) [m]"""
+    across = 1 - axis
+    low, high = plan[:, across]
+    quarter = (high - low) / 4
+    sums = [sum(bay.quantity for bay in bays if bay.centre[across] <= low + quarter + 1e-6),
+            sum(bay.quantity for bay in bays if bay.centre[across] >= high - quarter - 1e-6)]
+    return [round(value / (needed / 4), 3) for value in sums]
+
+
+def _eccentricities(bays, mass):
+    """{direction: Re}: distance of the centre of mass from that of rigidity, across the direction, over the elastic radius. None where
+    no wall resists in that direction.
+
+    The rigidity of a bay is its wall quantity: bays of a storey have one height.
+    """
+    sides = {axis: [bay for bay in bays if bay.axis == axis] for axis in (0, 1)}
+    sums = {axis: sum(bay.quantity for bay in mine) for axis, mine in sides.items()}
+    centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis] for axis, mine in sides.items() if sums[axis] > 0}
+    torsion = sum(bay.quantity * (bay.centre[1 - axis] - centre[axis]) ** 2 for axis in centre for bay in sides[axis])
+    return {name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis]) for name, axis in DIRECTIONS.items()}
+
+
+def _eccentricity(rigidity, mass, torsion, total):
+    return abs(mass - rigidity) / np.sqrt(torsion / total) if rigidity is not None and torsion > 0 else None
+
+
+def _mass_centre(model, group, storey):
+    """(2,) of all that the storey carries, without snow: members of higher storeys, and of its own above the columns. [m]"""
+    carried = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"
+               and (e.storey > storey or (e.storey == storey and e.kind not in ("column", "brace")))]
+    total = sum(e.mass for e in carried)
+    return sum(e.mass * e.solid.centroid[:2] for e in carried) / total if total > 0 else np.zeros(2)
+
+
+def _plan(model, group, storey):
+    """(2, 2) lowest and highest axes of the columns of a storey. [m]"""
+    axes = np.array([c.solid.centroid[:2] for c in model.of_kind("column", group=group) if c.storey == storey])
+    return np.array([axes.min(0), axes.max(0)]) if len(axes) else np.zeros((2, 2))
+
+
+def _roof_class(model, group):
+    roofs = model.of_kind("roof", group=group)
+    area = sum(upper_area(roof) for roof in roofs)
+    load = weight_of(sum(roof.mass for roof in roofs)) / area if area > 0 else 0.0
+    return next(name for least, name in rules.ROOF_CLASSES if load >= least)
+
+
+# --- bays -------------------------------------------------------------------------------------------------------------
+
+
+def _bays(model, group):
+    """Rated bays of a structure."""
+    sums, members = {}, {}
+    for low, high, multiplier in [*_sheets(model, group), *_braces(model, group)]:
+        key = tuple(sorted((low.name, high.name)))
+        sums[key], members[key] = sums.get(key, 0.0) + multiplier, (low, high)
+    return [RatedBay(*members[key], min(total, rules.LARGEST_MULTIPLIER)) for key, total in sums.items()]
+
+
+def _sheets(model, group):
+    """(column, column, multiplier) of sheets without openings."""
+    for joint in model.joints:
+        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not joint.label.endswith((".window.columns", ".door.columns")):
+            yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
+
+
+def _braces(model, group):
+    """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
+    columns = model.of_kind("column", group=group)
+    for brace in model.of_kind("brace", group=group):
+        ends = [brace.vertices[np.argmin(brace.vertices[:, 2])][:2], brace.vertices[np.argmax(brace.vertices[:, 2])][:2]]
+        here = [column for column in columns if column.storey == brace.storey]
+        foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
+        if foot is not head:
+            yield foot, head, brace_multiplier(brace.section)
+
+
+def brace_multiplier(section):
+    """Of a brace of this section [m]; 0 below the sections of the law. [-]"""
+    thin, wide = sorted(section)
+    if wide < rules.BRACE_WIDTH - 1e-9:
+        return 0.0
+    return next((value for least, value in rules.BRACES if thin >= least - 1e-9), 0.0)
+
+
+# --- uplift -----------------------------------------------------------------------------------------------------------
+
+
+def _uplift(model, group, bays):
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need with its joint [kN].
+
+    The corrections for the direction of braces are left out.
+    """
+    storeys = sorted(model.storey_levels[group])
+    columns = {(c.storey, *np.round(c.solid.centroid[:2], 3)): c for c in model.of_kind("column", group=group)}
+    strengths = _foot_strengths(model)
+    needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name) for key, column in columns.items()]
+    rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
+    if not rows:
+        return None
+    need, strength, name = max(rows, key=lambda row: row[0])
+    return {"columns": len(rows), "too_weak": sum(row[0] > row[1] + 1e-9 for row in rows),
+            "largest_kn": round(need, 3), "fitting_kn": round(strength, 3) if np.isfinite(strength) else None, "column": name}
+
+
+def n_value(columns, key, bays, storeys):
+    """N = sum of A B over the column and those above it, less L. columns: {(storey, x, y): element}; the larger of both directions. [-]"""
+    storey, x, y = key
+    stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
+    corner = [len(column.side) > 1 for column in stack]
+    vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
+    sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner)) for axis in (0, 1)]
+    return max(sums) - vertical
+
+
+def _difference(column, bays, axis):
+    """A: difference of the multipliers on either side of a column. [-]"""
+    sides = [0.0, 0.0]
+    for bay in bays:
+        if bay.axis == axis and column in (bay.low, bay.high):
+            sides[int(bay.centre[axis] > column.solid.centroid[axis])] += bay.multiplier
+    return abs(sides[1] - sides[0])
+
+
+def _foot_strengths(model):
+    """{column: strength of its joints at the foot in tension [kN]}; broken joints have none."""
+    strengths = {}
+    for joint in model.joints:
+        if joint.kind == "column_beam" and joint.end == "bottom":
+            whole = joint.strength * (1 if joint.per == "joint" else len(joint.points))
+            strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else whole / 1000)
+    return strengths
