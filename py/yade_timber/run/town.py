@@ -164,8 +164,8 @@ class TownRun:
         return csv_text(COLUMNS, rows)
 
 
-COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]", "peak drift [-]", "residual drift [-]", "tilt [s]",
-           "collapse [s]", "broken joints", "joints", "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
+COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]", "peak drift [-]", "residual drift [-]",
+           "tilt [s]", "collapse [s]", "broken joints", "joints", "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
 
 
