@@ -33,7 +33,7 @@ def test_sources_are_formatted():
 @needs_clang_format
 @pytest.mark.parametrize("name, text", [("pkg/wrong.cpp", "int  f( ){return 1 ;}\n"), ("py/wrong.py", "import os\n")])
 def test_check_finds_a_fault(tmp_path, name, text):
-    for folder in ("pkg", "py", "scripts", "tests", "benchmarks", "cmake", "docs"):
+    for folder in ("pkg", "py", "scripts", "tests", "benchmarks", "cmake", "docs", "research"):
         (tmp_path / folder).mkdir()
     for file in (".clang-format", ".flake8", "scripts/format"):
         shutil.copy(ROOT / file, tmp_path / file)

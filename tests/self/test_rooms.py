@@ -1,12 +1,18 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> pictures; study starts runs and reads recordings; api over all."""
+"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> pictures; study starts runs and reads recordings; api over all.
+
+Inside study: driver -> batch -> retrofit; driver -> ensemble. The package, its scripts and their tests never import the research beside it.
+"""
 import ast
 from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).resolve().parents[2] / "py" / "yade_timber"
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "py" / "yade_timber"
+RESEARCH = "timber_research"
+"""Package beside the installed one."""
 YADE = {"yade", "_plugin", "host"}
 """YADE itself, the compiled module, and the module that loads it."""
 ALL = {"house", "motion", "scene", "run", "recording", "pictures", "study", "api"}
@@ -21,11 +27,23 @@ FORBIDDEN = {
     "study": {"api"},
 }
 """Room: what its modules must not import. api may import everything."""
+STUDY = {"options", "driver", "batch", "ensemble", "retrofit"}
+FORBIDDEN_IN_STUDY = {
+    "options": STUDY - {"options"},
+    "driver": STUDY - {"driver"},
+    "batch": {"options", "ensemble", "retrofit"},
+    "ensemble": {"options", "batch", "retrofit"},
+    "retrofit": {"options", "ensemble"},
+}
+"""Part of study, a module or a folder: the parts that it must not import."""
 
 
-def imported(text, module):
-    """Rooms, 'yade' and top-level modules that a module's source imports anywhere. module: its path below the package, as 'run/live.py'."""
-    found = set()
+def imported(text, module, room="yade_timber"):
+    """Parts of a room, 'yade' and top-level modules that a module's source imports anywhere.
+
+    module: its path below the package, as 'run/live.py'; room: the package, or one of its rooms, as 'yade_timber.study'
+    """
+    depth, names_of_parts = len(room.split(".")), set()
     parents = Path(module).parts[:-1]
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
@@ -37,14 +55,22 @@ def imported(text, module):
             names = [start + alias.name.split(".") for alias in node.names]
         else:
             continue
-        found |= {name[1] if name[0] == "yade_timber" and len(name) > 1 else name[0] for name in names}
-    return found
+        names_of_parts |= {name[depth] if name[:depth] == room.split(".") and len(name) > depth else name[0] for name in names}
+    return names_of_parts
 
 
-def offences(package, forbidden=FORBIDDEN):
-    """['module imports room', ...] of the modules in the rooms of a package."""
-    modules = [path.relative_to(package).as_posix() for room in forbidden for path in sorted((package / room).rglob("*.py"))]
-    return [f"{module} imports {room}" for module in modules for room in sorted(imported((package / module).read_text(), module) & forbidden[module.split("/")[0]])]
+def offences(package, forbidden=FORBIDDEN, room="yade_timber"):
+    """['module imports part', ...] of the modules in the parts of a room. package: the folder of yade_timber."""
+    inside = Path(*room.split(".")[1:])
+    paths = [path for part in forbidden for path in (package / inside / f"{part}.py", *sorted((package / inside / part).rglob("*.py"))) if path.is_file()]
+    return [
+        f"{path.relative_to(package).as_posix()} imports {name}"
+        for path in paths
+        for name in sorted(
+            imported(path.read_text(), path.relative_to(package).as_posix(), room)
+            & forbidden[path.relative_to(package / inside).with_suffix("").parts[0]]
+        )
+    ]
 
 
 def test_rooms():
@@ -55,6 +81,42 @@ def test_every_room_is_there():
     assert {path.name for path in PACKAGE.iterdir() if (path / "__init__.py").exists()} == {*FORBIDDEN, "api"}
 
 
+def test_rooms_inside_study():
+    assert offences(PACKAGE, FORBIDDEN_IN_STUDY, "yade_timber.study") == []
+    assert {path.stem for path in (PACKAGE / "study").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()} == {*STUDY, "__init__"}
+
+
+@pytest.mark.parametrize("line, part", [
+    ("from ..driver import Task", None),
+    ("from . import results", None),
+    ("from ..batch.table import COLUMNS", "batch"),
+    ("from .. import retrofit", "retrofit"),
+    ("import yade_timber.study.options", "options"),
+])
+def test_an_offence_inside_study_is_found(tmp_path, line, part):
+    (tmp_path / "study" / "ensemble").mkdir(parents=True)
+    (tmp_path / "study" / "ensemble" / "runs.py").write_text(line + "\n")
+    assert offences(tmp_path, FORBIDDEN_IN_STUDY, "yade_timber.study") == ([f"study/ensemble/runs.py imports {part}"] if part else [])
+
+
+def importers_of_research(root):
+    """Python files of the package, its scripts and their tests that import the research."""
+    paths = [path for folder in ("py", "scripts", "tests") for path in sorted((root / folder).rglob("*.py"))]
+    return [path.relative_to(root).as_posix() for path in paths if RESEARCH in imported(path.read_text(), path.name)]
+
+
+def test_research_imports_the_package_and_never_the_reverse():
+    assert importers_of_research(ROOT) == []
+    assert all((ROOT / "research" / RESEARCH / name).is_file() for name in ("claims.py", "screening/cells.py"))
+
+
+@pytest.mark.parametrize("line", ["import timber_research", "from timber_research.claims import STILL", "def f():\n    from timber_research import design"])
+def test_an_import_of_research_is_found(tmp_path, line):
+    (tmp_path / "scripts").mkdir()
+    (tmp_path / "scripts" / "study.py").write_text(line + "\n")
+    assert importers_of_research(tmp_path) == ["scripts/study.py"]
+
+
 @pytest.mark.parametrize(
     "line, room",
     [
@@ -63,7 +125,7 @@ def test_every_room_is_there():
         ("from .. import _plugin", "_plugin"),
         ("from ..scene import engines", "scene"),
         ("from ..run.cli import Output", "run"),
-        ("import yade_timber.study.claims", "study"),
+        ("import yade_timber.study.driver", "study"),
         ("from yade_timber import scene", "scene"),
         ("def f():\n    from ..scene.bodies import box", "scene"),
     ],

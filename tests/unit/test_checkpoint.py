@@ -101,7 +101,7 @@ def package(tmp_path_factory):
         ("pictures/raster.py", False),
         ("pictures/player.py", False),
         ("data/player/page.css", False),
-        ("study/claims.py", False),
+        ("study/driver.py", False),
         ("recording/sentences.py", False),
         ("scene/engines.py", True),
         ("scene/scenario.py", True),

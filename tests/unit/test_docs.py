@@ -21,7 +21,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", *(page for folder in ("docs", "research") for page in sorted((ROOT / folder).rglob("*.md")))]
 LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROSE = [page for page in LINKED if page.parent.name not in ("accuracy", "performance")] + [ROOT / "CHANGELOG.md"]  # the others are written by scripts
 LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40

@@ -164,7 +164,7 @@ def test_a_run_can_draw_in_copies_of_its_process(tmp_path):
 def test_studies_take_the_runs_that_they_make(straight, study):
     """A study, which needs no YADE, imports the same state of the package as its runs."""
     options = summary(straight)["made_from"]["options"]
-    asks = f"import runpy; of = runpy.run_path({str(SCRIPTS / 'paper' / study)!r} + '.py'); print(of['Task']('run', of['Path']({str(straight)!r}), {options!r}).summary is not None)"
+    asks = f"import runpy; of = runpy.run_path({str(SCRIPTS.parent / 'research' / study)!r} + '.py'); print(of['Task']('run', of['Path']({str(straight)!r}), {options!r}).summary is not None)"
     assert subprocess.run([sys.executable, "-c", asks], capture_output=True, text=True).stdout == "True\n"
 
 

@@ -30,7 +30,7 @@ GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
 DEFAULT_SEED = 3
-"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds differ, see docs/claims."""
+"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds differ, see research/claims."""
 
 DT = 0.01
 """Time step. [s]"""

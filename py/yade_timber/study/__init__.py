@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Studies: claims of the paper, designed variants of the houses, batches of runs. Needs no YADE."""
+"""Studies: many runs of a scenario, of a table, of variants of a house. Needs no YADE."""

@@ -4,7 +4,6 @@
     runs.py        tasks of the driver, from the first run to the last result
     statistics.py  summaries -> medians and ranges of numbers, shares of outcomes, the run that is shown
     results.py     ensemble.json, ensemble.csv, text for the terminal, results of the run that is shown
-    comparison.py  two-sample tests between two ensembles
 """
 from .runs import complete, tasks
 

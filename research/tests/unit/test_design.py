@@ -2,17 +2,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The two-level design: balance, orthogonality, resolution, strings of confounded interactions. All numbers are exact."""
 
-import sys
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
-from yade_timber.study import design  # noqa: E402
+from timber_research import design
 
 FACTORS = range(1, 17)
 

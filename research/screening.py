@@ -2,25 +2,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Screening of the choices that the paper leaves open: 32 sets of houses, each under several motions.
 
-    scripts/paper/screening.py [-j 2] [--out results/screening] [--seeds 3,0,1,2] [--record PREFIX] [--cells 0-15] [--collect]
+    research/screening.py [-j 2] [--out results/screening] [--seeds 3,0,1,2] [--record PREFIX] [--cells 0-15] [--collect]
 
-A two-level fractional factorial of resolution IV varies twelve choices (py/yade_timber/study/factors.py) at once. Each cell has eleven runs
+A two-level fractional factorial of resolution IV varies twelve choices (timber_research/factors.py) at once. Each cell has eleven runs
 under each motion, and three with snow alone; runs end at a collapse. Cells are run one after the other; the first 16 are a design of
 resolution III. Writes screening.csv (cells), effects.csv, screening.md and screening.png. It can be stopped; the same command continues.
 """
 import argparse
-import sys
-from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
-
-from yade_timber.study import design  # noqa: E402
-from yade_timber.study.batch import read_table, run_rows, write_runs  # noqa: E402
-from yade_timber.study.batch.tasks import task_of  # noqa: E402
-from yade_timber.study.options import Parser, add_driver_options, list_of, non_negative, positive, record, run_script, seed  # noqa: E402
-from yade_timber.study.screening import cells, picture, report  # noqa: E402
-from yade_timber.study.screening.collect import collect  # noqa: E402
+from timber_research import SCRIPTS, design
+from timber_research.screening import cells, picture, report
+from timber_research.screening.collect import collect
+from yade_timber.study.batch import read_table, run_rows, write_runs
+from yade_timber.study.batch.tasks import task_of
+from yade_timber.study.options import Parser, add_driver_options, list_of, non_negative, positive, record, run_script, seed
 
 
 def arguments():

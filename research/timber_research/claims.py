@@ -13,7 +13,7 @@ starts to tilt        last time before the tilt (drift 1/10) at which the drift 
 import math
 from dataclasses import dataclass
 
-from ..recording.sentences import direction_name, ratio
+from yade_timber.recording.sentences import direction_name, ratio
 
 SWAY = 1 / 120
 """Smallest sway that counts: Japanese practice assumes damage of a timber house beyond this drift. [-]"""

@@ -2,22 +2,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Do the paper's fourteen runs, then print and write the table of its claims with their numbers.
 
-    scripts/paper/paper_table.py [--out results] [--jobs 2] [--record PREFIX | --seed N] [--scale X] [--dt S] [--duration S]
+    research/paper_table.py [--out results] [--jobs 2] [--record PREFIX | --seed N] [--scale X] [--dt S] [--duration S]
 
 A run is kept if its folder holds a summary.json made from the same options, files and package; otherwise it is done. Writes claims.md,
 claims.csv, claims.json and runs.csv. Needs no YADE itself.
 """
-import sys
-from pathlib import Path
-
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
-
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.study import report  # noqa: E402
-from yade_timber.study.claims import RUNS, judge, parse_run  # noqa: E402
-from yade_timber.study.driver import Task, run_missing  # noqa: E402
-from yade_timber.study.options import Parser, add_driver_options, add_run_options, run_options, run_script  # noqa: E402
+from timber_research import SCRIPTS, report
+from timber_research.claims import RUNS, judge, parse_run
+from yade_timber.base.errors import RunError
+from yade_timber.study.driver import Task, run_missing
+from yade_timber.study.options import Parser, add_driver_options, add_run_options, run_options, run_script
 
 
 def main():

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
+from yade_timber.recording.sentences import counted, span
+from yade_timber.recording.verdict import STATES
+from yade_timber.study.retrofit.race import holm
 
-from ...recording.sentences import counted, span
-from ...recording.verdict import STATES
-from ..claims import damage
-from ..retrofit.race import holm
-from ..screening.responses import drift, lean
+from .claims import damage
+from .screening.responses import drift, lean
 
 SIGNIFICANCE = 0.05
 """Corrected p value below which two ensembles differ."""

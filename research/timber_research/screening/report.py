@@ -2,9 +2,10 @@
 """Tables of a screening: cells, main effects, interactions."""
 import math
 
-from ...base.atomic_write import write_text
-from ...base.table import csv_text
-from ...recording.sentences import counted
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.table import csv_text
+from yade_timber.recording.sentences import counted
+
 from .. import design
 from ..claims import CLAIMS
 from ..factors import FACTORS

@@ -11,11 +11,10 @@ import os
 from pathlib import Path
 
 import pytest
-from yade_timber.study import claims
+from timber_research import SCRIPTS, claims
 from yade_timber.study.driver import Task, run_missing
 
-TESTS = Path(__file__).resolve().parents[1]
-GOLDEN, SCRIPTS = TESTS / "golden" / "paper_runs.json", TESTS.parent / "scripts"
+GOLDEN = Path(__file__).resolve().with_name("paper_runs.json")
 LEFT_OUT = ("wall_s", "real_time_factor", "threads", "made_from", "quantities", "events", "weight")
 """Keys that depend on the machine or the version of the package, and long ones that no test reads."""
 STILL_ATOL = 1e-6
@@ -41,7 +40,7 @@ def write(found):
     """Write the golden file: the summaries and their origin."""
     one = found[claims.RUNS[0]]
     content = {
-        "made_by": "tests/paper/test_paper.py",
+        "made_by": "research/tests/paper/test_paper.py",
         "date": datetime.date.today().isoformat(),
         "versions": one["versions"],
         "dt": one["dt"],

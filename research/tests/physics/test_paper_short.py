@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's claims in short runs: B and C stand under snow, A collapses in strong shaking. The label `paper` has the complete runs.
 
-The shipped house A stands under snow (claim S1 does not hold); it collapses if no column end is supported (docs/claims/claims.md).
+The shipped house A stands under snow (claim S1 does not hold); it collapses if no column end is supported (research/claims/claims.md).
 """
 import math
 
 import pytest
 import yade.wrapper as yw
 import yaml
+from timber_research.claims import STILL
 from yade import O
 from yade_timber.house import changed_house
 from yade_timber.motion import default_motion, trim
 from yade_timber.scene import engines, scenario
-from yade_timber.study.claims import STILL
 
 START, END = 16.6, 26.0
 """Strong shaking of the default motion. [s]"""

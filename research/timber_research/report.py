@@ -2,8 +2,9 @@
 """Tables of claims and runs: Markdown for people, CSV and JSON for programs. Needs no YADE."""
 import json
 
-from ..base.atomic_write import write_text
-from ..base.table import csv_text
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.table import csv_text
+
 from .claims import RUNS, damage, drift_text, leaning, time_text
 
 VERDICTS = {True: "holds", False: "does not hold", None: "not known"}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no YADE."""
-from ..base.atomic_write import write_text
+from yade_timber.base.atomic_write import write_text
+
 from . import report
 from .claims import RUNS, drift_text, judge, parse_run, sway, time_text
 from .report import markdown_table

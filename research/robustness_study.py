@@ -2,23 +2,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Robustness of the claims: in how many of several ground motions each holds.
 
-    scripts/paper/robustness_study.py [--out results/robustness] [--jobs 2] [--seeds 0,1,2,4,5] [--record PREFIX]
+    research/robustness_study.py [--out results/robustness] [--jobs 2] [--seeds 0,1,2,4,5] [--record PREFIX]
 
 Eleven runs for each motion: the shipped one (seed 3), other seeds of the synthetic generator, recorded ones. The motions of all seeds have
 the same published strength. The three runs with snow alone are done once. Runs that are done are kept. Writes robustness.md, and the
 tables of each motion to a folder of its own. Needs no YADE itself.
 """
-import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
-
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.study import comparison  # noqa: E402
-from yade_timber.study.claims import RUNS, parse_run  # noqa: E402
-from yade_timber.study.driver import Task, run_missing  # noqa: E402
-from yade_timber.study.options import Parser, add_driver_options, list_of, record, run_script, seed  # noqa: E402
+from timber_research import SCRIPTS, comparison
+from timber_research.claims import RUNS, parse_run
+from yade_timber.base.errors import RunError
+from yade_timber.study.driver import Task, run_missing
+from yade_timber.study.options import Parser, add_driver_options, list_of, record, run_script, seed
 
 SHIPPED = "shipped"
 

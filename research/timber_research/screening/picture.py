@@ -4,9 +4,9 @@ import textwrap
 
 import numpy as np
 from matplotlib.figure import Figure
+from yade_timber.base.atomic_write import written_whole
+from yade_timber.base.colors import BLUE, GREY, ORANGE
 
-from ...base.atomic_write import written_whole
-from ...base.colors import BLUE, GREY, ORANGE
 from .. import design
 from ..factors import FACTORS
 from .effects import EMPTY, INTERACTION, MAIN, SIGNIFICANT, columns

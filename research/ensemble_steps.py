@@ -2,22 +2,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Ensembles at two time steps: do medians, ranges and shares of outcomes agree within their sampling error?
 
-    scripts/study/ensemble_steps.py [-j 2] [--runs 16] [--dt 1e-4] [--cases modelC2_snow,modelA_quake] [--collect]
+    research/ensemble_steps.py [-j 2] [--runs 16] [--dt 1e-4] [--cases modelC2_snow,modelA_quake] [--collect]
 
 Runs each case 16 times at a small time step and 16 times at the default one, under the strong part of the shipped motion, to its end or to a
 collapse. Writes ensemble_steps.md and ensemble_steps.csv. It can be stopped; the same command continues.
 """
 from itertools import chain
 
-from study_common import SCRIPTS
-
+from timber_research import SCRIPTS, two_ensembles
+from timber_research.report import markdown_table
 from yade_timber.base.atomic_write import write_text
 from yade_timber.base.table import csv_text
 from yade_timber.house.disturbance import LARGEST
 from yade_timber.study.driver import run_missing
-from yade_timber.study.ensemble import comparison, tasks
+from yade_timber.study.ensemble import tasks
 from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, results_folder, run_script, selected
-from yade_timber.study.report import markdown_table
 
 CASES = ("modelC2_snow", "modelA_quake", "modelB1_quake")
 SMALL_STEP = 1e-4
@@ -51,7 +50,7 @@ def collect(planned):
     """(comparisons, {name: time steps [s]}, number of finished runs)."""
     done = {key: [found for task in group if (found := task.summary)] for key, group in planned.items()}
     cases = dict.fromkeys(case for case, _ in done)
-    found = [entry for case in cases for entry in comparison.compare(case, *(done[case, name] for name in NAMES))]
+    found = [entry for case in cases for entry in two_ensembles.compare(case, *(done[case, name] for name in NAMES))]
     steps = {name: sorted({run["dt"] for (_, other), runs in done.items() for run in runs if other == name}) for name in NAMES}
     return found, steps, sum(map(len, done.values()))
 
@@ -60,20 +59,20 @@ def page(found, steps, done, options):
     """Text of ensemble_steps.md."""
     first, second = ("/".join(f"{dt:g} s" for dt in steps[name]) or f"{name} step" for name in NAMES)
     table = [[text.replace("first", first).replace("second", second) if row == 0 else text for text in line]
-             for row, line in enumerate([comparison.HEADER, *comparison.rows(found)])]
-    tested = [p for p in comparison.corrected(found) if p is not None]
-    differ = sum(p < comparison.SIGNIFICANCE for p in tested)
+             for row, line in enumerate([two_ensembles.HEADER, *two_ensembles.rows(found)])]
+    tested = [p for p in two_ensembles.corrected(found) if p is not None]
+    differ = sum(p < two_ensembles.SIGNIFICANCE for p in tested)
     return "\n".join([
         "# Ensembles at two time steps",
         "",
         f"{done} runs, up to {options.runs} of each house at each time step, whose vertices differ by at most {LARGEST:g} m. "
         f"Motion: the shipped one from {options.start:g} to {options.end:g} s; a collapse ends a run.",
-        f"{differ} of {len(tested)} tests show a difference (p < {comparison.SIGNIFICANCE:g} after Holm's correction).",
+        f"{differ} of {len(tested)} tests show a difference (p < {two_ensembles.SIGNIFICANCE:g} after Holm's correction).",
         "",
         "Medians, with the range and the number of runs, are compared by the Mann-Whitney U test, ranges by the Brown-Forsythe test on logarithms, "
         "shares of verdicts by Fisher's exact test. All are two-sided. The interval of a ratio of medians is a bootstrap (percentiles). "
         "Drifts are those of runs that stand. Equal values in all runs, and fewer than "
-        f"{comparison.FEWEST} values, have no test. Ratios within the interval cannot be excluded. "
+        f"{two_ensembles.FEWEST} values, have no test. Ratios within the interval cannot be excluded. "
         "Where chance decides little, a test shows even a small error of the time step; the ratio of medians is its size.",
         "",
         *markdown_table(table[0], table[1:]),
@@ -90,7 +89,7 @@ def main():
         found, steps, done = collect(planned)
         text, folder = page(found, steps, done, options), options.to or options.out
         write_text(folder / "ensemble_steps.md", text)
-        write_text(folder / "ensemble_steps.csv", csv_text(comparison.HEADER, comparison.rows(found)))
+        write_text(folder / "ensemble_steps.csv", csv_text(two_ensembles.HEADER, two_ensembles.rows(found)))
         print(f"{text}\nwritten: {folder / 'ensemble_steps.md'}, {folder / 'ensemble_steps.csv'}")
     return int(done < options.runs * len(planned))
 

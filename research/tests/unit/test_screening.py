@@ -3,27 +3,21 @@
 """The screening: houses of its cells, batch rows, responses, effects of synthetic responses, tables and picture."""
 
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
-from yade_timber.house import build_house, load_house  # noqa: E402
-from yade_timber.study import design  # noqa: E402
-from yade_timber.study.batch import read_table  # noqa: E402
-from yade_timber.study.batch.tasks import task_of  # noqa: E402
-from yade_timber.study.claims import CLAIMS, RUNS  # noqa: E402
-from yade_timber.study.factors import FACTORS, house_entries  # noqa: E402
-from yade_timber.study.screening import cells, picture, report  # noqa: E402
-from yade_timber.study.screening.collect import Results, collect  # noqa: E402
-from yade_timber.study.screening.effects import EMPTY, INTERACTION, MAIN, Effect, effects  # noqa: E402
-from yade_timber.study.screening.responses import COUNT as NUMBER  # noqa: E402
-from yade_timber.study.screening.responses import LOG, RESPONSES, SHARE  # noqa: E402
+from timber_research import design
+from timber_research.claims import CLAIMS, RUNS
+from timber_research.factors import FACTORS, house_entries
+from timber_research.screening import cells, picture, report
+from timber_research.screening.collect import Results, collect
+from timber_research.screening.effects import EMPTY, INTERACTION, MAIN, Effect, effects
+from timber_research.screening.responses import COUNT as NUMBER
+from timber_research.screening.responses import LOG, RESPONSES, SHARE
+from yade_timber.house import build_house, load_house
+from yade_timber.study.batch import read_table
+from yade_timber.study.batch.tasks import task_of
 
 NAMES = [factor.name for factor in FACTORS]
 COUNT = len(FACTORS)

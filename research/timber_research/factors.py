@@ -8,7 +8,7 @@ import copy
 import json
 from dataclasses import dataclass, field
 
-from ..house.loader import SHIPPED, load_table
+from yade_timber.house.loader import SHIPPED, load_table
 
 MATERIALS = ("timber", "roofing", "snow")
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.table import csv_text
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.motion import MotionRequest, onset
+from yade_timber.study.batch.table import NO_EARTHQUAKE
 
-from ...base.atomic_write import write_text
-from ...base.table import csv_text
-from ...base.time_step import DEFAULT_DT
-from ...motion import MotionRequest, onset
 from .. import design
-from ..batch.table import NO_EARTHQUAKE
 from ..claims import RUNS, parse_run
 from ..factors import FACTORS, house_entries
 

@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Driver and robustness."""
-import argparse
+"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Robustness."""
 import json
 import runpy
-import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.run import identity
-from yade_timber.run.identity import made_from
-from yade_timber.study import claims, comparison, driver, report
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import run_options
+from timber_research import claims, comparison, report
+from yade_timber.study.driver import Task
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
@@ -175,67 +170,6 @@ def test_tables(tmp_path):
     assert len(json.loads((tmp_path / "claims.json").read_text())) == 14
 
 
-def fake_script(folder, body):
-    """A folder of scripts with run.py, called like a run script."""
-    (folder / "run.py").write_text(body)
-    return folder
-
-
-WRITES = """import sys, json, pathlib
-from yade_timber.run.identity import made_from
-folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
-words = sys.argv[1:]
-(folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[:words.index('--out')])}))
-"""
-
-
-def test_only_missing_runs_are_done(tmp_path, monkeypatch):
-    """Options reach the script; a run with a summary of the same options is kept; a failed run records its error and does not stop the others."""
-    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
-    scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
-    tasks = [Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
-    tasks[2].folder.mkdir()
-    old = {"old": 1, "made_from": made_from(())}
-    (tasks[2].folder / "summary.json").write_text(json.dumps(old))
-    said = []
-    done = run_missing(tasks, scripts, 2, said.append)
-    assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
-    assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
-    assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
-
-
-def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
-    """Other options, another house file, another file that it extends, another record, another version of the package."""
-    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
-    scripts, said = fake_script(tmp_path, WRITES), []
-    house, beside, record = tmp_path / "own.yaml", tmp_path / "beside.yaml", tmp_path / "own.csv"
-    house.write_text("extends: beside.yaml\n")
-    beside.write_text("name: one\n")
-    record.write_text("1\n")
-
-    def runs_done(seed=1):
-        task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
-        del said[:]
-        assert run_missing([task], scripts, 1, said.append)[task]["made_from"]["options"][-1] == str(seed)
-        return len(said) and "again" in said[-1]
-
-    assert runs_done() is False and runs_done() == 0
-    assert runs_done(seed=2) and runs_done(seed=2) == 0
-    for file in (house, beside, record):
-        file.write_text(file.read_text() + "# changed\n")
-        assert runs_done(seed=2) and runs_done(seed=2) == 0
-    monkeypatch.setattr(identity, "package", lambda: "another")
-    task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2))
-    assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
-    assert task.status == "failed" and "another yade_timber" in task.error and task.error in said[-1]
-
-
-def test_only_runs_with_an_earthquake_get_motion_options():
-    given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
-    assert run_options(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
-    assert run_options(given, earthquake=False) == ("--dt", 1e-4)
-
-
 def test_number_of_motions_in_which_a_claim_holds():
     paper, fewer = paper_results(), {name: run for name, run in paper_results().items() if name != "modelB_quake"}
     wrong = paper | {"modelA_quake": summary("A", sway_ns=0.05)}
@@ -253,7 +187,7 @@ def test_outcome_of_a_house():
 
 def test_robustness_study(tmp_path):
     """Runs without an earthquake are done once; each motion has tables of its own."""
-    study = runpy.run_path(str(Path(__file__).resolve().parents[2] / "scripts" / "paper" / "robustness_study.py"))
+    study = runpy.run_path(str(Path(__file__).resolve().parents[2] / "robustness_study.py"))
     cases = study["all_cases"]([0], ["records/KOBE"])
     tasks = {case: study["tasks_of"](case, options, tmp_path) for case, (_, options) in cases.items()}
     assert {case: len(some) for case, some in tasks.items()} == {"shipped": 14, "seed-0": 11, "KOBE": 11}
