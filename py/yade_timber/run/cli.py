@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Command line of the run scripts -> (Scenario, Output). YADE's own options (-n, -x, -j2) stand before the script's name."""
 import argparse
-import sys
 import tempfile
-import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..base.errors import RunError
+from ..base.notes import noted
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
@@ -299,12 +298,8 @@ def _motion(shaking, request, dt):
         for option in shaking.given():
             raise RunError(f"--{option}: this run has no earthquake; {request.remedy}")
         return None
-    with warnings.catch_warnings(record=True) as notes:
-        warnings.simplefilter("always")
-        motion = shaking.motion(dt, request.motion)
-    for note in notes:
-        print(f"note: {note.message}", file=sys.stderr)
-    return motion
+    with noted():
+        return shaking.motion(dt, request.motion)
 
 
 def prepare_folder(folder):
