@@ -6,6 +6,7 @@ from matplotlib.ticker import FuncFormatter
 from ..base.colors import DIRECTIONS
 from ..motion import GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity
 from .figures import A4, heading, heading_height, new_figure, save
+from .style import default_style
 
 DPI = 150
 LEGEND_HEIGHT = 0.32
@@ -22,6 +23,7 @@ def write(stem, motion, corner):
     return save(page(motion, corner, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(motion, corner, dpi):
     """Figure with the motion. corner: high-pass of velocities and displacements [Hz], or None."""
     figure = new_figure(A4[1], A4[0], dpi)

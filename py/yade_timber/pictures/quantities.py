@@ -19,6 +19,7 @@ from ..recording.lines import main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from .curves import DISSIPATED
 from .figures import A4, drawable, heading, heading_height, new_figure, save
+from .style import default_style
 
 DPI = 150
 SHOWN_JOINTS = 12
@@ -61,6 +62,7 @@ def write(stem, results):
     return save(page(results, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(results, dpi):
     """Figure with all quantities. results: Results"""
     figure = new_figure(*A4, dpi)
