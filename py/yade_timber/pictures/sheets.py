@@ -34,8 +34,8 @@ PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
 CAPTION_LETTERS = 15.5
 """Letters per inch in a caption of CAPTION_SIZE."""
-CAPTION_SIZE, SMALLEST_CAPTION = 9, 5.5
-"""Font sizes of captions. [pt]"""
+CAPTION_SIZE, TWO_LINES_SIZE, SMALLEST_CAPTION = 9, 7.5, 5.5
+"""Font sizes of captions: the usual one, the largest with two lines, the smallest. [pt]"""
 NARROWEST = 0.6
 """Smallest width of a sheet as a part of its format's: titles need it. [-]"""
 END_WIDTH, END_AXES = 12.5, FOOT + 0.25
@@ -103,7 +103,7 @@ def sheet(frames, view, form):
         draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
         if time.frame:
             draw_silhouette(ax, outlines, PANEL_MARK)
-        fitted_title(ax, f"{frames.time[time.frame]:.2f} s: {time.reason}", plan.panel[0])
+        fitted_title(ax, f"{frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
@@ -112,11 +112,16 @@ def sheet(frames, view, form):
     return figure
 
 
-def fitted_title(ax, text, width):
-    """Title of a panel of a width [inch], made smaller and at last cut to fit it."""
+def fitted_title(ax, time, reason, width):
+    """Title of a panel of a width [inch] in one line or, where that would be small, in two; at last cut to fit."""
     room = CAPTION_LETTERS * width  # letters at CAPTION_SIZE
-    text = drawable(text, int(room * CAPTION_SIZE / SMALLEST_CAPTION))
-    ax.set_title(text, fontsize=CAPTION_SIZE * min(1, room / wide(text)), loc="left", pad=3, y=1)
+    lines = [f"{time}: {reason}"]
+    if CAPTION_SIZE * room < TWO_LINES_SIZE * wide(lines[0]):
+        lines = [f"{time}:", reason]
+    lines = [drawable(line, int(room * CAPTION_SIZE / SMALLEST_CAPTION)) for line in lines]
+    largest = CAPTION_SIZE if len(lines) == 1 else TWO_LINES_SIZE
+    size = min(largest, CAPTION_SIZE * room / max(map(wide, lines)))
+    ax.set_title("\n".join(lines), fontsize=size, linespacing=1.0, loc="left", pad=3, y=1)
 
 
 def result(frames):
