@@ -13,8 +13,8 @@ from ..base.input_file import require_regular
 from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
 from ..recording.peaks import COLUMNS, JOINTS, rows
+from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
-from ..recording.quantities import Storeys
 from ..recording.lines import main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from .curves import DISSIPATED
@@ -52,7 +52,7 @@ def read(folder):
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     except ValueError as problem:
         raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
-    if not {"quantities", "weight"} <= summary.keys():
+    if "weight" not in summary or "ground_acceleration" not in summary.get("quantities", {}):
         raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities or weight; repeat the run")
     return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), rows(folder / JOINTS), rows(folder / COLUMNS))
 
@@ -122,15 +122,14 @@ def draw_shears(axis, results):
 
 
 def draw_accelerations(axis, results):
-    """Largest absolute acceleration of each level, and the PGA at the bottom."""
-    found = results.summary["quantities"]["storeys"]
-    ground = (results.summary.get("record") or {}).get("pga_gal", {"ns": 0.0, "ew": 0.0, "ud": 0.0})
+    """Largest absolute acceleration of the ground and of each level, in one band."""
+    found, ground = results.summary["quantities"]["storeys"], results.summary["quantities"]["ground_acceleration"]
     for axis_name in ("ns", "ew", "ud"):
-        values = [ground[axis_name] / 100, *(storey["acceleration"][axis_name] for storey in found.values())]
+        values = [ground[axis_name], *(storey["acceleration"][axis_name] for storey in found.values())]
         axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name], label=direction_name(axis_name).replace("ud", "up-down"))
     axis.set_yticks(range(len(found) + 1), ["ground", *(f"level {k}" for k in range(1, len(found) + 1))])
     axis.set_xlim(0)
-    style(axis, "largest accelerations", "[m/s²]")
+    style(axis, f"largest accelerations, {BAND_TEXT}", "[m/s²]")
     axis.legend(fontsize=7, frameon=False, loc="lower right")
 
 
