@@ -26,6 +26,8 @@ TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 """Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
 FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
 """Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
+POINT_LETTERS = 140.0
+"""Letters per inch of usual text, times its font size. [pt/inch]"""
 LONGEST_TEXT = 400
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
@@ -99,6 +101,11 @@ def footer(figure, text):
 def wide(text):
     """Width of a text in Latin letters: a Japanese one takes two."""
     return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)
+
+
+def fitting_size(text, width, largest):
+    """Font size [pt], at most `largest`, with which a text fits a width [inch]."""
+    return min(largest, POINT_LETTERS * width / max(wide(text), 1))
 
 
 def heading_height(width, subtitle=""):

@@ -18,10 +18,12 @@ from ..recording.quantities import NAME as STOREYS
 from ..recording.lines import main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from .curves import DISSIPATED
-from .figures import A4, drawable, heading, heading_height, new_figure, save
+from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure, save
 from .style import default_style
 
 DPI = 150
+TITLE_SIZE = 8.5
+"""Of diagrams, made smaller to fit them. [pt]"""
 SHOWN_JOINTS = 12
 """Number of joints in the diagram of utilisations."""
 SUMMARY = "summary.json"
@@ -85,7 +87,8 @@ def page(results, dpi):
 
 
 def style(axis, title, x="", y=""):
-    axis.set_title(title, fontsize=8.5, loc="left", y=1)
+    width = axis.get_position(original=True).width * axis.figure.get_size_inches()[0]
+    axis.set_title(title, fontsize=fitting_size(title, width, TITLE_SIZE), loc="left", y=1)
     axis.set_xlabel(x, fontsize=7.5, labelpad=1)
     axis.set_ylabel(y, fontsize=7.5, labelpad=1)
     axis.tick_params(labelsize=7)
@@ -157,7 +160,7 @@ def draw_uplift(axis, results):
     for x, y, uplift in places[stands & (places[:, 2] >= VISIBLE_UPLIFT)]:
         number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
         axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
-    axis.set_aspect("equal")
+    axis.set_aspect("equal", anchor="W")
     axis.margins(0.1)
     style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")
 
@@ -189,4 +192,5 @@ def draw_energy(axis, results):
     names = [DISSIPATED[term][0] for term in found]
     axis.barh(names, list(found.values()), color=[DISSIPATED[term][1] for term in found], height=0.7)
     axis.invert_yaxis()
-    style(axis, f"dissipated energy: {sum(found.values()):.1f} kJ of {results.summary['energy']['input'] / 1e3:.1f} kJ", "[kJ]")
+    axis.locator_params(axis="x", nbins=5)
+    style(axis, f"dissipated energy: {sum(found.values()):.3g} kJ of {results.summary['energy']['input'] / 1e3:.3g} kJ", "[kJ]")

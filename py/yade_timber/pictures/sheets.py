@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..recording.sentences import sentence
 from . import key_times
-from .figures import A4, MARGIN, add_panel, drawable, footer, heading, heading_height, new_figure, save, wide
+from .figures import A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height, new_figure, save
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
@@ -32,8 +32,6 @@ GAP, FOOT, CAPTION = 0.12, 0.76, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
-CAPTION_LETTERS = 15.5
-"""Letters per inch in a caption of CAPTION_SIZE."""
 CAPTION_SIZE, TWO_LINES_SIZE, SMALLEST_CAPTION = 9, 7.5, 5.5
 """Font sizes of captions: the usual one, the largest with two lines, the smallest. [pt]"""
 NARROWEST = 0.6
@@ -114,13 +112,11 @@ def sheet(frames, view, form):
 
 def fitted_title(ax, time, reason, width):
     """Title of a panel of a width [inch] in one line or, where that would be small, in two; at last cut to fit."""
-    room = CAPTION_LETTERS * width  # letters at CAPTION_SIZE
-    lines = [f"{time}: {reason}"]
-    if CAPTION_SIZE * room < TWO_LINES_SIZE * wide(lines[0]):
-        lines = [f"{time}:", reason]
-    lines = [drawable(line, int(room * CAPTION_SIZE / SMALLEST_CAPTION)) for line in lines]
-    largest = CAPTION_SIZE if len(lines) == 1 else TWO_LINES_SIZE
-    size = min(largest, CAPTION_SIZE * room / max(map(wide, lines)))
+    lines, largest = [f"{time}: {reason}"], CAPTION_SIZE
+    if fitting_size(lines[0], width, CAPTION_SIZE) < TWO_LINES_SIZE:
+        lines, largest = [f"{time}:", reason], TWO_LINES_SIZE
+    lines = [drawable(line, int(POINT_LETTERS * width / SMALLEST_CAPTION)) for line in lines]
+    size = min(fitting_size(line, width, largest) for line in lines)
     ax.set_title("\n".join(lines), fontsize=size, linespacing=1.0, loc="left", pad=3, y=1)
 
 
