@@ -23,6 +23,7 @@ from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 from yade_timber.pictures import curves, drawings, film, motion_sheet, player, sheets  # noqa: E402
+from yade_timber.pictures.style import default_style  # noqa: E402
 from yade_timber.pictures.views import FRONT, SIDE  # noqa: E402
 from yade_timber.recording import frames  # noqa: E402
 
@@ -47,6 +48,7 @@ def telling_view(run):
     return SIDE if run.summary and run.summary["tilt_direction"] == "ew" else FRONT
 
 
+@default_style()
 def write(path, figure, dpi=DPI):
     """Write a figure as PNG; returns the path."""
     data = io.BytesIO()

@@ -8,7 +8,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
+from yade_timber.base.encoding import print_anything  # noqa: E402
 from yade_timber.base.errors import InputError  # noqa: E402
+
+print_anything()
 
 UNUSABLE = (ValueError, ArithmeticError, MemoryError)
 """Raised by numpy and matplotlib for valid input with extreme numbers, such as a picture of too many pixels."""

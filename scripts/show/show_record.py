@@ -12,6 +12,7 @@ import sys
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
+from yade_timber.base.notes import noted
 from yade_timber.base.time_step import DEFAULT_DT
 from yade_timber.motion import (
     add_motion_options,
@@ -69,7 +70,8 @@ def main():
     corner = options.corner or None
     with errors_in_a_line(options.out or "the picture"):
         request = motion_request(options)
-        motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
+        with noted():
+            motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
         stem = stem_of(options.out) if options.out else file_name(motion.name)
         written = motion_sheet.write(stem, motion, corner)

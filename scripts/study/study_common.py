@@ -7,9 +7,10 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parents[1]
 sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
 
-import matplotlib  # noqa: E402
+import matplotlib.style  # noqa: E402
 
 matplotlib.use("Agg")
+matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402

@@ -4,7 +4,8 @@
 import numpy as np
 import pytest
 from small_frames import frames
-from yade_timber.pictures import key_times
+from yade_timber.pictures import key_times, report_pictures, sheets
+from yade_timber.pictures.views import FRONT
 
 
 def test_named_times():
@@ -12,16 +13,16 @@ def test_named_times():
     made = frames()
     made.summary = {**made.summary, "tilt_time_s": 1.75}
     found = {chosen.reason: made.time[chosen.frame] for chosen in key_times.choose(made)}
-    assert {"start", "storey drift passes 1/10", "strongest shaking", "end"} <= set(found)
-    assert (found["start"], found["strongest shaking"], found["storey drift passes 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.75, 3))
-    assert "collapse: half a storey down" not in found
+    assert {"start", "drift 1/10", "strongest shaking", "end"} <= set(found)
+    assert (found["start"], found["strongest shaking"], found["drift 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.75, 3))
+    assert "collapse" not in found
     made.summary["tilt_time_s"] = 1.6
     assert "strongest shaking" not in [chosen.reason for chosen in key_times.choose(made)]
 
 
 def test_recorded_events_are_named():
     made = frames()
-    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": "porch has fallen", "number": 1}]}
+    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": "porch has fallen: a level is down by half a storey", "number": 1}]}
     assert 1.8 in [made.time[chosen.frame] for chosen in key_times.choose(made) if chosen.reason == "porch has fallen"]
 
 
@@ -31,6 +32,32 @@ def test_frames_chosen_by_their_motion():
     times = [made.time[chosen.frame] for chosen in key_times.choose(made)]
     assert (times[0], times[-1]) == (0, 3) and len(times) >= 3 and all(1 < t < 2 for t in times[1:-1])
     assert np.diff(times).min() >= key_times.CLOSE
+
+
+def test_each_panel_says_what_it_shows():
+    """Frames chosen by their motion have the state of the house: its drift, after a collapse that, without a history the number of broken joints."""
+    made = frames()
+    assert all(chosen.reason for chosen in key_times.choose(made))
+    assert [key_times.state(made, frame) for frame in (10, 30, 40)] == ["drift below 1/1000", "drift 1/4", "after the collapse"]
+    assert key_times.state(frames(ended=False), 40) == "1 broken joint"
+
+
+LONG = "entrance has fallen: a level is down by half a storey"
+
+
+@pytest.mark.parametrize("form", [sheets.PRINT, sheets.SCREEN, report_pictures.SHOTS, sheets.Format(3.6, 6.0, 100, 6)])
+def test_titles_fit_their_panels(form):
+    """Whole, and no wider than the panel and the gap beside it."""
+    made = frames()
+    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": LONG, "number": 1}]}
+    figure = sheets.sheet(made, FRONT, form)
+    figure.canvas.draw()
+    panels = [axis for axis in figure.axes if axis.get_title(loc="left")]
+    assert len(panels) >= 3
+    for axis in panels:
+        title = axis._left_title
+        assert " s:" in title.get_text() and "…" not in title.get_text()
+        assert title.get_window_extent().width <= axis.get_window_extent().width + sheets.GAP * figure.dpi
 
 
 def test_no_panel_repeats_another():

@@ -12,7 +12,7 @@ from yade_timber.base.errors import RunError
 from yade_timber.pictures import quantities, report
 from yade_timber.recording import peaks
 from yade_timber.recording.lines import MOST, lines, main_mode
-from yade_timber.recording.quantities import SUSTAINED, Storeys, ground_velocity, storeys
+from yade_timber.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
 from yade_timber.recording.frames import Motion
 from yade_timber.run.runner import clear
 
@@ -153,6 +153,7 @@ def test_storeys_of_known_momenta():
     found = storeys(samples, masses, Motion(0.01, 0.0, np.tile([1.0, 0.0, 0.0], (60, 1)), np.zeros((60, 3))))
     assert found.column("base_shear_ew") == pytest.approx(-(rates.sum() + sum(masses)))
     assert found.column("shear_ew1") == pytest.approx(-(200 + 15 + 600 + 320)) and found.column("shear_ew2") == pytest.approx(-(600 + 200))
+    assert found.column("ground_acceleration_ew") == pytest.approx(1) and not found.column("ground_acceleration_ud").any()
     assert found.column("acceleration_ew1") == pytest.approx(2 + 1) and found.column("acceleration_ew2") == pytest.approx(3 + 1)
     assert found.sustained("shear_ew2") == pytest.approx(800) and found.until(0.2).samples == 20
 
@@ -163,6 +164,23 @@ def test_sustained_shear_of_an_impact():
     values = np.where(np.arange(100) == 50, 1000.0, 10.0)
     table = Storeys(["time [s]", "x [N]"], np.column_stack([time, values]))
     assert table.peak("x") == 1000 and table.sustained("x") == pytest.approx(10 + 990 * 0.01 / SUSTAINED, rel=1e-6)
+
+
+def test_accelerations_are_those_of_an_accelerometer():
+    """Slow motion passes, the limit of the band has 1/sqrt(2), an impact of one sample hardly counts; gaps and unequal steps stay."""
+    time = np.arange(0, 10, 0.01)
+    middle = (time > 2) & (time < 8)
+    for hertz, share in ((0.0, 1.0), (1.0, 1.0), (5.0, 0.992), (10.0, 0.7071), (30.0, 0.037)):
+        wave = np.cos(2 * np.pi * hertz * time)
+        assert np.abs(band_limited(time, wave)[middle]).max() == pytest.approx(share, abs=2e-3)
+    impact = np.where(np.arange(len(time)) == 500, 130.0, 0.0)
+    found = band_limited(time, impact)
+    assert found.max() == pytest.approx(130.0 * 0.01 * 2 * 10 * 1.402, rel=0.02) and found.sum() == pytest.approx(130.0, rel=1e-3)  # integral of the gain
+    kept = np.r_[0:300, 300:700:5, 700:1000]
+    gap = np.where(np.arange(len(kept)) == 50, np.nan, np.sin(2 * np.pi * time[kept]))
+    found = band_limited(time[kept], gap)
+    assert np.isnan(found[50]) and np.nanmax(np.abs(found - gap)[20:-20]) < 0.02
+    assert np.isnan(band_limited(time[:3], np.full(3, np.nan))).all() and len(band_limited(time[:0], time[:0])) == 0
 
 
 def test_ground_velocity():

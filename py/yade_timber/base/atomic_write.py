@@ -44,6 +44,6 @@ def remove_parts(folder):
 
 
 def write_text(path, text):
-    """Write a text file (UTF-8, line ends as given). Raises OSError."""
+    """Write a text file (UTF-8, line ends as given; halves of character pairs, as in undecodable names of files, as escapes). Raises OSError."""
     with written_whole(path) as part:
-        part.write_text(text, encoding="utf-8", newline="")
+        part.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")

@@ -5,9 +5,24 @@ import io
 
 
 def csv_text(header, rows):
-    """Text of a CSV file: floats with 12 significant digits, zero without a sign; other values as they are."""
+    """Text of a CSV file: floats with 12 significant digits, zero without a sign; texts as in `inert`."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
-    writer.writerows([f"{value + 0.0:.12g}" if isinstance(value, float) else value for value in row] for row in rows)
+    writer.writerows([f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row] for row in rows)
     return text.getvalue()
+
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""Beginnings of a cell that spreadsheets evaluate."""
+
+
+def inert(value):
+    """A text that a spreadsheet would take for a formula, with an apostrophe before it; numbers, a lone dash and other values as they are."""
+    if not isinstance(value, str) or not value.startswith(FORMULA) or len(value) == 1:
+        return value
+    try:
+        float(value)
+    except ValueError:
+        return f"'{value}"
+    return value

@@ -11,6 +11,8 @@ from .parser import Table, parse_table
 
 COMMON = ("base", "paper", "plated")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates."""
+SUFFIXES = (".yaml", ".yml")
+"""Of house files that another file names."""
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
@@ -68,7 +70,14 @@ def _extended(path, table):
     if found is None:
         raise HouseError(f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that name "
                          f"({', '.join([*COMMON, *shipped_houses()])})")
+    require_house_file(found, f"{table.at('extends')}: extends")
     return found
+
+
+def require_house_file(path, where):
+    """Refuse a file that another file names and that is no house file by its name: messages about its content would quote it."""
+    if path.resolve().suffix not in SUFFIXES:
+        raise HouseError(f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}")
 
 
 def shipped_houses():

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.errors import one_line
 from ..base.input_file import is_file
 from .description import house_path, require_snow_depth
 from .errors import HouseError
 from .layout import MAX_SNOW, word
 from .limits import MAX_LOTS, MAX_NODES
-from .loader import text_of
+from .loader import require_house_file, text_of
 from .parser import parse_table
 from .schema import MapOf, Number, Record, fail
 
@@ -97,7 +98,7 @@ def load_town(path):
     if not data["lots"]:
         fail(data.at("lots"), "town.lots", "a town needs at least one lot")
     wave = data["wave"] or {}
-    return Town(data["name"] or path.stem, path, tuple(_lot(name, lot, path) for name, lot in data["lots"].items()), **wave)
+    return Town(data["name"] or one_line(path.stem), path, tuple(_lot(name, lot, path) for name, lot in data["lots"].items()), **wave)
 
 
 def _lot(name, entry, path):
@@ -109,6 +110,7 @@ def _lot(name, entry, path):
         found = beside if is_file(beside) else house_path(entry["house"])
     except HouseError as problem:
         raise HouseError(f"{where}: {problem}") from None
+    require_house_file(found, where)
     return Lot(name, str(found), entry["x"], entry["y"], entry["rotation"], entry["snow"], where)
 
 

@@ -4,6 +4,7 @@
 Needs numpy and scipy only, never YADE. Frame everywhere: columns ew, ns, ud = x east, y north, z up; m/s2.
 """
 
+from .constant_part import constant_note
 from .measures import (
     JmaIntensity,
     Spectrum,
@@ -48,6 +49,7 @@ __all__ = [
     "Spectrum",
     "add_motion_options",
     "arias",
+    "constant_note",
     "default_motion",
     "displacement",
     "highpass",

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The file formats: each reader converts the lines of one file into channels.
 
-K-NET and KiK-net ASCII: NIED, "About K-NET ASCII format" (17 header lines, whole counts, scale factor). Its Record
-Time includes the logger's trigger delay: the first sample is 15 s earlier (KNET_DELAY). All samples are read.
+K-NET and KiK-net: see knet.py.
 PEER AT2: four header lines, the fourth in several forms, values in g.
 Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), values in g.
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
@@ -12,47 +11,18 @@ Plain CSV: '#' comments with "key: value", a row with the names of the columns, 
 from __future__ import annotations
 
 import re
-import warnings
-from datetime import timedelta
-
-import numpy as np
 
 from ..base.input_file import shown
-from .record import GAL, RecordError, RecordWarning, unit_factor
-from .text import (
-    UP,
-    Channel,
-    clock,
-    direction_of,
-    finite,
-    numbers,
-    positive,
-    require_count,
-    require_step,
-    table,
-    whole,
-)
+from . import knet
+from .columns import COMMENT, DIRECTIONS, FILLING, channels_of, column_name, equal_step, uncommented
+from .networks import PLAIN_CSV, other_text
+from .record import RecordError, unit_factor
+from .text import Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table, whole
 
-KNET_HEADER_LINES = 17
 AT2_HEADER_LINES = 20
 """Lines in which the number of samples of an AT2 file is searched."""
 JMA_HEADER_LINES = 30
 """Lines in which the row of column names of a JMA file is searched."""
-
-KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
-"""Channel numbers of KiK-net: 1-3 borehole, 4-6 surface, each north, east, up."""
-
-KNET_DELAY = timedelta(seconds=15)
-"""Record Time of a K-NET or KiK-net file is this much after its first sample (NIED, on the loggers' trigger delay)."""
-
-KNET_MAX_TOLERANCE = 0.02
-"""Relative difference from the header's Max. Acc. above which a warning is given.
-
-Headers print 3 to 6 digits; a damaged sample moves the peak by far more.
-"""
-
-SPACING_TOLERANCE = 0.1
-"""Largest deviation of a time column from equal spacing, in steps: room for printed rounding, none for a gap."""
 
 _PEKNOLD = "points at equal spacing of"
 
@@ -60,9 +30,11 @@ _PEKNOLD = "points at equal spacing of"
 def sniff(lines):
     """Name of the format of the lines, or None."""
     head = "\n".join(lines[:AT2_HEADER_LINES])
-    start = lines[0].strip().strip('"')
-    if start.startswith("Origin Time"):
+    start = next((line for line in lines if line.strip(FILLING)), "").strip().strip('"')
+    if knet.is_ascii(lines):
         return "knet"
+    if knet.is_csv(lines):
+        return "knet csv"
     if start.upper().startswith("SITE CODE"):
         return "jma"
     if "NPTS" in head or _PEKNOLD in head.lower():
@@ -80,76 +52,11 @@ def parse(path, lines, units=None, stated=False):
     """
     kind = sniff(lines)
     if kind is None:
-        raise RecordError(
-            f"{path}: unknown record format; admissible: K-NET or KiK-net ASCII, PEER AT2, JMA CSV, "
-            "CSV with named columns (ns, ew, ud, optionally time)"
-        )
+        raise RecordError(f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and plain CSV")
     if kind == "at2":
         return _at2(path, lines, units, stated)
-    reader = {"knet": _knet, "jma": _jma, "csv": _plain_csv}[kind]
+    reader = {"knet": knet.read_ascii, "knet csv": knet.read_csv, "jma": _jma, "csv": _plain_csv}[kind]
     return reader(path, lines, units)
-
-
-# --- K-NET and KiK-net --------------------------------------------------------------------------
-
-_KNET_FIELDS = {
-    "Record Time": "",
-    "Sampling Freq": "(Hz)",
-    "Duration Time": "(s)",
-    "Dir.": "",
-    "Scale Factor": "",
-    "Max": "(gal)",
-}
-"""Beginning of a header line -> unit before its value. There are two spellings: 'Max. Acc. (gal)' and 'Max Acc. (gal)'."""
-
-
-def _knet(path, lines, units):
-    """K-NET or KiK-net: counts times scale factor, mean of the whole record removed."""
-    if units is not None:
-        raise RecordError(f"{path}: K-NET files state their scale factor; give no unit")
-    fields = _knet_fields(path, lines)
-    sampling, where = fields["Sampling Freq"]
-    rate = positive(sampling.removesuffix("Hz"), where)
-    counts = numbers(path, lines[KNET_HEADER_LINES:], KNET_HEADER_LINES + 1)
-    require_count(path, len(counts), round(finite(*fields["Duration Time"]) * rate), "Duration Time x Sampling Freq")
-    values = (counts - counts.mean()) * _knet_scale(*fields["Scale Factor"])
-    _compare_peak(path, values, finite(*fields["Max"]))
-    direction = fields["Dir."][0]
-    begins = clock(*fields["Record Time"]) - KNET_DELAY
-    return [Channel(path, require_step(1.0 / rate, where), values, KIK_DIRECTIONS.get(direction, direction_of(direction)), begins)]
-
-
-def _knet_fields(path, lines):
-    """{beginning of a header line: (value, file:line: beginning)}."""
-    fields = {}
-    for number, line in enumerate(lines[:KNET_HEADER_LINES], 1):
-        text = line.strip()
-        for label, unit in _KNET_FIELDS.items():
-            value = text.removeprefix(label).partition(unit)[2] if unit else text.removeprefix(label)
-            if text.startswith(label) and value.strip() and label not in fields:
-                fields[label] = " ".join(value.split()[: 2 if label == "Record Time" else 1]), f"{path}:{number}: {label}"
-    for label in _KNET_FIELDS:
-        if label not in fields:
-            raise RecordError(f"{path}: K-NET header without '{label}' in its {KNET_HEADER_LINES} lines")
-    return fields
-
-
-def _knet_scale(text, where):
-    """'3920(gal)/6182761' -> m/s2 per count."""
-    gal, form, counts = text.partition("(gal)/")
-    if not form:
-        raise RecordError(f"{where}: {shown(text)}; it must be like 3920(gal)/6182761")
-    return GAL * positive(gal, where) / positive(counts, where)
-
-
-def _compare_peak(path, values, stated_gal):
-    got = np.abs(values).max() / GAL
-    if abs(got - stated_gal) > KNET_MAX_TOLERANCE * stated_gal + 0.01:
-        warnings.warn(
-            f"{path}: largest acceleration {got:.3f} gal, the header says {stated_gal:g} gal",
-            RecordWarning,
-            stacklevel=2,
-        )
 
 
 # --- PEER AT2 -----------------------------------------------------------------------------------
@@ -162,7 +69,7 @@ def _at2(path, lines, units, stated):
     _refuse_other_quantity(path, header)
     factor = _stated_unit(path, [unit for unit in map(_unit_in, header) if unit], units)
     values = numbers(path, lines[first:], first + 1)
-    require_count(path, len(values), whole(count, f"{where}: NPTS"), "NPTS")
+    require_count(path, len(values), whole(count, f"{where}: NPTS"), "NPTS", PLAIN_CSV)
     step = require_step(finite(dt, f"{where}: DT"), f"{where}: DT")
     return [Channel(path, step, values * factor, None if stated else _at2_direction(path, header))]
 
@@ -177,7 +84,11 @@ def _at2_header(path, lines):
         if found := _peknold_count_and_step(line):
             first = next((i for i, row in enumerate(lines) if _is_numeric(row)), len(lines))
             return *found, first, f"{path}:{number}"
-    raise RecordError(f"{path}: AT2 header without a readable 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines")
+    number = next((number for number, line in head if {"npts", "dt"} <= set(_words(line, ",=:"))), None)
+    absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
+    problem = absent if number is None else "with NPTS and DT in another form"
+    place = path if number is None else f"{path}:{number}"
+    raise RecordError(f"{place}: AT2 header {problem}; write 'NPTS= n, DT= s SEC', NPTS first, or convert it to {PLAIN_CSV}")
 
 
 def _words(line, separators):
@@ -263,33 +174,29 @@ def _jma(path, lines, units):
     if sampling is None:
         raise RecordError(f"{path}: JMA header without SAMPLING RATE")
     rate, where = positive(sampling[0].lower().partition("hz")[0], sampling[1]), sampling[1]
-    factor = _stated_unit(path, [keys["UNIT"][0].partition("(")[0]] if "UNIT" in keys else [], units)
+    unit = keys.get("UNIT", ("", ""))[0].partition("(")[0].partition(",")[0].strip()
+    factor = _stated_unit(path, [unit] if unit else [], units)
     rows = table(path, lines[first:], first + 1, len(names), ",")
-    begins = clock(*keys["INITIAL TIME"]) if "INITIAL TIME" in keys else None
-    return _columns_to_channels(path, names, rows * factor, require_step(1.0 / rate, where), begins)
+    begins = clock(*keys["INITIAL TIME"]) if keys.get("INITIAL TIME", ("", ""))[0] else None
+    return channels_of(path, names, rows * factor, require_step(1.0 / rate, where), begins)
 
 
 def _jma_header(path, lines):
-    """({key: (value, file:line: key)}, [column names], index of the first row); cells after the first are ignored in key lines."""
+    """({key: (value, file:line: key)}, [column names], index of the first row); a value is all that follows the key in its line."""
     keys = {}
     for index, line in enumerate(lines[:JMA_HEADER_LINES]):
-        cells = [cell.strip().strip('"') for cell in line.split(",")]
-        names = [_column_name(cell)[0] for cell in cells if cell]
+        names = [column_name(cell)[0] for cell in line.split(",") if cell.strip()]
         if {"ns", "ew", "ud"} <= set(names):
             return keys, names, index + 1
-        key, _, value = cells[0].partition("=")
-        if not value.strip() and len(cells) > 1:
-            value = cells[1]
-        key = key.strip().upper().rstrip(".")
-        keys[key] = value.strip(), f"{path}:{index + 1}: {shown(key)}"
+        key, _, value = line.replace('"', "").partition("=" if "=" in line else ",")
+        key = " ".join(key.upper().split()).rstrip(".")
+        keys[key] = value.strip(FILLING), f"{path}:{index + 1}: {shown(key)}"
     raise RecordError(f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES} lines")
 
 
 # --- plain CSV ----------------------------------------------------------------------------------
 
-_CSV_DIRECTIONS = {"ns": 0.0, "ew": 90.0, "ud": UP}
 _SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, None: 1.0}
-_CSV_ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "ew", "up": "ud", "t": "time"}
 
 
 def _plain_csv(path, lines, units):
@@ -300,31 +207,30 @@ def _plain_csv(path, lines, units):
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
-    step = _csv_step(path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
+    step = equal_step(path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
     if "samples" in comments:
         require_count(path, len(rows), whole(*comments["samples"]), "'# samples:'")
-    return _columns_to_channels(path, names, rows * factor, step)
-
-
-COMMENT = ("#", '"#')
-"""Beginnings of a comment; a spreadsheet quotes it."""
-FILLING = ",; \t"
-"""What a spreadsheet adds to short rows."""
+    return channels_of(path, names, rows * factor, step)
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such row."""
+    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such row.
+
+    It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
+    """
     for index, line in enumerate(lines):
         if line.startswith(COMMENT) or not line.strip(FILLING):
             continue
-        delimiter = next((d for d in (",", ";", "\t") if d in line), ",")
-        cells = [_column_name(cell) for cell in line.rstrip(FILLING).split(delimiter)]
-        names = [name for name, _ in cells]
-        known = set(names) <= {"ns", "ew", "ud", "time"} and len(set(names)) == len(names)
-        if not known or set(names) <= {"time"}:
-            return None
-        return index, names, dict(cells), delimiter
+        return _named_columns(index, line) or (_named_columns(index - 1, uncommented(lines[index - 1])) if index else None)
     return None
+
+
+def _named_columns(index, line):
+    delimiter = next((d for d in (",", ";", "\t") if d in line), ",")
+    cells = [column_name(cell) for cell in line.rstrip(FILLING).split(delimiter)]
+    names = [name for name, _ in cells]
+    known = set(names) <= {*DIRECTIONS, "time"} and len(set(names)) == len(names)
+    return (index, names, dict(cells), delimiter) if known and not set(names) <= {"time"} else None
 
 
 def _times(path, values, unit):
@@ -332,17 +238,6 @@ def _times(path, values, unit):
     if unit not in _SECONDS:
         raise RecordError(f"{path}: time in {shown(unit)}; s or ms")
     return values * _SECONDS[unit]
-
-
-def _column_name(cell):
-    """'NS [gal]', 'ns_gal', 'N-S(gal)' -> ('ns', 'gal'); 'time' -> ('time', None)."""
-    text = cell.strip().strip('"').strip()
-    name = text[: next((i for i, c in enumerate(text) if not (c.isalpha() or c == "-")), len(text))]
-    rest = text[len(name) :].strip()
-    unit = rest.strip("_[]() \t")
-    if rest and not (rest[0] in "[(_" and unit):
-        return text.lower(), None
-    return _CSV_ALIASES.get(name.lower(), name.lower()), unit or None
 
 
 def _csv_comments(path, lines):
@@ -357,33 +252,3 @@ def _csv_comments(path, lines):
         if key.replace(" ", "").isalpha() and value:
             pairs[key.lower()] = value, f"{path}:{number}: {key.lower()}"
     return pairs
-
-
-def _csv_step(path, comments, times):
-    """Time step [s] from '# dt: 0.01', '# sampling: 100 Hz' or the time column."""
-    where = path
-    if "dt" in comments:
-        text, where = comments["dt"]
-        step = finite(text.removesuffix("s"), where)
-    elif "sampling" in comments:
-        text, where = comments["sampling"]
-        step = 1.0 / positive(text.lower().removesuffix("hz"), where)
-    elif times is not None:
-        step = (times[-1] - times[0]) / (len(times) - 1)
-    else:
-        raise RecordError(f"{path}: no time step; give a time column [s] or a comment '# dt: 0.01' [s]")
-    require_step(step, where)
-    if times is not None:
-        late = np.abs(times - times[0] - step * np.arange(len(times))) / step
-        if late.max() > SPACING_TOLERANCE:
-            raise RecordError(f"{path}: sample {late.argmax()}: times are not {step:g} s apart; equal steps needed")
-    return step
-
-
-def _columns_to_channels(path, names, rows, step, begins=None):
-    """One channel for each column of accelerations; rows (n, columns) in m/s2."""
-    return [
-        Channel(path, step, rows[:, index], _CSV_DIRECTIONS[name], begins)
-        for index, name in enumerate(names)
-        if name in _CSV_DIRECTIONS
-    ]

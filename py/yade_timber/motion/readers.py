@@ -15,6 +15,7 @@ import numpy as np
 
 from ..base.errors import one_line
 from ..base.input_file import exists, is_file, is_folder, shown
+from .constant_part import warn_of_constant_part
 from .formats import parse
 from .processing import round_off, turned
 from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning, require_possible
@@ -46,7 +47,7 @@ def default_motion():
 
 
 def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=False):
-    """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files.
+    """Read a ground motion from K-NET, KiK-net, PEER AT2, JMA CSV or plain CSV files. Warns of a constant part.
 
     Parameters
     ----------
@@ -73,6 +74,11 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     RecordError
         Missing, truncated, unknown format, not a number, no unit, components of different records.
     """
+    return warn_of_constant_part(read_unchecked(record, component, units, angle, trim_to_shortest))
+
+
+def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shortest=False):
+    """The same without a warning of a constant part, which processing may still remove."""
     paths = find_files(record)
     channels = [channel for path in paths for channel in parse(path, read_lines(path), units, component is not None)]
     directions = _directions(channels, component)

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from ..base.input_file import shown
+from .constant_part import warn_of_constant_part
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
-from .readers import DEFAULT_RECORD, read_motion
+from .readers import DEFAULT_RECORD, read_unchecked
 from .record import RecordError, require_possible
 from .sequence import DEFAULT_GAP, following, joined
 from .synthetic import DEFAULT_SEED, synthetic_motion
@@ -27,7 +28,7 @@ class MotionRequest:
     """
 
     record: str = _option(
-        str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net, PEER AT2, JMA CSV, plain CSV; "
+        str, "FILE_OR_PREFIX", "recorded ground motion: K-NET, KiK-net (ASCII, CSV), PEER AT2, JMA CSV, plain CSV; "
         "a file, a prefix, or files separated by commas (default: synthetic, like Ojiya 2004)"
     )
     seed: int = _option(int, "N", f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", 0, 2**31)
@@ -100,6 +101,7 @@ class MotionRequest:
         if self.intensity is not None:
             motion = scaled_to_intensity(motion, self.intensity)
         self._require_possible(motion)
+        warn_of_constant_part(motion)
         return resample(motion, dt)[0] if self.resample else motion
 
     def _source(self):
@@ -108,7 +110,7 @@ class MotionRequest:
         return self._read(DEFAULT_RECORD if self.record is None else self.record)
 
     def _read(self, record):
-        return read_motion(record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
+        return read_unchecked(record, self.component, self.units, self.azimuth or 0.0, bool(self.shortest))
 
     def _require_possible(self, motion):
         require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)

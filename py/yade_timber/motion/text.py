@@ -8,6 +8,7 @@ String methods instead of regular expressions keep the time of a line proportion
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -15,7 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from ..base.input_file import read_bytes, shown
-from .record import RecordError
+from .networks import other_binary
+from .record import RecordError, RecordWarning
 
 MAX_FILE_SIZE = 10_000_000
 """Of one file. [bytes]"""
@@ -67,7 +69,7 @@ def read_lines(path):
             continue
         if "\0" not in text and text.strip():
             return _checked_lines(path, text.rstrip("\x1a").splitlines())  # DOS's end of a file
-    raise RecordError(f"{path}: empty or not a text file; a record must be text in UTF-8 or CP932")
+    raise RecordError(f"{path}: {other_binary(raw)}")
 
 
 def _checked_lines(path, lines):
@@ -132,8 +134,10 @@ def numbers(path, lines, first):
     raise RecordError(f"{path}: {len(tokens)} samples; a record needs at least 2")
 
 
-def table(path, lines, first, columns, delimiter):
+def table(path, lines, first, columns, delimiter, texts=()):
     """Rows of `columns` separated numbers -> (n, columns); blank lines are skipped.
+
+    texts: numbers of columns of other content, read as 0
 
     Raises RecordError with file and line for a row of another length or a value that is not a finite number.
     """
@@ -147,7 +151,7 @@ def table(path, lines, first, columns, delimiter):
         where = f"{path}:{number}"
         if len(cells) != columns:
             raise RecordError(f"{where}: {len(cells)} values; the header names {columns} columns")
-        rows.append([finite(cell, where) for cell in cells])
+        rows.append([0.0 if k in texts else finite(cell, where) for k, cell in enumerate(cells)])
         _require_few_samples(len(rows), where)
     if len(rows) < 2:
         raise RecordError(f"{path}: {len(rows)} samples; a record needs at least 2")
@@ -159,11 +163,12 @@ def _require_few_samples(count, where):
         raise RecordError(f"{where}: more than {MAX_SAMPLES} samples; cut the record")
 
 
-def require_count(path, got, stated, meaning):
-    """Refuse a record whose number of samples differs from the one in its header."""
+def require_count(path, got, stated, meaning, other=""):
+    """Refuse a record whose number of samples differs from the one in its header. other: form to convert it to"""
     if got != stated:
         kind = "truncated" if got < stated else "too long"
-        raise RecordError(f"{path}: {kind}, {got} samples; {meaning} says {stated}")
+        convert = other and f", or convert it to {other}"
+        raise RecordError(f"{path}: {kind}, {got} samples; {meaning} says {stated}; get the file again or correct that number{convert}")
 
 
 def require_step(dt, where):
@@ -173,18 +178,30 @@ def require_step(dt, where):
     return dt
 
 
+_CLOCK = re.compile(r"\D*(\d+)" + r"\D+(\d+)" * 4 + r"(?:\D+(\d+(?:\.\d*)?))?")
+"""Year, month, day, hour, minute and, in any number of digits, seconds."""
+CENTURY_TURN = 69
+"""Years of two digits from here on are 19xx, smaller ones 20xx (POSIX)."""
+
+
 def clock(text, where):
-    """Date and time from 'year month day hour minute second', separated by any other characters. Raises RecordError."""
-    parts = re.findall(r"[\d.]+", text)
+    """Date and time from 'year month day hour minute [second]', separated by any other characters.
+
+    None, with a warning, for any other text: a record needs no date.
+    """
+    match = _CLOCK.match(text)
     try:
-        year, month, day, hour, minute = map(int, parts[:5])
-        seconds = float(parts[5])
+        year, month, day, hour, minute = map(int, match.groups()[:5])
+        if len(match[1]) == 2:
+            year += 1900 if year >= CENTURY_TURN else 2000
+        seconds = float(match[6] or 0.0)
         if year in YEARS and seconds < 61.0:
             return datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
-    except (ValueError, OverflowError, IndexError):
+    except (ValueError, OverflowError, AttributeError):
         pass
-    raise RecordError(f"{where}: {shown(text.strip())} is not a date and time of the years {YEARS[0]} to {YEARS[-1]}; "
-                      "it must be like 2004/10/23 17:56:00")
+    problem = f"{shown(text.strip())} is not a date and time like 2004/10/23 17:56:00 of the years {YEARS[0]} to {YEARS[-1]}"
+    warnings.warn(f"{where}: {problem}; the record is read without it", RecordWarning, stacklevel=2)
+    return None
 
 
 def direction_of(name):

@@ -10,6 +10,7 @@ from .figures import A4, footer, heading, heading_height, new_figure, save
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
+from .style import default_style
 
 DPI = 200
 QUANTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -22,6 +23,7 @@ def write(stem, frames, folder):
     return save(page(frames, ensemble.histories(folder), DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(frames, histories, dpi):
     """Figure with the bands. frames: of the run that is shown; histories: {number: History} of all runs"""
     time, shown = longest(histories.values()).time, frames.history

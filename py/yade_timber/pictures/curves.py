@@ -11,6 +11,7 @@ from .figures import A4, drawable, footer, heading, heading_height, new_figure, 
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
+from .style import default_style
 
 DPI = 200
 DRIFT_RANGE = 0.16
@@ -40,6 +41,7 @@ def write(stem, frames):
     return save(page(frames, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(frames, dpi):
     """Figure with the curves of an ended run."""
     history, shaken = frames.history, frames.motion is not None

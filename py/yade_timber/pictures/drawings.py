@@ -11,6 +11,7 @@ from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
 from .panels import panels_as_built
 from .raster import Window, even_density, front_of, shade
+from .style import default_style
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
@@ -38,6 +39,7 @@ def write(stem, model):
     return save(page(model, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(model, dpi):
     """Figure with the drawings of a HouseModel. dpi: of the shaded parts [1/inch]"""
     figure = new_figure(WIDTH, HEIGHT, dpi)

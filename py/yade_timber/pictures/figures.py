@@ -4,7 +4,6 @@ import re
 from textwrap import fill
 from unicodedata import east_asian_width
 
-import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -13,6 +12,7 @@ from PIL import Image
 
 from ..base.atomic_write import written_whole
 from . import fonts
+from .style import default_style
 
 A4 = (8.27, 11.69)
 """Short and long side. [inch]"""
@@ -26,6 +26,8 @@ TITLE_LETTERS, SUBTITLE_LETTERS = 8.2, 13.5
 """Letters per inch at TITLE_SIZE (bold) and SUBTITLE_SIZE."""
 FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
 """Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
+POINT_LETTERS = 140.0
+"""Letters per inch of usual text, times its font size. [pt/inch]"""
 LONGEST_TEXT = 400
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
@@ -52,6 +54,7 @@ class Pixels(Artist):
         renderer.draw_image(renderer.new_gc(), round(corner.x0, 6), round(corner.y0, 6), self.rows)
 
 
+@default_style()
 def new_figure(width, height, dpi):
     """Empty white figure of a width and height [inch], rounded to whole pixels of a resolution [1/inch]."""
     figure = Figure(figsize=(round(width * dpi) / dpi, round(height * dpi) / dpi), dpi=dpi, facecolor="white")
@@ -100,6 +103,11 @@ def wide(text):
     return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)
 
 
+def fitting_size(text, width, largest):
+    """Font size [pt], at most `largest`, with which a text fits a width [inch]."""
+    return min(largest, POINT_LETTERS * width / max(wide(text), 1))
+
+
 def heading_height(width, subtitle=""):
     """Height of a heading at the top of a figure of this width. [inch]"""
     return TITLE_HEIGHT + LINE_HEIGHT * (1 + _wrapped(subtitle, width).count("\n"))
@@ -111,6 +119,7 @@ def _wrapped(subtitle, width):
     return "\n".join(fill(line, int(SUBTITLE_LETTERS * (width - 2 * MARGIN))) for line in units_kept)
 
 
+@default_style()
 def save(figure, stem, endings):
     """Write a figure as files STEM.ENDING, PNG with its own resolution; returns their paths. Raises OSError."""
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
@@ -120,11 +129,12 @@ def save(figure, stem, endings):
             if path.suffix == ".png":
                 image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
             else:
-                with matplotlib.rc_context(fonts.SETTINGS), fonts.without_layout():
+                with fonts.without_layout():
                     figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
 
 
+@default_style()
 def image_of(figure):
     """RGB image of a figure with its own resolution."""
     figure.canvas.draw()

@@ -9,12 +9,12 @@ import matplotlib
 from matplotlib import font_manager
 from matplotlib.ft2font import FT2Font
 
+from .style import default_style
+
 OWN = "DejaVu Sans"
 EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic", "Noto Sans CJK JP", "WenQuanYi Zen Hei")
 """Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have."""
 PACKAGE = "fonts-ipafont-gothic"
-SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
-"""TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
 LAYOUT = ["GDEF", "GPOS", "GSUB", "kern"]
 """Tables of a font for the layout of text. A PDF file has the places of all letters."""
 FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
@@ -40,6 +40,7 @@ def letters(family):
     return frozenset(FT2Font(file(family)).get_charmap())
 
 
+@default_style()
 def file(family, bold=False):
     """Path of a font file."""
     return font_manager.findfont(font_manager.FontProperties(family=family, weight="bold" if bold else "normal"))

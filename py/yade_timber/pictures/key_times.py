@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The times of a run that are worth a picture. Needs no YADE."""
+import re
 from dataclasses import dataclass
 
 import numpy as np
+
+from ..recording.sentences import collapse_time, counted, ratio
 
 PANELS = 6
 CLOSE = 0.5
@@ -23,7 +26,7 @@ LEAD = 1.0
 
 @dataclass(frozen=True)
 class KeyTime:
-    """frame: number of the frame; reason: caption, empty for a frame chosen by its motion alone."""
+    """frame: number of the frame; reason: caption of a few words."""
 
     frame: int
     reason: str
@@ -46,11 +49,22 @@ def choose(frames, count=PANELS):
         frame, reason = waiting.pop(0) if waiting else (int(np.argmax(novelty)), "")
         if novelty[frame] < DIFFERENT:
             break
-        chosen[frame] = reason
+        chosen[frame] = reason or state(frames, frame)
         novelty = np.minimum(novelty, differences(frames, frame))
     if len(chosen) == 2:
         chosen[last] += ", no visible change"
     return [KeyTime(frame, chosen[frame]) for frame in sorted(chosen)]
+
+
+def state(frames, frame):
+    """State of the house in a frame: collapsed, its storey drift, or the number of its broken joints."""
+    time, collapse = frames.time[frame], collapse_time(frames.summary or {})
+    if collapse is not None and time >= collapse:
+        return "after the collapse"
+    if frames.history and frames.history.samples:
+        row = max(0, np.searchsorted(frames.history.time, time, side="right") - 1)
+        return f"drift {ratio(frames.history.largest_drift()[row])}"
+    return counted(int((frames.joint_states(frame) == "broken").sum()), "broken joint")
 
 
 def differences(frames, frame):
@@ -64,15 +78,15 @@ def named(frames):
     """(time [s], reason) of the times that have a name, the most important first."""
     found = frames.summary or {}
     if found.get("collapse_time_s") is not None:
-        yield found["collapse_time_s"], "collapse: half a storey down"
+        yield found["collapse_time_s"], "collapse"
     if found.get("tilt_time_s") is not None:
-        yield found["tilt_time_s"], "storey drift passes 1/10"
+        yield found["tilt_time_s"], "drift 1/10"
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
     for kind in ("structure_fallen", "snow_fallen"):
-        yield from [(event["time_s"], event["what"]) for event in found.get("events", []) if event["kind"] == kind][:1]
+        yield from [(event["time_s"], re.split(": | from ", event["what"])[0]) for event in found.get("events", []) if event["kind"] == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
-        yield frames.breaks["time"][0], "first joint damaged"
+        yield frames.breaks["time"][0], "first damage"
     if frames.history and frames.history.samples and not found["collapsed"]:
         yield largest_drift(frames), "largest drift"
 

@@ -4,10 +4,13 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..base.colors import DIRECTIONS
-from ..motion import GAL, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity
-from .figures import A4, heading, new_figure, save
+from ..motion import GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity
+from .figures import A4, heading, heading_height, new_figure, save
+from .style import default_style
 
 DPI = 150
+LEGEND_HEIGHT = 0.32
+"""Between the heading and the diagrams. [inch]"""
 QUIET = 0.01
 """Motion before the first and after the last acceleration of this share of the PGA is not shown. [-]"""
 PERIODS = np.geomspace(0.05, 10.0, 120)
@@ -20,12 +23,15 @@ def write(stem, motion, corner):
     return save(page(motion, corner, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(motion, corner, dpi):
     """Figure with the motion. corner: high-pass of velocities and displacements [Hz], or None."""
     figure = new_figure(A4[1], A4[0], dpi)
     axes = figure.subplots(3, 2, width_ratios=(1.25, 1))
-    figure.subplots_adjust(left=0.07, right=0.985, top=0.87, bottom=0.07, hspace=0.28, wspace=0.17)
-    heading(figure, f"Ground motion {motion.name}", describe(motion))
+    about = describe(motion)
+    top = 1 - (heading_height(A4[1], about) + LEGEND_HEIGHT) / A4[0]
+    figure.subplots_adjust(left=0.07, right=0.985, top=top, bottom=0.07, hspace=0.28, wspace=0.17)
+    heading(figure, f"Ground motion {motion.name}", about)
     draw_accelerations(axes[:, 0], motion)
     draw_curves(axes[0, 1], motion.time, 100 * velocity(motion, corner), "velocity [cm/s]")
     draw_curves(axes[1, 1], motion.time, 100 * displacement(motion, corner), "displacement [cm]")
@@ -43,7 +49,8 @@ def page(motion, corner, dpi):
 def describe(motion):
     """Source, JMA intensity and horizontal peaks."""
     intensity = jma_intensity(motion)
-    return f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and {pgv(motion):.0f} cm/s"
+    peaks = f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and {pgv(motion):.0f} cm/s"
+    return "\n".join(filter(None, (peaks, constant_note(motion))))
 
 
 def draw_accelerations(axes, motion):

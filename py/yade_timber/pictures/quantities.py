@@ -13,14 +13,17 @@ from ..base.input_file import require_regular
 from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
 from ..recording.peaks import COLUMNS, JOINTS, rows
+from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
-from ..recording.quantities import Storeys
 from ..recording.lines import main_mode, period_text
 from ..recording.sentences import direction_name, sentence
 from .curves import DISSIPATED
-from .figures import A4, drawable, heading, heading_height, new_figure, save
+from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure, save
+from .style import default_style
 
 DPI = 150
+TITLE_SIZE = 8.5
+"""Of diagrams, made smaller to fit them. [pt]"""
 SHOWN_JOINTS = 12
 """Number of joints in the diagram of utilisations."""
 SUMMARY = "summary.json"
@@ -51,7 +54,7 @@ def read(folder):
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     except ValueError as problem:
         raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
-    if not {"quantities", "weight"} <= summary.keys():
+    if "weight" not in summary or "ground_acceleration" not in summary.get("quantities", {}):
         raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities or weight; repeat the run")
     return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), rows(folder / JOINTS), rows(folder / COLUMNS))
 
@@ -61,6 +64,7 @@ def write(stem, results):
     return save(page(results, DPI), stem, ("png", "pdf"))
 
 
+@default_style()
 def page(results, dpi):
     """Figure with all quantities. results: Results"""
     figure = new_figure(*A4, dpi)
@@ -83,7 +87,8 @@ def page(results, dpi):
 
 
 def style(axis, title, x="", y=""):
-    axis.set_title(title, fontsize=8.5, loc="left", y=1)
+    width = axis.get_position(original=True).width * axis.figure.get_size_inches()[0]
+    axis.set_title(title, fontsize=fitting_size(title, width, TITLE_SIZE), loc="left", y=1)
     axis.set_xlabel(x, fontsize=7.5, labelpad=1)
     axis.set_ylabel(y, fontsize=7.5, labelpad=1)
     axis.tick_params(labelsize=7)
@@ -120,15 +125,14 @@ def draw_shears(axis, results):
 
 
 def draw_accelerations(axis, results):
-    """Largest absolute acceleration of each level, and the PGA at the bottom."""
-    found = results.summary["quantities"]["storeys"]
-    ground = (results.summary.get("record") or {}).get("pga_gal", {"ns": 0.0, "ew": 0.0, "ud": 0.0})
+    """Largest absolute acceleration of the ground and of each level, in one band."""
+    found, ground = results.summary["quantities"]["storeys"], results.summary["quantities"]["ground_acceleration"]
     for axis_name in ("ns", "ew", "ud"):
-        values = [ground[axis_name] / 100, *(storey["acceleration"][axis_name] for storey in found.values())]
+        values = [ground[axis_name], *(storey["acceleration"][axis_name] for storey in found.values())]
         axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name], label=direction_name(axis_name).replace("ud", "up-down"))
     axis.set_yticks(range(len(found) + 1), ["ground", *(f"level {k}" for k in range(1, len(found) + 1))])
     axis.set_xlim(0)
-    style(axis, "largest accelerations", "[m/s²]")
+    style(axis, f"largest accelerations, {BAND_TEXT}", "[m/s²]")
     axis.legend(fontsize=7, frameon=False, loc="lower right")
 
 
@@ -156,7 +160,7 @@ def draw_uplift(axis, results):
     for x, y, uplift in places[stands & (places[:, 2] >= VISIBLE_UPLIFT)]:
         number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
         axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
-    axis.set_aspect("equal")
+    axis.set_aspect("equal", anchor="W")
     axis.margins(0.1)
     style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")
 
@@ -188,4 +192,5 @@ def draw_energy(axis, results):
     names = [DISSIPATED[term][0] for term in found]
     axis.barh(names, list(found.values()), color=[DISSIPATED[term][1] for term in found], height=0.7)
     axis.invert_yaxis()
-    style(axis, f"dissipated energy: {sum(found.values()):.1f} kJ of {results.summary['energy']['input'] / 1e3:.1f} kJ", "[kJ]")
+    axis.locator_params(axis="x", nbins=5)
+    style(axis, f"dissipated energy: {sum(found.values()):.3g} kJ of {results.summary['energy']['input'] / 1e3:.3g} kJ", "[kJ]")

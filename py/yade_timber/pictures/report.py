@@ -21,6 +21,7 @@ from ..recording.lines import lines, main_mode, period_text
 from ..recording.sentences import counted, direction_name, joints_and_sheets, sentence
 from . import REPORT, fonts, quantities, report_pictures
 from .panels import panels
+from .style import default_style
 
 PAGE, PDF = REPORT
 JOINTS_SHOWN = 8
@@ -88,6 +89,7 @@ def text(value):
     return html.escape(str(value))
 
 
+@default_style()
 def picture(figure, part=None, name="", about=""):
     """An <img> with a figure, or with a part of it (Bbox [inch])."""
     data = io.BytesIO()

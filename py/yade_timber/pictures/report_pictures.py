@@ -12,6 +12,7 @@ from ..recording.sentences import direction_name, largest_drift
 from .figures import heading_height, new_figure
 from .panels import panels
 from .sheets import Format, result, sheet
+from .style import default_style
 from .views import FRONT, SIDE
 
 DPI = 170
@@ -24,6 +25,7 @@ THICK = 0.11
 """Columns at least this thick are black in the plan. [m]"""
 
 
+@default_style()
 def plans(frames):
     """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start."""
     e = frames.elements
@@ -80,6 +82,7 @@ def ground_motion(frames):
     return GroundMotion(frames.motion.dt, np.asarray(frames.motion.acceleration))
 
 
+@default_style()
 def motion(frames):
     """Figure with the horizontal accelerations, and the 5 % pseudo-acceleration spectra with lines at the house's natural periods."""
     figure = new_figure(3.9, 1.85, DPI)

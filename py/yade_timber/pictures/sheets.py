@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 from ..recording.sentences import sentence
 from . import key_times
-from .figures import A4, MARGIN, add_panel, drawable, footer, heading, heading_height, new_figure, save
+from .figures import A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height, new_figure, save
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
+from .style import default_style
 from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
 
 
@@ -31,8 +32,8 @@ GAP, FOOT, CAPTION = 0.12, 0.76, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
-CAPTION_LETTERS = 15.5
-"""Letters per inch in a caption."""
+CAPTION_SIZE, TWO_LINES_SIZE, SMALLEST_CAPTION = 9, 7.5, 5.5
+"""Font sizes of captions: the usual one, the largest with two lines, the smallest. [pt]"""
 NARROWEST = 0.6
 """Smallest width of a sheet as a part of its format's: titles need it. [-]"""
 END_WIDTH, END_AXES = 12.5, FOOT + 0.25
@@ -85,6 +86,7 @@ def write_sheet(stem, frames, view):
     return save(sheet(frames, view, PRINT), stem, ("png", "pdf"))
 
 
+@default_style()
 def sheet(frames, view, form):
     """Figure with the key times of a run in one view."""
     times = key_times.choose(frames, form.panels)
@@ -99,14 +101,23 @@ def sheet(frames, view, form):
         draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
         if time.frame:
             draw_silhouette(ax, outlines, PANEL_MARK)
-        caption = f"{frames.time[time.frame]:.2f} s{': ' if time.reason else ''}{time.reason}"
-        ax.set_title(drawable(caption, int(CAPTION_LETTERS * plan.panel[0])), fontsize=9, loc="left", pad=3, y=1)
+        fitted_title(ax, f"{frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
         draw_ends(ax, view, 7)
         scale_bar(ax, box, 7)
     heading(figure, f"{frames.title}. {view.title}", result(frames))
     legend(figure, start, {state for shot in shots for state in shot.states}, 8)
     footer(figure, provenance(frames))
     return figure
+
+
+def fitted_title(ax, time, reason, width):
+    """Title of a panel of a width [inch] in one line or, where that would be small, in two; at last cut to fit."""
+    lines, largest = [f"{time}: {reason}"], CAPTION_SIZE
+    if fitting_size(lines[0], width, CAPTION_SIZE) < TWO_LINES_SIZE:
+        lines, largest = [f"{time}:", reason], TWO_LINES_SIZE
+    lines = [drawable(line, int(POINT_LETTERS * width / SMALLEST_CAPTION)) for line in lines]
+    size = min(fitting_size(line, width, largest) for line in lines)
+    ax.set_title("\n".join(lines), fontsize=size, linespacing=1.0, loc="left", pad=3, y=1)
 
 
 def result(frames):
@@ -119,6 +130,7 @@ def write_end(stem, frames):
     return save(both_views(frames, -1, END_DPI), stem, ("png",))
 
 
+@default_style()
 def both_views(frames, frame, dpi):
     """Figure with the two views of a frame."""
     start = solids(frames)

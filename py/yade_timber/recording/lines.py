@@ -3,6 +3,7 @@
 from ..base.gravity import weight_of
 from . import verdict
 from .history import DIRECTIONS
+from .quantities import BAND_TEXT
 from .sentences import directed, direction_name, joints, largest_drift, ratio
 
 MOST = 10
@@ -56,7 +57,7 @@ def accelerations(found):
     if not values:
         return ""
     value, name, axis = max(values)
-    return f"Largest floor acceleration {value:.1f} m/s² {direction_name(axis)}, above storey {name[len('storey'):]}."
+    return f"Largest floor acceleration ({BAND_TEXT}) {value:.1f} m/s² {direction_name(axis)}, above storey {name[len('storey'):]}."
 
 
 def pulls(found):

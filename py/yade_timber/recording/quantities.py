@@ -3,7 +3,8 @@
 
 Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns, braces and walls of
 storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute acceleration, of everything above the heads of its
-columns; the base shear is that of all parts. A positive shear goes with a positive drift. Values are means over a sample interval (0.01 s).
+columns; the base shear is that of all parts. A positive shear goes with a positive drift. Shears are means over a sample interval (0.01 s),
+accelerations what an accelerometer with the band BAND shows: members that slam give impacts of a few ms, of any height.
 """
 import numpy as np
 
@@ -13,6 +14,11 @@ from .series import Series
 NAME = "storeys.csv"
 SUSTAINED = 0.1
 """Time over which a sustained shear is averaged. [s]"""
+BAND = (0.0, 10.0)
+"""Of accelerations [Hz]: up to the high-cut of JMA's seismic intensity, as of the accelerographs SMAC. At its end the amplitude is 1/sqrt(2)."""
+BAND_TEXT = f"{BAND[0]:g} to {BAND[1]:g} Hz"
+ORDER, STEP, PADDING = 3, 0.01, 1.0
+"""Of the low-pass (amplitude of Butterworth's, without phase); time step at which it acts, ends held on each side for its transients. [s]"""
 AXES = {"ew": 0, "ns": 1, "ud": 2}
 """Component of a vector (east, north, up)."""
 
@@ -20,8 +26,8 @@ AXES = {"ew": 0, "ns": 1, "ud": 2}
 class Storeys(Series):
     """The table storeys.csv.
 
-    time [s]; base_shear_ns, base_shear_ew [N]; for each storey k from 1: shear_nsk, shear_ewk [N] and the absolute acceleration of the level
-    above it, acceleration_nsk, acceleration_ewk, acceleration_udk [m/s2].
+    time [s]; base_shear_ns, base_shear_ew [N]; ground_acceleration_ns, _ew, _ud [m/s2]; for each storey k from 1: shear_nsk, shear_ewk [N]
+    and the absolute acceleration of the level above it, acceleration_nsk, acceleration_ewk, acceleration_udk [m/s2]. Accelerations within BAND.
     """
 
     __slots__ = ()
@@ -60,15 +66,31 @@ def storeys(samples, masses, motion=None):
     ground = np.diff(ground_velocity(motion, time), axis=0) / steps
     rates = np.diff(samples[:, 1:].reshape(len(samples), len(masses), 3), axis=0) / steps[:, :, None]
     forces = rates + masses[:, None] * ground[:, None, :]  # (F, P, 3)
-    columns, values = ["time [s]"], [(time[1:] + time[:-1]) / 2]
+    middle = (time[1:] + time[:-1]) / 2
+    columns, values = ["time [s]"], [middle]
     for name, first in [("base_shear_{}", 0), *((f"shear_{{}}{k}", 2 * k) for k in range(1, len(masses) // 2 + 1))]:
         columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
         values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
         if first:
-            level = forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
-            columns += [f"acceleration_{axis}{first // 2} [m/s2]" for axis in ("ns", "ew", "ud")]
-            values += [level[:, AXES[axis]] for axis in ("ns", "ew", "ud")]
+            name, level = "acceleration_{}" + str(first // 2), forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
+        else:
+            name, level = "ground_acceleration_{}", ground
+        columns += [f"{name.format(axis)} [m/s2]" for axis in ("ns", "ew", "ud")]
+        values += [band_limited(middle, level[:, AXES[axis]]) for axis in ("ns", "ew", "ud")]
     return Storeys(tuple(columns), np.column_stack(values))
+
+
+def band_limited(time, values):
+    """(F,) values at times (F,) [s] without what lies beyond BAND; gaps (NaN) stay."""
+    known = np.isfinite(values)
+    if known.sum() < 2:
+        return values
+    grid = np.arange(time[0], time[-1] + STEP / 2, STEP)
+    ends = round(PADDING / STEP)
+    padded = np.pad(np.interp(grid, time[known], values[known]), ends, "edge")
+    gain = 1 / np.sqrt(1 + (np.fft.rfftfreq(len(padded), STEP) / BAND[1]) ** (2 * ORDER))
+    filtered = np.fft.irfft(gain * np.fft.rfft(padded), len(padded))[ends:-ends]
+    return np.where(known, np.interp(time, grid, filtered), values)
 
 
 def ground_velocity(motion, time):

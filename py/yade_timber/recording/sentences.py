@@ -27,7 +27,7 @@ def sentence(found):
         return town(found)
     onset = missed_onset(found)
     early = "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
-    parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), early)
+    parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found), early)
     return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
 
 
@@ -67,7 +67,7 @@ def place_in_ensemble(found):
 def town(found):
     """'Town harbour: 6 houses, 3 undamaged, 2 unsafe, 1 collapsed'. found: summary of a town"""
     counts = [f"{found['verdicts'].count(state)} {state}" for state in verdict.STATES if state in found["verdicts"]]
-    return f"Town {found['model']}: {len(found['verdicts'])} houses, {', '.join(counts)}"
+    return "; ".join(filter(None, (f"Town {found['model']}: {len(found['verdicts'])} houses, {', '.join(counts)}", record(found))))
 
 
 def main_structure(found):
@@ -167,6 +167,12 @@ def snow(found):
         return ""
     first = first_time(found, "snow_fallen")
     return f"snow {found['snow_mass_kg'] / 1000:.1f} t" + ("" if first is None else f", falling from {first:.1f} s")
+
+
+def record(found):
+    """Constant part of the record, if it has one."""
+    note = (found.get("record") or {}).get("note")
+    return f"the record's {note}" if note else ""
 
 
 def direction_name(key):

@@ -11,6 +11,7 @@ from pathlib import Path
 import yade.wrapper as yw
 
 from ..base.atomic_write import written_whole
+from ..base.encoding import encodable
 from ..base.errors import RunError
 from ..base.input_file import require_regular
 
@@ -25,7 +26,8 @@ def save(path, identity, progress):
     A kill at any moment leaves a complete file, the earlier or the new one.
     """
     with written_whole(path) as part:
-        O.save(str(part), quiet=True)
+        with encodable(part) as name:
+            O.save(name, quiet=True)
         seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(part.read_bytes()).hexdigest()}
         with open(part, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
@@ -47,7 +49,8 @@ def load(path, identity):
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     _require_same(path, seal["identity"], identity)
     try:
-        O.load(str(path), quiet=True)
+        with encodable(path) as name:
+            O.load(name, quiet=True)
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
     return seal["progress"]

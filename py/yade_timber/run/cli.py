@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Command line of the run scripts -> (Scenario, Output). YADE's own options (-n, -x, -j2) stand before the script's name."""
 import argparse
-import sys
 import tempfile
-import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..base.errors import RunError
+from ..base.errors import RunError, one_line
+from ..base.notes import noted
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
@@ -149,7 +148,12 @@ def read_house(argv, motion=None):
     given, arguments = _parsed(house_parser(), argv)
     depth = load_house(given.file).data["snow"]["depth"] if given.snow is None else given.snow
     shaken = motion is not None or given.quake or given.record is not None or given.seed is not None
-    return _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, depth, "add --quake or --record FILE", motion))
+    return _run(given, arguments, Request(_name_of(given.file), given.file, shaken, depth, "add --quake or --record FILE", motion))
+
+
+def _name_of(path):
+    """Name of a house or town file, printable whatever the file's name."""
+    return one_line(Path(path).stem)
 
 
 @dataclass(frozen=True)
@@ -168,7 +172,7 @@ def read_town(argv):
             raise RunError(f"--{option}: not for towns; run a house with scripts/house.py")
     town = load_town(given.file)
     shaken = given.quake or given.record is not None or given.seed is not None
-    scenario, output = _run(given, arguments, Request(Path(given.file).stem, given.file, shaken, 0.0, "add --quake or --record FILE"))
+    scenario, output = _run(given, arguments, Request(_name_of(given.file), given.file, shaken, 0.0, "add --quake or --record FILE"))
     delays = town.delays()
     if given.duration is None and scenario.motion:
         scenario.duration += max(delays)
@@ -299,12 +303,8 @@ def _motion(shaking, request, dt):
         for option in shaking.given():
             raise RunError(f"--{option}: this run has no earthquake; {request.remedy}")
         return None
-    with warnings.catch_warnings(record=True) as notes:
-        warnings.simplefilter("always")
-        motion = shaking.motion(dt, request.motion)
-    for note in notes:
-        print(f"note: {note.message}", file=sys.stderr)
-    return motion
+    with noted():
+        return shaking.motion(dt, request.motion)
 
 
 def prepare_folder(folder):

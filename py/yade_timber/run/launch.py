@@ -7,6 +7,7 @@ the prompt. The other modules are imported inside `launch`, so that Ctrl-C durin
 import signal
 import sys
 
+from ..base.encoding import print_anything
 from ..base.interrupt import deferred_interrupt
 
 
@@ -16,6 +17,7 @@ def launch(read, ensemble, argv=None):
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
+    print_anything()
     try:
         with deferred_interrupt():
             from ..base.errors import InputError

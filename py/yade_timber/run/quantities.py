@@ -56,7 +56,13 @@ def storey_peaks(table):
             "shear_coefficient": {axis: round(value / (above * gravity), 4) if above * gravity else None for axis, value in shear["sustained"].items()},
             "acceleration": {axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
         }
-    return {"mass_kg": round(float(masses.sum()), 3), "base_shear": _shears(table, "base_shear_{}"), "storeys": found}
+    return {
+        "mass_kg": round(float(masses.sum()), 3),
+        "base_shear": _shears(table, "base_shear_{}"),
+        "acceleration_band_hz": list(quantities.BAND),
+        "ground_acceleration": {axis: round(table.peak(f"ground_acceleration_{axis}"), 4) for axis in AXES},
+        "storeys": found,
+    }
 
 
 def _shears(table, name):

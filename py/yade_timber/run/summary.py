@@ -9,7 +9,7 @@ from .. import _plugin
 from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
-from ..motion import interpolation_error, onset
+from ..motion import constant_note, interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
@@ -115,6 +115,7 @@ def record(scenario):
         "dt": motion.dt,
         "interpolation_error": round(error, 6),
         "onset_s": None if begin is None else begin + scenario.delay,
+        "note": constant_note(motion, scenario.scale) or None,
         "sequence": [part_of_record(part, scenario.scale) for part in motion.parts] or None,
     }
 

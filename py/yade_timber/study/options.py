@@ -6,6 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from ..base.encoding import print_anything
 from ..base.errors import InputError, RunError
 from ..base.time_step import DEFAULT_DT
 from ..house import HouseError, load_house
@@ -27,6 +28,7 @@ class Parser(argparse.ArgumentParser):
 
 def run_script(main):
     """Call main() and exit with what it returns; expected errors become one line and exit status 1."""
+    print_anything()
     try:
         sys.exit(main())
     except (InputError, OSError) as problem:

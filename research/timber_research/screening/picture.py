@@ -7,6 +7,8 @@ from matplotlib.figure import Figure
 from yade_timber.base.atomic_write import written_whole
 from yade_timber.base.colors import BLUE, GREY, ORANGE
 
+from yade_timber.pictures.style import default_style
+
 from .. import design
 from ..factors import FACTORS
 from .effects import EMPTY, INTERACTION, MAIN, SIGNIFICANT, columns
@@ -24,6 +26,7 @@ TICKS = {LOG: (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000), SHARE: (10, 20, 5
 """Admissible ticks: factors, per cent, numbers."""
 
 
+@default_style()
 def draw(results, path):
     """Write the picture; returns its path. Raises OSError."""
     effects = {name: results.effects(name) for name in SHOWN}

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of a table as tasks of the driver: each row is a run of scripts/house.py. All rows are checked before the first run."""
 
-import warnings
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
 from ...base.atomic_write import write_text
+from ...base.notes import noted
 from ...house import HouseError, build_house, changed_house, load_house
 from ...house.parser import house_text
 from ...motion import MotionRequest, RecordError
@@ -119,7 +119,6 @@ def _located(row):
 
 @lru_cache(maxsize=256)
 def _read_record(request, dt):
-    """Read and process a recorded ground motion. Raises RecordError."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    """Read and process a recorded ground motion; its warnings become notes, once. Raises RecordError."""
+    with noted():
         request.motion(dt)

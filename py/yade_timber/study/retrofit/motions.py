@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Ground motions of a ranking, as columns of a batch table: synthetic ones of several seeds, or the records of a folder, scaled to a target."""
 import re
-import warnings
 from itertools import groupby
 from pathlib import Path
 
 from ...base.errors import RunError
+from ...base.notes import noted
 from ...base.time_step import DEFAULT_DT
 from ...motion import MotionRequest, RecordError, onset, significant_duration
 from ...motion.formats import sniff
@@ -70,8 +70,7 @@ def _record(prefix, paths):
 
 def window(record, units=None):
     """{'start', 'end'} of the part of a record that is run. Raises RecordError."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with noted():
         motion = MotionRequest(record=record, units=units).motion(DEFAULT_DT)
     begin = onset(motion)
     if begin is None:
