@@ -2,6 +2,7 @@
 """Own houses in YADE: the worked examples stand still; snow stays or slides as friction says; small and pyramidal roofs hold."""
 import math
 
+import numpy as np
 import pytest
 import yaml
 import yade_timber as yt
@@ -10,6 +11,7 @@ from yade_timber.base.time_step import MAX_DT
 from yade_timber.run.observer import Observer
 from yade_timber.scene import engines, scenario
 from yade_timber.house import HouseError
+from yade_timber.motion import GroundMotion
 from yade_timber.house.loader import SHIPPED
 
 STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
@@ -181,3 +183,16 @@ def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, l
     load = max(engines.find_engine(yt.StructureMonitor).load)
     most, strongest = (8e-4, 0.35) if "gable" in roof else (1.3e-3, 0.55)
     assert broken() == 0 and max(monitor.peak) < 1e-6 and apart < most and load < strongest
+
+
+def test_damage_before_the_shaking_is_an_event():
+    """The ground shakes from 0.5 s on; the entrance leans by 1/14 before. A house without that damage, and damage that comes later, have no event."""
+    shaking = np.zeros((100, 3))
+    shaking[50:, 0] = 1.0
+    for lean, time, events in ((0.0, 0.5, 0), (0.2, 0.3, 0), (0.2, 0.48, 1), (0.2, 0.6, 0)):
+        model = scenario.build(scenario.Scenario("weight", "A", GroundMotion(0.01, shaking)))
+        observed = Observer(model)
+        next(b for b in O.bodies if b.shape.name == "entrance.roof").state.pos += (lean, 0, 0)
+        observed.observe(time)
+        texts = [event.what for event in observed.log.events if event.kind == "own_weight"]
+        assert texts == ["damaged before the shaking, by its own weight: entrance: peak drift 1/14"] * events

@@ -9,7 +9,7 @@ MOST = 10
 """Number of lines."""
 EVENTS = 3
 """Number of lines that events may take from others; those of an earlier kind in the next list come first."""
-IMPORTANT = ("collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
+IMPORTANT = ("own_weight", "collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
 
 
 def lines(found):

@@ -10,7 +10,7 @@ import yade.wrapper as yw
 
 from .. import _plugin
 from ..motion import GroundMotion, displacement
-from ..recording import frames
+from ..recording import frames, own_weight
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import EventLog
 from ..recording.sentences import direction_name, joint_place
@@ -145,6 +145,7 @@ class Observer:
         self.log = EventLog(self.survey, known["events"] if known else ())
         self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = known["modes"] if known else None
+        self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `known`."""
@@ -178,3 +179,13 @@ class Observer:
         if self.modes is None and time > SETTLED - O.dt / 2:
             self.modes = modes_now(self.main_levels)
         self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}
+        if self.shaking is not None and time <= self.shaking < time + frames.steps_between(O.dt) * O.dt:
+            self._weigh(time, state)
+
+    def _weigh(self, time, state):
+        """Note the damage that the house has in its last frame before the shaking."""
+        peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
+        structures = {name: {"peak_drift": peaks[name], **facts} for name, facts in self.survey.by_structure(state).items()}
+        damage = own_weight.damage_before_shaking(structures, "snow" in self.survey.elements.kind)
+        if damage:
+            self.log.add(time, "own_weight", damage)
