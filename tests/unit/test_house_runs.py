@@ -196,3 +196,22 @@ def test_damage_before_the_shaking_is_an_event():
         observed.observe(time)
         texts = [event.what for event in observed.log.events if event.kind == "own_weight"]
         assert texts == ["damaged before the shaking, by its own weight: entrance: peak drift 1/14"] * events
+
+
+def test_peaks_of_joints_end_with_the_fall():
+    """Of a house that collapses they are those of the last frame before a storey drift of 1/10, of one that stands those of the whole run."""
+    stand("A", 0.02)
+    observed = Observer(scenario.Scenario("stand", "A").build_model())
+    monitor = engines.find_engine(yt.HouseMonitor)
+    observed.observe(O.time)
+    before = observed.joint_peaks()
+    assert observed.fall() is None and len(before) == len(observed.model.joints)
+    monitor.tiltTime = O.time
+    O.run(20, True)
+    observed.observe(O.time)
+    later = observed.joint_peaks()
+    assert later != before, "the house stands: all peaks count"
+    monitor.collapseTime = O.time
+    observed.observe(O.time)
+    assert observed.joint_peaks() == before and observed.fall() == monitor.tiltTime
+    assert Observer(observed.model, observed.progress()).joint_peaks() == before
