@@ -1,13 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Print counts and weights of a house and draw it: show_house.py C2 [--snow 1.0] [--out house.png]. Needs no YADE."""
+"""Print counts and weights of a house, draw it, and check that it bears its own weight: show_house.py C2 [--snow 1.0] [--out house.png].
+
+Without YADE the check is left out.
+"""
 import json
+from pathlib import Path
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
+from yade_timber.base.errors import RunError
 from yade_timber.house import build_house, diagnose, load_house, shipped_houses, weigh
 from yade_timber.pictures import drawings
 from yade_timber.pictures.figures import stem_of
+from yade_timber.study.own_weight import check_own_weight
+
+SCRIPTS = Path(__file__).resolve().parents[1]
 
 
 def arguments():
@@ -26,6 +34,10 @@ def main():
         print(json.dumps({**model.counts(), "weight": weigh(model), "diagnosis": judged}, indent=2))
         written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)
     print("written: " + ", ".join(map(str, written)))
+    try:
+        print(f"without shaking: {check_own_weight(options.house, options.snow, SCRIPTS)}")
+    except RunError as problem:
+        print(f"without shaking: not checked ({problem})")
 
 
 if __name__ == "__main__":

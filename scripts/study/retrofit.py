@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow cleared.
 
-    scripts/study/retrofit.py HOUSE [--group wall] [--motions 16 | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
+    scripts/study/retrofit.py HOUSE [--group wall] [--motions N | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
 
-Each measure is compared with the house as it is under the same motions (paired Wilcoxon test, Holm's correction). Candidates that are behind
-after 4, 8, ... motions are dropped. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the
-first run. Stop it at any time: the same command continues.
+Each measure is compared with the house as it is under the same motions. The first motions select three measures, the others test them (paired exact
+test of the collapses or of the drifts, Holm's correction). The motions are scaled so that about half of them bring the house down, unless the options
+give their strength. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the first run. Stop it at any
+time: the same command continues.
 """
 
 from pathlib import Path
@@ -28,7 +29,8 @@ def arguments():
     made = Parser(__doc__)
     add_driver_options(made, "results/study_retrofit")
     made.add_argument("house", type=house_name, metavar="HOUSE", help="shipped house or house file")
-    made.add_argument("--motions", type=count, default=16, metavar="N", help="number of synthetic motions (default %(default)s)")
+    made.add_argument("--motions", type=count, metavar="N",
+                      help=f"number of synthetic motions (default: {race.TESTS} for the test, and those that select the measures to be tested)")
     made.add_argument("--records", type=Path, metavar="FOLDER", help="folder of recorded motions, instead of synthetic ones")
     made.add_argument("--units", metavar="UNIT", help="unit of records that state none: gal, m/s2 or g")
     made.add_argument("--pga", type=positive, metavar="GAL", help="scale each motion to this PGA [gal]")
@@ -55,30 +57,30 @@ def ranking_of(options):
     target = {key: getattr(options, key) for key in ("pga", "intensity", "scale") if getattr(options, key) is not None}
     if len(target) > 1:
         raise RunError(f"--{' and --'.join(target)} exclude each other; give one of them")
-    shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(options.motions, target)
-    if options.end is not None and not options.records:
-        shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
     found = candidates(options.house, options.snow, options.kinds, options.only, options.group)
     if not found:
         raise RunError(f"{options.house}: no measure of these kinds and names")
+    number = options.motions or race.default_motions(len(found))
+    shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(number, target)
+    if options.end is not None and not options.records:
+        shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
     needed = race.needed_motions(len(found))
     if len(shaking) < needed:
-        remedy = f"give at least {needed} motions, or fewer measures with --kinds or --only"
-        raise RunError(f"{len(shaking)} motions cannot show a difference for {len(found)} measures; {remedy}")
+        raise RunError(f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least {needed}")
     same = {"house": options.house, "snow": f"{options.snow:g}", "until_collapse": "yes", **({"dt": f"{options.dt:g}"} if options.dt else {})}
     return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
 
 
 def cheaper(ranking, options):
-    """'; --group wall: 132' where a ranking of whole walls has fewer runs, else ''."""
+    """'; --group wall: 120' where a ranking of whole walls has fewer runs, else ''."""
     grouped = len(candidates(options.house, options.snow, options.kinds, options.only, "wall"))
     return f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
 
 
 def pictures(ranking, results, number):
     """Repeat the house as it is and the best measures with frames, under the motion worst for the house; returns [(text, folder)]."""
-    worst = max(ranking.house.responses, key=ranking.house.responses.get)
-    chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.responses)]
+    worst = max(ranking.tests, key=lambda motion: race.response(ranking.house.runs[motion]))
+    chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.runs)]
     tasks = []
     for entry in chosen:
         task = ranking.task(entry, worst)
@@ -90,9 +92,9 @@ def pictures(ranking, results, number):
     return [(f"{entry.candidate.text}, {worst}", task.folder.relative_to(ranking.folder)) for entry, task in zip(chosen, tasks) if done[task]]
 
 
-def write(ranking, options, shown=()):
-    """Write overview and table; returns the results."""
-    results = race.ranking(ranking.entries, ranking.house.responses)
+def write(ranking, options, strength, shown=()):
+    """Write overview and table; returns the results. strength: sentence about the choice of the motions' strength"""
+    results = race.ranking(ranking.entries, ranking.house, ranking.tests)
     scaled = "".join(f", {key} {getattr(options, key):g}" for key in ("pga", "intensity", "scale") if getattr(options, key) is not None)
     source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
     snow = f", {options.snow:g} m of snow" if options.snow else ""
@@ -101,9 +103,10 @@ def write(ranking, options, shown=()):
     about = [
         f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures{filled}.",
         f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
-        overview.summary(results, ranking.house),
+        *filter(None, [strength]),
+        overview.summary(results),
     ]
-    write_text(ranking.folder / "retrofit.csv", overview.table_text(results, ranking.house))
+    write_text(ranking.folder / "retrofit.csv", overview.table_text(results))
     write_text(ranking.folder / "index.html", overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown))
     return results
 
@@ -116,11 +119,13 @@ def main():
     print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs{cheaper(ranking, options)}")
     if options.dry_run:
         return 0
+    is_given = options.pga or options.intensity or options.scale
+    strength = "" if is_given else ranking.choose_scale()
     ranking.run()
-    results = write(ranking, options)
+    results = write(ranking, options, strength)
     if options.pictures:
-        write(ranking, options, pictures(ranking, results, options.pictures))
-    print(overview.summary(results, ranking.house))
+        write(ranking, options, strength, pictures(ranking, results, options.pictures))
+    print(overview.summary(results))
     print(f"written: {ranking.folder / 'index.html'}, {ranking.folder / 'retrofit.csv'}")
     return int(any(entry.failed for entry in ranking.entries))
 

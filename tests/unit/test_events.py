@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import EventLog
+from yade_timber.recording.own_weight import damage_before_shaking, start_of_shaking
 from yade_timber.recording.sentences import joint_place, sentence
 from yade_timber.recording.verdict import judge, leans, passed
 from yade_timber.recording.walls import count_apart
@@ -231,3 +232,37 @@ def test_damage_by_structure():
     found = survey(run).by_structure(State(state.position, state.orientation, broken))
     assert found == {"main": {"broken": 1, "partly_broken": 1, "columns_lost": 1, "collapsed": False},
                      "carport": {"broken": 1, "partly_broken": 0, "columns_lost": 0, "collapsed": False}}
+
+
+# --- own weight -------------------------------------------------------------------------------------------------------
+
+
+def test_start_of_shaking():
+    """The sample's ground has 4 pi^2 0.2 sin(2 pi t) m/s2 after 1 s: 0.5 m/s2 at the second sample after it. Weak shaking does not count."""
+    motion = frames_sample.motion()
+    assert start_of_shaking(motion) == pytest.approx(1.02, abs=1e-6)
+    motion.acceleration[:] *= 0.05
+    assert start_of_shaking(motion) is None and start_of_shaking(None) is None
+
+
+FACTS = {"peak_drift": 1e-4, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False}
+
+
+@pytest.mark.parametrize("main, text", [
+    ({}, ""), ({"peak_drift": 1 / 45, "broken": 12}, "12 joints broken, peak drift 1/45"), ({"collapsed": True}, "collapsed"),
+    ({"partly_broken": 1, "columns_lost": 2}, "1 joint partly broken, 2 columns lost, peak drift below 1/1000"),
+])  # fmt: skip
+def test_damage_before_the_shaking(main, text):
+    structures = {"main": {**FACTS, **main}, "shed": FACTS}
+    assert damage_before_shaking(structures, False) == (text and f"damaged before the shaking, by its own weight: {text}")
+
+
+def test_damage_by_the_own_weight_in_the_verdict():
+    """Of a run with an earthquake the event; of a run without one the cause, unless the house is undamaged."""
+    known = frames_sample.summary("A")
+    event = {"time_s": 0.9, "kind": "own_weight", "what": "damaged before the shaking, by its own weight: 3 joints broken", "number": 1}
+    assert "before the shaking" not in sentence({**known, "earthquake": True})
+    assert f"; {event['what']}; " in sentence({**known, "earthquake": True, "events": [*known["events"], event]})
+    assert "; damaged by its own weight and snow; " in sentence({**known, "earthquake": False, "snow": True, "snow_mass_kg": 1000})
+    calm = {"earthquake": False, "collapsed": False, "peak_drift": {"storey1": {"ns": 1e-4, "ew": 0.0}}, "broken": {"total": 0, "damaged_at_start": {"total": 0}}}
+    assert "own weight" not in sentence({**known, **calm, "events": []})

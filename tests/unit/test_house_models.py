@@ -185,5 +185,6 @@ def test_picture_script(tmp_path):
     assert run.returncode == 0, run.stderr
     assert json.loads(run.stdout[: run.stdout.rindex("}") + 1])["joints_by_kind"]["column_beam"] == 180
     assert out.stat().st_size > 50_000
+    assert run.stdout.splitlines()[-1].startswith("without shaking: House A is undamaged"), run.stdout
     bad = subprocess.run([sys.executable, ROOT / "scripts/show/show_house.py", "D"], capture_output=True, text=True)
     assert bad.returncode == 1 and bad.stderr.startswith("error: unknown house 'D'") and bad.stderr.count("\n") == 1

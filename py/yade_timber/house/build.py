@@ -15,7 +15,7 @@ from .joints import find_joints
 from .loads import apply_loads
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
-from .roof import OUTWARD, lay_roof, lay_snow
+from .roof import OUTWARD, lay_roof, lay_snow, tie_gables
 from .structure import Structure, require_few
 from .walls import multiplier, sheathe
 
@@ -41,6 +41,7 @@ def build_house(description, snow_depth=None, check=True):
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
     for structure in structures.values():
+        tie_gables(structure, joints)
         joints += sheathe(structure, elements, data)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)

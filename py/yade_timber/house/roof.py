@@ -4,7 +4,7 @@
 All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, on which it
 rests with a level face, the soffit of the eaves. Where that face would end before the plates, the eaves are boxed: the soffit reaches
 over the plates, and from there the underside rises to the slab's own thickness at the ridge. A boxed slab is hollow: it has the mass of
-its thickness over its sloped area. Gable: two slabs that share the ridge. Hip (paper, 3.4): hips run at 45 degrees
+its thickness over its sloped area. Gable: two slabs that share the ridge, tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees
 in plan; each slab is the part of the outline nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three
 corners are cut off, octahedra. A square plan gives a pyramid.
 """
@@ -18,6 +18,8 @@ from .geometry import Polyhedron, box
 
 SEAT = 0.05
 """Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
+TIE_SPACING = 0.91
+"""Of the tie beams of a gable roof along its ridge, at most. [m]"""
 OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 
@@ -222,8 +224,35 @@ def lay_snow(structure, layer, depth, material):
     return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()]
 
 
+def tie_gables(structure, joints):
+    """Move half of a ridge joint's springs down to the tie beams of each gable roof, where its slabs would push the walls apart.
+
+    The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of one fitting.
+    """
+    for layer in structure.layers:
+        if layer.kind == "roof" and layer.table["type"] == "gable":
+            slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides}
+            for joint in joints:
+                if {joint.a, joint.b} == slabs:
+                    _tie(joint, layer.z0)
+
+
+def _tie(joint, level):
+    """Give a ridge joint its tie beams at the height `level` [m]."""
+    along = np.ptp(joint.points, axis=0).max()
+    lower = joint.points[:, 2] < joint.centre[2]
+    joint.points[lower, 2] = level
+    number = 1 + np.ceil(along / TIE_SPACING)
+    joint.kn, joint.ks, joint.strength = number * joint.kn, number * joint.ks, number * joint.strength
+
+
 def _element(structure, layer, kind, side, vertices, table):
+    name = slab_name(structure, layer, kind, side)
+    return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side])))
+
+
+def slab_name(structure, layer, kind, side):
+    """'roof.west', or 'roof2.west' of the second roof of a structure."""
     roofs = [other for other in structure.layers if other.kind == "roof"]
     number = str(roofs.index(layer) + 1) if len(roofs) > 1 else ""
-    name = f"{kind}{number}" + (f".{side}" if side else "")
-    return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side])))
+    return f"{kind}{number}" + (f".{side}" if side else "")

@@ -11,14 +11,17 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
 from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
+from ..recording.failures import first_failures
 from ..recording.lines import lines, main_mode, period_text
-from ..recording.sentences import counted, direction_name, joints_and_sheets, sentence
+from ..recording.sentences import counted, directed, direction_name, joints_and_sheets, sentence
 from . import REPORT, fonts, quantities, report_pictures
 from .panels import panels
 from .style import default_style
@@ -42,11 +45,12 @@ LIGHT = 1.5
 """Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
 STYLE = """
 @page { size: A4; margin: 9mm 10mm; }
-body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; max-width: 190mm; margin: 0 auto; }
+body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; width: 190mm; height: 277mm; margin: 0 auto;
+  display: flex; flex-direction: column; }
 h1 { font-size: 14pt; margin: 0 0 1mm; } h2 { font-size: 9pt; margin: 1.6mm 0 0.6mm; border-bottom: 0.3mm solid #999; }
 .verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 .row { display: flex; gap: 4mm; } .row > * { flex: 1 1 0; min-width: 0; } .row > .wide { flex: 1.25 1 0; }
-img { max-width: 100%; display: block; } img.shots { margin: 0 auto; max-height: 60mm; }
+img { max-width: 100%; display: block; } img.shots { flex: 1 1 0; min-height: 45mm; object-fit: contain; }
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm; border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
 td.number, th.number { text-align: right; } td { white-space: nowrap; } td.name { white-space: normal; }
 ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; } small { font-size: 6.4pt; }
@@ -70,12 +74,14 @@ def write(folder):
 def page(frames, results):
     """Text of the page. results: quantities.Results"""
     found = results.summary
+    failures = first_failures(frames) if found["collapsed"] else []
+    table = failed_joints(frames, results, failures) if failures else joints(results)
     parts = [
         f"<h1>{text(frames.title)}</h1>",
         f'<div class="verdict" style="background:{COLORS[found["verdict"]]}">{text(sentence(found))}</div>',
-        f'<div class="row"><section>{house(frames, found)}</section><section class="wide">{motion(frames, found)}</section></div>',
+        f'<div class="row"><section>{house(frames, found, failures)}</section><section class="wide">{motion(frames, found)}{storeys(found)}</section></div>',
         f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
-        f'<div class="row"><section>{events(found)}</section><section class="wide">{joints(results)}</section></div>{limits()}',
+        f'<div class="row"><section>{events(found)}</section><section class="wide">{table}</section></div>{limits()}',
         f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(found))}</ul>",
         repeat(found),
     ]
@@ -101,25 +107,31 @@ def picture(figure, part=None, name="", about=""):
 # --- parts of the page ------------------------------------------------------------------------------------------------
 
 
-def house(frames, found):
-    """Plans, and the table of the storeys."""
-    known, kinds = found["quantities"], frames.elements.kind
+def house(frames, found, failures):
+    """Plans with the first failures, numbers of members, weight, natural periods."""
+    kinds = frames.elements.kind
     counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {"walled bay": len(panels(frames, 0))}
     periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := main_mode(found, "before", axis)))
+    (_, counts["joint"]), (_, counts["wall sheet"]) = joints_and_sheets(found)
+    numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
+    marks = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
+    marks += "; orange: joints broken from the start" * any(frames.joints.damaged) + "; numbers: first failures" * bool(failures)
+    return (
+        f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}"
+        f"<p>Plans, north up{marks}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
+    )
+
+
+def storeys(found):
+    """Table of the storeys: weight above and shear."""
+    known = found["quantities"]
+    until = "" if known.get("until_s") is None else f", before {known['until_s']:.2f} s"
     rows = "".join(
         f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{weight_of(storey['mass_above_kg']):.0f} kN</td>"
         f"<td class=number>{coefficients(storey)}</td></tr>"
         for name, storey in known["storeys"].items()
     )
-    (_, counts["joint"]), (_, counts["wall sheet"]) = joints_and_sheets(found)
-    numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
-    braces = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
-    braces += "; orange: joints broken from the start" * any(frames.joints.damaged)
-    return (
-        f"<h2>The house</h2>{picture(report_pictures.plans(frames), about='plans, north up')}"
-        f"<p>Plans, north up{braces}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
-        f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W</th></tr>{rows}</table>"
-    )
+    return f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W{until}</th></tr>{rows}</table>"
 
 
 def coefficients(storey):
@@ -176,6 +188,41 @@ def joints(results):
     heads = ("utilisation", "pull kN", "shear kN", "opening mm")
     head = f"<tr><th>joint</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}<th>end</th></tr>"
     return f"<h2>Joints most loaded</h2><table>{head}{rows}</table>"
+
+
+def failed_joints(frames, results, failures):
+    """Table of the first failures of a house that has collapsed, and how far its other joints were when its fall began."""
+    known = {row["joint"]: row for row in results.joints}
+    rows = "".join(failed_joint(number, failure, frames, known) for number, failure in enumerate(failures, 1))
+    heads = ("drift of its storey", "pull kN", "shear kN", "strength kN")
+    head = f"<tr><th></th><th class=number>time s</th><th>joint</th><th>cause</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}</tr>"
+    return f"<h2>First failures</h2><table>{head}{rows}</table><p>{text(others(frames, results))}</p>"
+
+
+def failed_joint(number, failure, frames, known):
+    """Row of a Failure. known: {joint: row of joints.csv}"""
+    joint, row = frames.joints, known[frames.joints.name[failure.joint]]
+    storey = joint.storey[failure.joint]
+    place = f"{joint.kind[failure.joint].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey}, {joint.side[failure.joint].replace('+', ', ')}"
+    drift = "" if failure.drift is None else directed(failure.drift, failure.direction)
+    forces = "".join(f"<td class=number>{float(row[column]) / 1e3:.1f}</td>" for column in ("pull [N]", "shear [N]", "strength [N]"))
+    title = f' title="{joint_name(row["joint"])}"'
+    return (f"<tr><td class=number>{number}</td><td class=number>{failure.time:.2f}</td><td{title}>{text(place)}</td><td>{text(failure.cause)}</td>"
+            f"<td class=number>{drift}</td>{forces}</tr>")  # fmt: skip
+
+
+def others(frames, results):
+    """How far the joints were when the fall of a house that has collapsed began."""
+    fall = results.summary["quantities"]["until_s"]
+    broken = frames.broken[max(0, int(np.searchsorted(frames.time, fall)) - 1)] > 0
+    names = {name for name, fails in zip(frames.joints.name, broken) if fails}
+    rows = [row for row in results.joints if np.isfinite(float(row["strength [N]"])) and row["state"] != "before"]
+    loads = np.array([float(row["utilisation [-]"]) for row in rows if row["joint"] not in names])
+    failed = len(rows) - len(loads)
+    known = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
+    about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {known}"
+    used = f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}" if len(loads) else "none is left"
+    return f"{about}; of the others {used}."
 
 
 def joint_name(name):

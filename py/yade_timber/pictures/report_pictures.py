@@ -16,7 +16,7 @@ from .style import default_style
 from .views import FRONT, SIDE
 
 DPI = 170
-SHOTS = Format(7.6, 4.9, DPI, 6)
+SHOTS = Format(7.6, 5.6, DPI, 6)
 """Six key times across an A4 page."""
 PERIODS = np.geomspace(0.05, 5.0, 80)
 EDGE = 0.3
@@ -26,8 +26,8 @@ THICK = 0.11
 
 
 @default_style()
-def plans(frames):
-    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start."""
+def plans(frames, failures=()):
+    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start, numbered failures."""
     e = frames.elements
     columns = [k for k, kind in enumerate(e.kind) if kind == "column"]
     storeys = sorted({int(e.storey[k]) for k in columns})
@@ -36,6 +36,7 @@ def plans(frames):
     figure.subplots_adjust(0.01, 0.01, 0.99, 0.88, 0.06)
     for axis, storey in zip(axes, storeys):
         draw_plan(axis, frames, storey)
+        draw_failures(axis, frames, storey, failures)
         if columns:
             low, high = e.position[columns].min(0), e.position[columns].max(0)
             axis.set(xlim=(low[0] - EDGE, high[0] + EDGE), ylim=(low[1] - EDGE, high[1] + EDGE))
@@ -65,6 +66,20 @@ def draw_plan(axis, frames, storey):
     axis.set_title(f"storey {storey}", fontsize=7, pad=2)
     axis.set_aspect("equal")
     axis.axis("off")
+
+
+def draw_failures(axis, frames, storey, failures):
+    """Numbers of the failures in a storey at their joints, those at one place in a row."""
+    places = frames.joint_places(0)
+    rows = {}
+    for number, failure in enumerate(failures, 1):
+        if frames.elements.storey[frames.joints.a[failure.joint]] == storey:
+            rows.setdefault(tuple(places[failure.joint][:2].round(0)), []).append((number, places[failure.joint][:2]))
+    for row in rows.values():
+        at = np.mean([place for _, place in row], axis=0)
+        text = " ".join(str(number) for number, _ in row)
+        axis.text(*at, text, fontsize=6.5, fontweight="bold", color="white", ha="center", va="center", zorder=6,
+                  bbox={"boxstyle": "round,pad=0.18", "facecolor": colors.ORANGE, "edgecolor": "white", "lw": 0.5})
 
 
 def wedge(corners):
@@ -119,8 +134,8 @@ def style(axis, title, x):
 
 
 def shots(frames):
-    """(figure with up to six key times, in the view in which the house moves most; its part without the heading, a Bbox [inch])."""
-    _, _, direction = largest_drift(frames.summary)
+    """(figure with up to six key times, in the view in which the house tilts or moves most; its part without the heading, a Bbox [inch])."""
+    direction = frames.summary["tilt_direction"] or largest_drift(frames.summary)[2]
     figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
     width, height = figure.get_size_inches()
     return figure, Bbox([[0, 0], [width, height - heading_height(width, result(frames)) - 0.12]])

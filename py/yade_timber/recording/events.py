@@ -2,7 +2,8 @@
 """Events of a run with their times: to joints, columns, structures and snow. Needs no YADE.
 
 Kinds: first_break, tilt (a storey drift passes 1/10), collapse (an upper floor comes down by half a storey): at the time they happen;
-structure_fallen (another structure than the main one), columns_lost, snow_fallen: at the end of the frame interval in which they happen.
+own_weight (damaged before the shaking): in the last frame before it; structure_fallen (another structure than the main one), columns_lost,
+snow_fallen: at the end of the frame interval in which they happen.
 """
 from dataclasses import asdict, dataclass
 

@@ -4,13 +4,13 @@ from ..base.gravity import weight_of
 from . import verdict
 from .history import DIRECTIONS
 from .quantities import BAND_TEXT
-from .sentences import directed, direction_name, joints, largest_drift, ratio
+from .sentences import directed, direction_name, fall_time, joints, largest_drift, ratio
 
 MOST = 10
 """Number of lines."""
 EVENTS = 3
 """Number of lines that events may take from others; those of an earlier kind in the next list come first."""
-IMPORTANT = ("collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
+IMPORTANT = ("own_weight", "collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
 
 
 def lines(found):
@@ -23,12 +23,24 @@ def lines(found):
 def verdicts(found):
     """'main: unsafe: peak drift 1/13 reaches the safety limit of 1/30.' for each structure."""
     for name, facts in found["structures"].items():
+        if facts["collapsed"]:
+            yield f"{name.capitalize()}: {fall(name, found)}."
+            continue
         limit = verdict.passed(facts["peak_drift"])
         reason = f"peak drift {ratio(facts['peak_drift'])}" + (f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else "")
         lost = facts["columns_lost"]
         columns = f"; {lost} column{'s' * (lost != 1)} lost" if lost else ""
         lean = ", leans" if facts["leans"] else ""
         yield f"{name.capitalize()}: {facts['verdict']}{lean}; {reason}{columns}."
+
+
+def fall(name, found):
+    """'collapsed at 5.8 s, 1.5 s after a storey drift of 1/10 E-W'."""
+    main = name == next(iter(found["structures"]))
+    time, tilt = (found["collapse_time_s"], found["tilt_time_s"]) if main else (fall_time(name, found), None)
+    at = "" if time is None else f" at {time:.1f} s"
+    after = "" if tilt is None or time is None else f", {time - tilt:.1f} s after a storey drift of 1/10 {direction_name(found['tilt_direction'])}"
+    return f"collapsed{at}{after}"
 
 
 def drifts(found):
@@ -42,12 +54,14 @@ def drifts(found):
 
 
 def forces(found):
-    """Base shear, also as a share of the weight."""
+    """Base shear, also as a share of the weight; of a house that has collapsed, before its fall began."""
     known = found["quantities"]
     weight = 1e3 * weight_of(known["mass_kg"])  # [N]
     sustained, peak = known["base_shear"]["sustained"], known["base_shear"]["peak"]
     shears = ", ".join(f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)" for axis, force in sustained.items())
-    return f"Largest base shear, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
+    until = known.get("until_s")
+    before = "" if until is None else f" before {until:.2f} s"
+    return f"Largest base shear{before}, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
 
 
 def accelerations(found):

@@ -27,7 +27,7 @@ def sentence(found):
         return town(found)
     onset = missed_onset(found)
     early = "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
-    parts = (outcome(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found), early)
+    parts = (outcome(found), weight(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found), early)
     return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
 
 
@@ -45,6 +45,18 @@ def collapse_time(found):
 def first_time(found, kind):
     """Time of the first event of a kind [s], or None."""
     return next((event["time_s"] for event in found.get("events", []) if event["kind"] == kind), None)
+
+
+def weight(found):
+    """Damage before the shaking, which an event describes; without an earthquake the cause of the damage. Empty for a house without damage."""
+    if found.get("earthquake", True):
+        return next((event["what"] for event in found.get("events", []) if event["kind"] == "own_weight"), "")
+    return f"damaged by {own_weight(found['snow'])}" if verdict.judge(main_structure(found)) != verdict.UNDAMAGED else ""
+
+
+def own_weight(has_snow):
+    """'its own weight and snow'."""
+    return "its own weight" + " and snow" * has_snow
 
 
 def ensemble(found):

@@ -10,7 +10,7 @@ import yade.wrapper as yw
 
 from .. import _plugin
 from ..motion import GroundMotion, displacement
-from ..recording import frames
+from ..recording import frames, own_weight
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import EventLog
 from ..recording.sentences import direction_name, joint_place
@@ -127,6 +127,12 @@ def joint_loads():
     return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
 
 
+def largest_so_far():
+    """[(load [-], pull [N], shear [N], opening [m])] of the joints: the largest values so far, none before the first sample."""
+    monitor = find_engine(yw.StructureMonitor)
+    return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
+
+
 def contact_points():
     """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
     pair, position, force = _plugin.packed_contacts()
@@ -145,15 +151,26 @@ class Observer:
         self.log = EventLog(self.survey, known["events"] if known else ())
         self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = known["modes"] if known else None
+        self.upright = known["upright"] if known else (0.0, [])
+        self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `known`."""
-        return {"events": self.log.records(), "peaks": self.peaks, "modes": self.modes}
+        return {"events": self.log.records(), "peaks": self.peaks, "modes": self.modes, "upright": self.upright}
 
     @property
     def main_levels(self):
         """damage.Level of the main structure, from below."""
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
+
+    def fall(self):
+        """Time at which the fall of a house that has collapsed begins: a storey drift passes 1/10, or a floor is down [s]; None for one that stands."""
+        monitor = find_engine(yw.HouseMonitor)
+        return float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime) else None
+
+    def joint_peaks(self):
+        """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those before the fall began."""
+        return largest_so_far() if self.fall() is None else self.upright[1]
 
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
@@ -169,6 +186,8 @@ class Observer:
             _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
             load = f" {force / 1000:.1f} kN" if force else ""  # none after yielding
             self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause}{load}")
+        if not any(map(math.isfinite, (monitor.tiltTime, monitor.collapseTime))):
+            self.upright = time, largest_so_far()
         if math.isfinite(monitor.tiltTime):
             self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
         if math.isfinite(monitor.collapseTime):
@@ -178,3 +197,13 @@ class Observer:
         if self.modes is None and time > SETTLED - O.dt / 2:
             self.modes = modes_now(self.main_levels)
         self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}
+        if self.shaking is not None and time <= self.shaking < time + frames.steps_between(O.dt) * O.dt:
+            self._weigh(time, state)
+
+    def _weigh(self, time, state):
+        """Note the damage that the house has in its last frame before the shaking."""
+        peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
+        structures = {name: {"peak_drift": peaks[name], **facts} for name, facts in self.survey.by_structure(state).items()}
+        damage = own_weight.damage_before_shaking(structures, "snow" in self.survey.elements.kind)
+        if damage:
+            self.log.add(time, "own_weight", damage)

@@ -44,7 +44,7 @@ def storeys():
 
 
 def storey_peaks(table):
-    """{'mass_kg', 'base_shear', 'storeys'} as in the summary. table: Storeys of the run, up to a collapse"""
+    """{'mass_kg', 'base_shear', 'storeys'} as in the summary. table: Storeys of the run, up to a fall"""
     masses, gravity = part_masses(), gravity_now().norm()
     found = {}
     for k in range(1, table.count + 1):
@@ -75,10 +75,10 @@ def _shears(table, name):
 # --- joints and columns -----------------------------------------------------------------------------------------------
 
 
-def joint_peaks(model):
-    """Rows of joints.csv, the largest utilisation first."""
-    monitor, (_, broken) = find_engine(yw.StructureMonitor), observer.joint_loads()
-    peaks = list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening)) or [(0.0,) * 4] * len(model.joints)
+def joint_peaks(observed):
+    """Rows of joints.csv, the largest utilisation first. observed: Observer of the run"""
+    model, (_, broken) = observed.model, observer.joint_loads()
+    peaks = observed.joint_peaks() or [(0.0,) * 4] * len(model.joints)
     rows = []
     for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
         state = "before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs else "whole"
@@ -96,11 +96,11 @@ COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "upli
 
 def column_feet(observed):
     """Rows of columns.csv, the largest uplift first. observed: Observer of the run"""
-    monitor, model, state = find_engine(yw.StructureMonitor), observed.model, observed.state()
+    model, state = observed.model, observed.state()
     feet = {}
-    for joint, *peak in zip(model.joints, monitor.opening, monitor.pull, monitor.load):
+    for joint, (load, pull, _, opening) in zip(model.joints, observed.joint_peaks()):
         if joint.end == "bottom" and model.element(joint.a).kind == "column":
-            feet[joint.a] = np.maximum(feet.get(joint.a, 0.0), peak)
+            feet[joint.a] = np.maximum(feet.get(joint.a, 0.0), (opening, pull, load))
     survey = observed.survey
     columns = model.of_kind("column")
     states = zip(columns, survey.fallen_columns(state), survey.loose_columns(state))
@@ -133,20 +133,22 @@ class Tables:
 
 def tables(observed):
     """Tables of the run as it is now. observed: Observer of the run"""
-    return Tables(storeys(), joint_peaks(observed.model), column_feet(observed))
+    return Tables(storeys(), joint_peaks(observed), column_feet(observed))
 
 
 def summarised(made, observed):
     """The part `quantities` of the summary. made: Tables of the run; observed: Observer of the run"""
     standing = [row for row in made.columns if row[-1] == "standing"]
-    collapse = find_engine(yw.HouseMonitor).collapseTime
-    collapsed = np.isfinite(collapse)
+    breakable = [row for row in made.joints if np.isfinite(row[8])]
+    fall = observed.fall()
+    collapsed = fall is not None
     return {
+        "until_s": fall,
         "modes": {"before": observed.modes, "after": None if collapsed or observed.modes is None else modes_now(observed.main_levels)},
-        **storey_peaks(made.storeys.until(collapse) if collapsed else made.storeys),
+        **storey_peaks(made.storeys.until(fall) if collapsed else made.storeys),
         "largest_utilisation": _largest(made.joints, 4, "joint", "value", 4),
-        "largest_pull": _largest(made.joints, 5, "joint", "force"),
-        "largest_shear": _largest(made.joints, 6, "joint", "force"),
+        "largest_pull": _largest(breakable, 5, "joint", "force"),
+        "largest_shear": _largest(breakable, 6, "joint", "force"),
         "largest_uplift": None if collapsed else _largest(standing, 5, "column", "uplift_m"),
     }
 

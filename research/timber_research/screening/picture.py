@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from yade_timber.base.atomic_write import written_whole
 from yade_timber.base.colors import BLUE, GREY, ORANGE
-
 from yade_timber.pictures.style import default_style
 
 from .. import design

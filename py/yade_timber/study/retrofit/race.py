@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Statistics of a ranking: paired responses, Wilcoxon's signed-rank test with Holm's correction, successive halving. Needs no YADE.
+"""Statistics of a ranking: selection of finalists, their tests under motions of their own, Holm's correction. Needs no YADE.
 
-The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A candidate is compared with the house
-as it is under the same motions. Halving drops candidates before they are tested. It makes no false discovery more likely: the correction
-is for all candidates at the start, and a dropped one is never called better or worse.
+The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is compared with the house
+as it is under the same motions. The first motions select the finalists, the others test them. A dropped measure has no test, and costs the
+finalists no significance: the motions that chose them do not test them.
 """
 import math
 from dataclasses import dataclass
@@ -12,9 +12,12 @@ import numpy as np
 from scipy import stats
 
 SIGNIFICANCE = 0.05
-LEAST_MOTIONS = 10
-FIRST_ROUND, KEPT = 4, 4
-"""Number of motions before the first candidates are dropped, and number of candidates that are never dropped."""
+FINALISTS = 3
+"""Number of measures that are tested. [-]"""
+ROUND, CUT = 4, 5
+"""Number of motions of a round of the selection, and about the ratio of the measures before and after it. [-]"""
+TESTS, LEAST_TESTS = 16, 10
+"""Number of motions of the test: by default, and the least. [-]"""
 CAP, FLOOR = 1.0, 1e-4
 """Drift that stands for a collapse, and the smallest drift that is distinguished. [-]"""
 NO_DIFFERENCE = "no difference can be shown"
@@ -25,15 +28,16 @@ def response(run):
     return math.log(CAP if run["collapsed"] else min(max(run["peak_drift"], FLOOR), CAP))
 
 
+def selections(count):
+    """Number of rounds that select the finalists of `count` measures."""
+    return 0 if count <= FINALISTS else max(1, round(math.log(count / FINALISTS, CUT)))
+
+
 def rounds(motions, count):
-    """[(motions so far, candidates in the round)] of successive halving: 4, 8, ... motions; after each round the better half goes on."""
-    if count <= KEPT:
-        return [(motions, count)]
-    plan, done = [], min(FIRST_ROUND, motions)
-    while done < motions:
-        plan.append((done, count))
-        done, count = min(2 * done, motions), max(KEPT, math.ceil(count / 2))
-    return [*plan, (motions, count)]
+    """[(motions so far, measures in the round)]: rounds of the selection, then the test under all other motions."""
+    number = min(selections(count), (motions - LEAST_TESTS) // ROUND)
+    ratio = count / FINALISTS
+    return [*((ROUND * (k + 1), math.ceil(count / ratio ** (k / number) - 1e-9)) for k in range(number)), (motions, min(count, FINALISTS))]
 
 
 def cost(motions, count):
@@ -45,15 +49,25 @@ def cost(motions, count):
     return total
 
 
+def default_motions(count):
+    """Number of motions for `count` measures."""
+    return ROUND * selections(count) + TESTS
+
+
 def needed_motions(count):
-    """Smallest number of motions with which one of `count` candidates can be significant: the two-sided p of equal signs is 2 / 2^n."""
-    return max(LEAST_MOTIONS, math.ceil(math.log2(2 * count / SIGNIFICANCE)))
+    """Least number of motions for `count` measures."""
+    return ROUND * min(selections(count), 1) + LEAST_TESTS
 
 
 def signed_rank(differences):
     """Two-sided p of Wilcoxon's signed-rank test; 1 without a difference that is not zero."""
     differences = _not_zero(differences)
     return float(stats.wilcoxon(differences).pvalue) if len(differences) else 1.0
+
+
+def exact_sign(fewer, more):
+    """Two-sided p of McNemar's exact test: under `fewer` motions only one of two houses collapses, under `more` only the other."""
+    return float(stats.binomtest(fewer, fewer + more).pvalue) if fewer + more else 1.0
 
 
 def _not_zero(differences):
@@ -79,61 +93,114 @@ def holm(values, count):
 
 @dataclass
 class Entry:
-    """A candidate in the race. responses: {motion: response}; dropped: number of motions after which it was dropped, or None; failed: error."""
+    """A measure in the race. runs: {motion: row of runs.csv}; dropped: number of motions after which it was dropped, or None; failed: error."""
 
     candidate: object
-    responses: dict
     runs: dict
     dropped: int = None
     failed: str = ""
 
-    def differences(self, base):
-        """Responses minus those of the house as it is, under the motions of both."""
-        return np.array([value - base[motion] for motion, value in self.responses.items() if motion in base])
 
-    def ratio(self, base):
-        """Median ratio of the drift to that of the house as it is. [-]"""
-        found = self.differences(base)
-        return float(np.exp(np.median(found))) if len(found) else math.nan
+@dataclass(frozen=True)
+class Comparison:
+    """A measure and the house as it is under the same motions. differences (M,) of the responses; collapses, house_collapses (M,) bool."""
+
+    differences: np.ndarray
+    collapses: np.ndarray
+    house_collapses: np.ndarray
+
+    @property
+    def mean(self):
+        """Mean difference, infinite without motions."""
+        return float(np.mean(self.differences)) if len(self.differences) else math.inf
+
+    @property
+    def by_collapses(self):
+        """Whether collapses are compared: in half of the pairs or more, a house has collapsed, and no drift is known.
+
+        Which of the two houses has is of no influence, so that this choice does not change how often equal houses are found different.
+        """
+        return 2 * int((self.collapses | self.house_collapses).sum()) >= len(self.differences)
+
+    @property
+    def p(self):
+        """Two-sided p of a paired test: McNemar's exact test of the collapses, or Wilcoxon's signed-rank test of the responses."""
+        if self.by_collapses:
+            return exact_sign(int((self.collapses & ~self.house_collapses).sum()), int((self.house_collapses & ~self.collapses).sum()))
+        return signed_rank(self.differences)
+
+    @property
+    def is_better(self):
+        """Direction of the difference that `p` belongs to."""
+        return self.collapses.sum() < self.house_collapses.sum() if self.by_collapses else is_lower(self.differences)
 
 
-def halve(entries, base, keep):
-    """Mark all but the `keep` entries with the smallest median ratio as dropped; returns those that go on."""
-    ranked = sorted(entries, key=lambda entry: (entry.ratio(base), float(np.mean(entry.differences(base)))))
+def compare(entry, house, motions=None):
+    """Comparison of two Entries under the motions of both, of which only those in `motions` count (None: all)."""
+    both = [motion for motion in entry.runs if motion in house.runs and (motions is None or motion in motions)]
+    pairs = [(entry.runs[motion], house.runs[motion]) for motion in both]
+    differences = np.array([response(one) - response(other) for one, other in pairs])
+    fallen = np.array([(bool(one["collapsed"]), bool(other["collapsed"])) for one, other in pairs], bool).reshape(-1, 2)
+    return Comparison(differences, *fallen.T)
+
+
+def select(entries, house, keep):
+    """Mark all but the `keep` entries with the smallest mean difference as dropped; returns those that go on."""
+    ranked = sorted(entries, key=lambda entry: compare(entry, house).mean)
     for entry in ranked[keep:]:
-        entry.dropped = len(entry.responses)
+        entry.dropped = len(entry.runs)
     return ranked[:keep]
 
 
 @dataclass(frozen=True)
 class Result:
-    """Row of the ranking. ratio: median of the drift over that of the house as it is; low, high: extremes; p: corrected, None if dropped."""
+    """Row of the ranking. comparison: of a finalist under the motions of the test, else of the selection; p: corrected, None if dropped."""
 
     entry: Entry
-    ratio: float
-    low: float
-    high: float
-    collapses: int
+    comparison: Comparison
     p: float
     words: str
 
+    @property
+    def ratio(self):
+        """Median ratio of the drift to that of the house as it is, a collapse as a drift of CAP. [-]"""
+        return float(np.exp(np.median(self.comparison.differences))) if self.motions else math.nan
 
-def ranking(entries, base):
-    """Results, the best first: those of the last round, then the dropped ones in the order of the motions they had. base: {motion: response}"""
-    last = [entry for entry in entries if entry.dropped is None and not entry.failed]
-    corrected = dict(zip(map(id, last), holm([signed_rank(entry.differences(base)) for entry in last], len(entries))))
-    found = [_result(entry, base, corrected.get(id(entry))) for entry in entries]
-    return sorted(found, key=lambda result: (bool(result.entry.failed), -len(result.entry.responses), result.ratio))
+    @property
+    def motions(self):
+        """Number of motions compared."""
+        return len(self.comparison.differences)
+
+    @property
+    def collapses(self):
+        return int(self.comparison.collapses.sum())
+
+    @property
+    def house_collapses(self):
+        return int(self.comparison.house_collapses.sum())
+
+    @property
+    def why(self):
+        """'collapses under 3 motions instead of 10', or 'median drift times 0.55'."""
+        if self.comparison.by_collapses:
+            return f"collapses under {self.collapses} motions instead of {self.house_collapses}"
+        return f"median drift times {self.ratio:.2f}"
 
 
-def _result(entry, base, p):
-    ratios = np.exp(entry.differences(base))
-    low, high = (float(ratios.min()), float(ratios.max())) if len(ratios) else (math.nan, math.nan)
-    ratio, collapses = entry.ratio(base), sum(bool(run["collapsed"]) for run in entry.runs.values())
+def ranking(entries, house, tests):
+    """Results, the best first: the finalists, then the dropped measures, the last dropped first. tests: names of the motions of the test"""
+    finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
+    compared = {id(entry): compare(entry, house, tests) for entry in finalists}
+    corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
+    results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))) for entry in entries]
+    return sorted(results, key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf), result.comparison.mean))
+
+
+def _result(entry, comparison, p):
     if entry.failed:
         words = f"a run failed: {entry.failed}"
     elif p is None:
-        words = f"{NO_DIFFERENCE}: dropped after {entry.dropped} motions"
+        words = f"not tested: dropped after {entry.dropped} motions"
     else:
-        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if is_lower(entry.differences(base)) else "worse"
-    return Result(entry, ratio, low, high, collapses, p, words)
+        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if comparison.is_better else "worse"
+    return Result(entry, comparison, p, words)

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a ranking: rounds of a batch, in which the better half of the candidates goes on. A stopped ranking continues."""
+"""Runs of a ranking: pilot runs that choose the strength of the motions, rounds of a batch that select finalists, and their test.
+
+A stopped ranking continues.
+"""
+import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,14 +15,21 @@ from ..batch import read_table, run_rows, write_runs
 from ..batch.table import COLUMNS
 from ..batch.tasks import check_rows, task_of
 from .candidates import AS_IT_IS
-from .race import Entry, cost, halve, response, rounds
+from .race import Entry, cost, rounds, select
 
 TABLE = "table.csv"
+PILOTS = 6
+"""Number of motions under which the house as it is runs for the choice of their strength. [-]"""
+WEAKEST, STRONGEST = 1 / 16, 16
+"""Factors on the motions between which a strength is sought. [-]"""
+FINEST = 1.2
+"""Ratio of two factors that are not distinguished: as many motions differ. [-]"""
 
 
 @dataclass
 class Ranking:
-    """A ranking in a folder. motions: [(name, cells)]; same: cells of all runs; scripts: folder of the run scripts; jobs: runs at a time."""
+    """A ranking in a folder. motions: [(name, cells)], the first ones for the selection; same: cells of all runs; scripts: folder of the run scripts;
+    jobs: runs at a time."""
 
     folder: Path
     candidates: list
@@ -29,28 +40,68 @@ class Ranking:
 
     def __post_init__(self):
         self.folder = Path(self.folder)
-        self.house = Entry(AS_IT_IS, {}, {})
-        self.entries = [Entry(candidate, {}, {}) for candidate in self.candidates]
+        self.house = Entry(AS_IT_IS, {})
+        self.entries = [Entry(candidate, {}) for candidate in self.candidates]
+
+    @property
+    def plan(self):
+        """race.rounds of the ranking."""
+        return rounds(len(self.motions), len(self.candidates))
+
+    @property
+    def tests(self):
+        """Names of the motions of the test."""
+        selection = ([0] + [done for done, _ in self.plan])[-2]
+        return [name for name, _ in self.motions[selection:]]
 
     def check(self):
         """Check all rows before the first run: each candidate under the first motion, the house as it is under all. Raises BatchError."""
         rows = self._rows([(AS_IT_IS, motion) for motion in self.motions] + [(candidate, self.motions[0]) for candidate in self.candidates])
         check_rows(rows, self.folder)
 
+    def choose_scale(self, report=print):
+        """Scale the motions so that about half of the pilots bring the house as it is down; returns a sentence about it.
+
+        The factor is halved or doubled until the answer lies between two factors, then their geometric mean is tried. report: called with one
+        line after each factor. Raises RunError when a run fails.
+        """
+        pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
+        while scale not in shares:
+            shares[scale] = self._pilot(pilots, scale) / len(pilots)
+            report(f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of {len(pilots)} runs")
+            if abs(shares[scale] - 0.5) < 0.2:
+                break
+            low, high = (low, scale) if shares[scale] > 0.5 else (scale, high)
+            if low and high and high / low < FINEST:
+                break
+            between = math.sqrt(low * high) if low and high else 2 * low if low else high / 2
+            scale = float(f"{min(max(between, WEAKEST), STRONGEST):.3g}")
+        scale = min(shares, key=lambda one: (abs(shares[one] - 0.5), one if shares[one] > 0.5 else -one))
+        self.motions = [(name, {**cells, "scale": f"{scale:g}"}) for name, cells in self.motions]
+        fallen = f"{shares[scale] * len(pilots):.0f} of the first {len(pilots)}"
+        return f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses another strength."
+
+    def _pilot(self, pilots, scale):
+        """Number of pilots, scaled, under which the house as it is collapses."""
+        house = Entry(AS_IT_IS, {})
+        self._run([(house, (name, {**cells, "scale": f"{scale:g}"})) for name, cells in pilots], house)
+        return sum(bool(run["collapsed"]) for run in house.runs.values())
+
     def run(self, report=print):
         """All rounds. report: called with one line after each. Raises RunError when a run of the house as it is fails."""
         racing, pairs, before = self.entries, [], 0
-        plan = rounds(len(self.motions), len(self.candidates))
-        for number, (done, count) in enumerate(plan, 1):
-            racing = halve([entry for entry in racing if not entry.failed], self.house.responses, count) if before else racing
+        for number, (done, count) in enumerate(self.plan, 1):
+            racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
             pairs += [(entry, motion) for motion in self.motions[before:done] for entry in (self.house, *racing)]
-            found = self._run(pairs)
+            found = self._run(pairs, self.house)
             left = cost(len(self.motions), len(self.candidates)) - len(pairs)
-            report(f"round {number} of {len(plan)}: {len(racing)} candidates under {done} motions; {progress(found, left, self.jobs)}")
+            aim = "test" if number == len(self.plan) else "selection"
+            report(f"{aim}: {len(racing)} measures under {done - before} motions; {progress(found, left, self.jobs)}")
             before = done
 
-    def _run(self, pairs):
-        """Run [(Entry, motion)] and store responses; returns the rows of runs.csv. Raises RunError after a run that was stopped."""
+    def _run(self, pairs, house):
+        """Run [(Entry, motion)] and store the runs; returns the rows of runs.csv. house: Entry of the house as it is. Raises RunError after a run that
+        was stopped."""
         rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
         run_rows(rows, self.folder, self.scripts, self.jobs)
         found = write_runs(rows, self.folder)
@@ -58,8 +109,8 @@ class Ranking:
             if run["status"] == "unfinished":
                 raise RunError(f"{run['run']} was stopped; the same command continues")
             if run["status"] == "done":
-                entry.runs[motion], entry.responses[motion] = run, response(run)
-            elif entry is self.house:
+                entry.runs[motion] = run
+            elif entry is house:
                 raise RunError(f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to compare with")
             else:
                 entry.failed = run["error"] or run["status"]

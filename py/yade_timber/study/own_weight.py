@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no YADE itself."""
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+from ..base.errors import RunError
+from ..recording.sentences import sentence
+from .driver import SUMMARY, command
+
+TIME = 3.0
+"""Simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]"""
+
+
+def check_own_weight(house, snow, scripts):
+    """The result of the run as a sentence. house: name or file; snow: depth [m], None: the house's own; scripts: folder of the run scripts.
+
+    Raises RunError without YADE, and when the run fails.
+    """
+    depth = [] if snow is None else ["--snow", f"{snow:g}"]
+    with tempfile.TemporaryDirectory() as folder:
+        options = ["--duration", f"{TIME:g}", *depth, "--no-frames", "--checkpoint", "0", "--quiet", "--out", folder]
+        done = subprocess.run([*command(scripts / "house.py"), str(house), *options], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        if done.returncode:
+            lines = [line for line in done.stderr.splitlines() if line.strip()]
+            raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")
+        return sentence(json.loads((Path(folder) / SUMMARY).read_text()))
