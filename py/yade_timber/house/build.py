@@ -17,14 +17,19 @@ from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow
 from .structure import Structure, require_few
+from .wall_types import has_rated_walls
 from .walls import sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
 
-def build_house(description, snow_depth=None, check=True):
-    """Build a described house. snow_depth [m], vertical (None: the description's own). Raises HouseError; see `check_house`."""
+def build_house(description, snow_depth=None, check=True, wall_level=None):
+    """Build a described house. snow_depth [m], vertical; wall_level: of walls of a rated multiplier (None: the description's own).
+
+    Raises HouseError; see `check_house`.
+    """
     data = description.data
+    level = wall_level or data["law"]["wall_level"]
     depth = _snow_depth(data, snow_depth)
     structures = {}
     for name, table in data["structures"].items():
@@ -41,9 +46,10 @@ def build_house(description, snow_depth=None, check=True):
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
     for structure in structures.values():
-        joints += sheathe(structure, elements, data)
+        joints += sheathe(structure, elements, data, level)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)
+    model.law["wall_level"] = level if has_rated_walls(data) else None
     if check:
         check_house(model)
     return model
