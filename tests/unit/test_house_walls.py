@@ -86,6 +86,8 @@ def test_envelope_of_a_test(tmp_path):
     assert joint.kn == pytest.approx(6590 * 120 * 0.91 / 2 / 2.73) and joint.softening_stretch == pytest.approx(0.03 * 2.73)
     last = drifts_and_shears(sheets(house(tmp_path, line, f"{{a: {{envelope: {points}, ultimate_drift: 1/15}}}}"))[0])[-1]
     assert last == pytest.approx((1 / 15, 0))
+    origin, = sheets(house(tmp_path, line, f"{{a: {{envelope: {points.replace('[[', '[[0, 0], [')}}}}}"))
+    assert origin.envelope == joint.envelope
     late, = sheets(house(tmp_path, line, "{a: {envelope: [[0.002, 1000], [0.004, 4000], [0.1, 0]]}}"))  # a gentle start
     assert late.kn == pytest.approx(1.5e6 * 0.91 / 2 / 2.73)
 
@@ -192,8 +194,11 @@ MISTAKES = {
     "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", ["own.yaml:3", "the drifts must ascend"]),
     "points end at the peak": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", ["ultimate_drift"]),
     "points with a gap": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", ["only the last point"]),
+    "shear in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", ["own.yaml:3", "N per m of wall", "kN"]),
+    "no points": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
+    "shear at rest": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
     "point of one number": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [0.01, 5000]}}", ["envelope[1]", "a list of two items"]),
-    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", ["envelope[1][1]", "[0.0001, 1] rad"]),
+    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", ["envelope[1][1]", "[0, 1] rad"]),
     "nails in kN/mm": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), ["nails.k", "0.483 kN/mm = 483000"]),
     "nails without slip": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"), ["nails.du", "greater than Pv / k"]),
     "nails in contradiction": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), ["nails.dv", "within 10 %"]),

@@ -139,7 +139,7 @@ nails = Record({
 wall_type = Record({
     "multiplier": Number("", 0.1, 20.0, default=None),
     "strength": Number("N/m", 10.0, 1e6, default=None), "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
-    "envelope": ListOf(Pair(Number("rad", 1e-4, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
+    "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
     "nails": nails,
     "friction_share": Number("", 0.0, 1.0, default=0.2),
     "softening_drift": _drift, "ultimate_drift": _drift,

@@ -39,6 +39,8 @@ TAIL = LEVELS["mean"].ultimate_drift / 0.0497
 """Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
 SLIP_TOLERANCE = 0.1
 """Of the nails' Pv = k dv. [-]"""
+LEAST_SHEAR = 100.0
+"""Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
 FORMS = ("multiplier", "envelope", "nails")
 
 
@@ -54,6 +56,12 @@ def check_wall_types(types):
             _CHECKS[forms[0]](table, path)
         else:
             _check_rated(table, path)
+
+
+def _points(table):
+    """[(drift, shear)] of an envelope without the origin."""
+    points = [tuple(point) for point in table["envelope"]]
+    return points[1:] if points[:1] == [(0, 0)] else points
 
 
 def _refuse(table, path, keys, form):
@@ -76,13 +84,18 @@ def _check_rated(table, path):
 
 def _check_envelope(table, path):
     _refuse(table, path, ("softening_drift",), "envelope")
-    points, where = table["envelope"], table.at("envelope")
+    points, where = _points(table), table.at("envelope")
     drifts = [drift for drift, _ in points]
+    if not points or drifts[0] <= 0:
+        fail(where, f"{path}.envelope", "needs points [drift, shear] with drifts > 0; the origin may be left out")
     if drifts != sorted(set(drifts)):
         fail(where, f"{path}.envelope", f"the drifts must ascend, got {', '.join(f'{drift:.4g}' for drift in drifts)}")
     if any(shear == 0 for _, shear in points[:-1]):
         fail(where, f"{path}.envelope", "only the last point may have no shear")
-    if table["ultimate_drift"] is None and points[-1][1] == max(shear for _, shear in points):
+    largest = max(shear for _, shear in points)
+    if largest < LEAST_SHEAR:
+        fail(where, f"{path}.envelope", f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
+    if table["ultimate_drift"] is None and points[-1][1] == largest:
         fail(where, f"{path}.envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift, at which there is no shear left")
     if points[-1][1] == 0 and table["ultimate_drift"] is not None:
         fail(table.at("ultimate_drift"), f"{path}.ultimate_drift", "the last point of envelope has no shear already; remove one of them")
@@ -162,7 +175,7 @@ def _slope(a, b):
 
 def _tested(table):
     """Points of a test; beyond the last one the line from the largest shear through it, unless `ultimate_drift` says otherwise."""
-    points = [tuple(point) for point in table["envelope"]]
+    points = _points(table)
     (drift, shear), peak = points[-1], max(points, key=lambda point: point[1])
     if shear == 0:
         return points
