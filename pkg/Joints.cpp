@@ -49,10 +49,24 @@ void TimberJoint::validateLaw() const
 	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
 	if (!yields() || std::isnan(kn)) return;
 	require(kn == ks || ks == 0, "TimberJoint.ks", ks, "equal to kn, or 0, with the law slip");
+	if (!envelope.empty()) return validateEnvelope();
 	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch", softeningStretch,
 	        "finite and > strength / kn with the law slip");
 	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch", ultimateStretch,
 	        "finite and > softeningStretch with the law slip");
+}
+
+void TimberJoint::validateEnvelope() const
+{
+	std::ostringstream points;
+	Real largest = 0;
+	for (const Vector2r& point : envelope) {
+		points << (largest > 0 ? ", " : "") << point.x() << " " << point.y();
+		largest = math::max(largest, point.y());
+	}
+	const char* const unmet = timber::SlipLaw::unmetBy(kn, envelopePoints(1));
+	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
+	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength, "the largest force of TimberJoint.envelope");
 }
 
 void TimberJoint::postLoad(TimberJoint&)
@@ -67,6 +81,7 @@ void TimberJoint::postLoad(TimberJoint&)
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
 	if (yields()) {
+		slip = { stiffness().normal, frictionShare, backbone() };
 		plasticStretches.resize(anchors1.size(), Vector3r::Zero());
 		largestStretches.resize(anchors1.size(), 0);
 	}
@@ -134,10 +149,19 @@ timber::JointStiffness TimberJoint::stiffness() const
 	return { share * kn, share * ks };
 }
 
-timber::SlipLaw TimberJoint::slipLaw() const
+std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
+{
+	std::vector<timber::BackbonePoint> points;
+	for (const Vector2r& point : envelope)
+		points.push_back({ point.x(), share * point.y() });
+	return points;
+}
+
+std::vector<timber::BackbonePoint> TimberJoint::backbone() const
 {
 	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
-	return { share * kn, share * strength, frictionShare, softeningStretch, ultimateStretch };
+	if (!envelope.empty()) return envelopePoints(share);
+	return { { strength / kn, share * strength }, { softeningStretch, share * strength }, { ultimateStretch, 0 } };
 }
 
 Real TimberJoint::loadOf(const timber::JointForce& total) const { return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength; }

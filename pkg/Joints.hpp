@@ -22,6 +22,7 @@ namespace yade {
 
 class TimberJoint : public Serializable {
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
+	timber::SlipLaw slip; ///< of a spring, from the attributes
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them, and may have been changed.
 	shared_ptr<timber::PackedJoints> packed;
 	size_t index = 0; ///< in `packed`
@@ -31,6 +32,7 @@ public:
 	void postLoad(TimberJoint&);
 	void validate() const;
 	void validateLaw() const;
+	void validateEnvelope() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const;
 	bool isBroken() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
@@ -50,8 +52,12 @@ public:
 	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not write them.
 	timber::JointSprings springs();
 	bool yields() const { return isSlip; }
-	/// Law of a spring that yields; perJoint: with its share of the joint's stiffness and strength.
-	timber::SlipLaw slipLaw() const;
+	/// Points of the envelope, with a share of its forces.
+	std::vector<timber::BackbonePoint> envelopePoints(Real share) const;
+	/// Backbone of a spring that yields; perJoint: with its share of the joint's strength.
+	std::vector<timber::BackbonePoint> backbone() const;
+	/// Law of a spring that yields.
+	const timber::SlipLaw& slipLaw() const { return slip; }
 	/// Axis of springs that yield along the normal only (ks = 0), else zero. [-]
 	Vector3r slipAxis() const { return ks == 0 ? normal : Vector3r::Zero(); }
 	timber::SlipHistories slipHistories() { return { plasticStretches, largestStretches }; }
@@ -69,10 +75,11 @@ public:
 		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; 0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table 1)"))
 		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: the yield force. [N] (paper, section 3.2)"))
 		((bool, perJoint, false, Attr::triggerPostLoad, "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
-		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch. [-]"))
+		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch, or follows envelope. [-]"))
 		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is elastic and perfectly plastic; the rest slips. [-]"))
 		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring beyond which its strength falls. [m]"))
 		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring at which its strength is zero and it breaks. [m]"))
+		((vector<Vector2r>, envelope, , Attr::triggerPostLoad, "Law slip: points (stretch, force) of the first loading of each spring or of the whole joint, see perJoint, in place of softeningStretch and ultimateStretch. The stretches ascend, the last force is 0, the largest one is the strength, and no line is steeper than kn. Empty: yields at the strength, which falls from softeningStretch to ultimateStretch. [m, N]"))
 		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))

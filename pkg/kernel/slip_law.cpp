@@ -5,33 +5,59 @@
 
 namespace timber {
 
-bool SlipLaw::isValid() const
-{
-	return stiffness > 0 && strength > 0 && frictionShare >= 0 && frictionShare <= 1 && strength < stiffness * softeningStretch
-	        && softeningStretch < ultimateStretch && std::isfinite(stiffness) && std::isfinite(ultimateStretch);
+namespace {
+	/// Relative rounding of the stretches and forces of a backbone. [-]
+	constexpr double rounding = 1e-9;
 }
 
-double SlipLaw::remaining(double largest) const
+const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>& points)
 {
-	if (largest <= softeningStretch) return 1;
-	return std::max(0., (ultimateStretch - largest) / (ultimateStretch - softeningStretch));
+	if (points.size() < 2) return "of two or more points";
+	BackbonePoint last { 0, 0 };
+	for (const BackbonePoint& point : points) {
+		if (!(std::isfinite(point.stretch) && std::isfinite(point.force))) return "finite";
+		if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
+		if (&point == &points.back() ? point.force != 0 : !(point.force > 0)) return "of forces > 0, the last one 0";
+		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch)) return "nowhere steeper than kn";
+		last = point;
+	}
+	return nullptr;
 }
 
-/// y is constant in s up to d_c and linear beyond it.
-double SlipLaw::limitIntegral(double largest) const
+SlipLaw::SlipLaw(double k, double phi, const std::vector<BackbonePoint>& points)
+        : stiffness(k)
+        , frictionShare(phi)
 {
-	const double yield = strength / stiffness, plateau = yield * std::max(0., std::min(largest, softeningStretch) - yield);
-	if (largest <= softeningStretch) return plateau;
-	const double reached = std::min(largest, ultimateStretch); // no force and no work beyond it
-	return plateau + (yield + elasticLimit(reached)) / 2 * (slack(reached) - slack(softeningStretch));
+	assert(!unmetBy(k, points));
+	knots.push_back({ 0, 0, 0 });
+	for (const BackbonePoint& point : points) {
+		const Knot& last = knots.back();
+		const double slack = point.stretch - point.force / k, growth = slack - last.slack;
+		Knot next { point.stretch, growth > rounding * point.stretch ? slack : last.slack, 0 };
+		next.limitIntegral = last.limitIntegral + (last.limit() + next.limit()) / 2 * (next.slack - last.slack);
+		knots.push_back(next);
+	}
+}
+
+/// s is linear between two points. There is no strength and no work beyond the last one.
+SlipLaw::Slack SlipLaw::slackAt(double largest) const
+{
+	if (largest >= ultimateStretch()) return { largest, knots.back().limitIntegral };
+	size_t i = 1;
+	while (largest > knots[i].stretch)
+		++i;
+	const Knot &a = knots[i - 1], &b = knots[i];
+	const double slack = a.slack + (b.slack - a.slack) * ((largest - a.stretch) / (b.stretch - a.stretch));
+	return { slack, a.limitIntegral + (a.limit() + (largest - slack)) / 2 * (slack - a.slack) };
 }
 
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch)
 {
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
 	const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
-	const double largest = std::max(history.largest, r), limit = law.elasticLimit(largest), slack = law.slack(largest);
-	const double slackGrowth = slack - law.slack(history.largest), growth = law.limitIntegral(largest) - law.limitIntegral(history.largest);
+	const double largest = std::max(history.largest, r);
+	const SlipLaw::Slack now = law.slackAt(largest), before = largest > history.largest ? law.slackAt(history.largest) : now;
+	const double limit = largest - now.slack, slackGrowth = now.slack - before.slack, growth = now.limitIntegral - before.limitIntegral;
 	const double mean = slackGrowth > 0 ? growth / slackGrowth : limit;
 
 	Vec3 elastic = stretch - history.plastic;
@@ -39,7 +65,7 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 	if (flow > 0) elastic *= limit / trial;
 	const Vec3 plastic = flow > 0 ? Vec3(stretch - elastic) : history.plastic;
 
-	const double slip = std::max(0., r - slack), along = slip > 0 ? slip / r : 0;
+	const double slip = std::max(0., r - now.slack), along = slip > 0 ? slip / r : 0;
 	return { k * (phi * elastic + (1 - phi) * along * stretch), k / 2 * (phi * elastic.squaredNorm() + (1 - phi) * slip * slip),
 		k * (phi * mean * flow + (1 - phi) * growth), { plastic, largest } };
 }
@@ -78,7 +104,7 @@ std::vector<SpringBreak> slipBreaks(
 	assert(law.isValid() && isUnit(normal));
 	std::vector<SpringBreak> breaks;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		if (springs.broken[i] || histories.largest[i] < law.ultimateStretch) continue;
+		if (springs.broken[i] || histories.largest[i] < law.ultimateStretch()) continue;
 		const JointStiffness k { law.stiffness, law.stiffness };
 		breaks.push_back({ i, breakCause(springForce<double>(k, springs.stretches[i], placement.axesA * normal)), 0, 0 });
 	}

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Yielding joint spring: bilinear with slip, as used for nailed and plated timber joints (law: slip), isotropic in three dimensions.
-/// Adapter: JointEngine (pkg/Joints.hpp). Signs as in joint_law.hpp.
+/// Yielding joint spring: backbone with slip, as used for nailed and plated timber joints and for walls (law: slip), isotropic in three
+/// dimensions. Adapter: JointEngine (pkg/Joints.hpp). Signs as in joint_law.hpp.
 ///
-/// Parameters: k stiffness, F yield force, phi friction share, d_c softening stretch, d_u ultimate stretch; F/k < d_c < d_u.
+/// Parameters: k stiffness of unloading, phi friction share, B(r) backbone: force of the first loading, straight lines from the origin through
+/// given points to zero force at the ultimate stretch d_u; none is steeper than k. Bilinear with loss of strength: the points (F/k, F),
+/// (d_c, F), (d_u, 0) with the yield force F and the softening stretch d_c.
 /// State: p plastic stretch (vector), R largest length of the stretch so far. d is the stretch, r = |d|.
 ///
-///     g(R) = 1 up to d_c, linear to 0 at d_u         strength left
-///     y(R) = F g(R) / k                              elastic limit of both parts [m]
-///     s(R) = max(0, R - y(R))                        slack of the slip part [m]
+///     y(R) = B(R) / k          elastic limit of both parts [m]
+///     s(R) = R - y(R)          slack of the slip part [m], which does not fall
 ///
 /// Friction part (share phi): elastic and perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p moves along e
 /// (radial return). It gives parallelogram loops, which dissipate energy in every cycle.
@@ -20,14 +21,14 @@
 ///
 /// Balance. Friction part: e.dd = e.de + y |dp|, because dp is parallel to e and |e| = y while it yields. Slip part: on the backbone x = y
 /// and R = s + y, so that y dR = y dy + y ds; elsewhere s is constant. Both dissipate at no negative rate.
-/// First loading along a line gives the backbone min(k r, F g(r)), and energy F (d_c + d_u) / 2 - F^2 / 2k dissipated at d_u.
+/// First loading along a line gives the backbone. At d_u all work is dissipated: the area under it.
 ///
 /// Update for a straight path from the previous to the new stretch, whose largest length is at an end:
 ///     1. R grows to r; y, s and P follow in closed form;
 ///     2. radial return of e to y(R);
 ///     3. dissipated energy k (phi m |dp| + (1 - phi) dP), with m = dP / ds the mean elastic limit while s grows, else y.
 /// Radial paths: forces and history do not depend on the length of the steps. Energies do not, either, but for a step that begins below R and
-/// ends beyond both R and d_c. Other paths: error of first order in forces (radial return), of second order in the energy balance.
+/// ends beyond R where y changes. Other paths: error of first order in forces (radial return), of second order in the energy balance.
 ///
 /// Springs that act along one axis of body A only, as those of a wall in its plane: d is the projection of the stretch on the axis.
 ///
@@ -43,19 +44,46 @@
 
 namespace timber {
 
-/// Parameters of a spring.
-struct SlipLaw {
-	double stiffness; ///< k [N/m]
-	double strength; ///< yield force F [N]
-	double frictionShare; ///< phi, 0 to 1 [-]
-	double softeningStretch; ///< d_c: the strength falls beyond it [m]
-	double ultimateStretch; ///< d_u: the spring breaks [m]
+/// A point of the backbone.
+struct BackbonePoint {
+	double stretch; ///< [m]
+	double force; ///< [N]
+};
 
-	bool isValid() const;
-	double remaining(double largest) const; ///< g [-]
-	double elasticLimit(double largest) const { return strength * remaining(largest) / stiffness; } ///< y [m]
-	double slack(double largest) const { return std::max(0., largest - elasticLimit(largest)); } ///< s [m]
-	double limitIntegral(double largest) const; ///< P [m2]
+/// Parameters of a spring.
+class SlipLaw {
+	/// A point of the backbone with what follows from it; s and P are known between two points from those at both.
+	struct Knot {
+		double stretch; ///< [m]
+		double slack; ///< s [m]
+		double limitIntegral; ///< P [m2]
+		double limit() const { return stretch - slack; } ///< y [m]
+	};
+	std::vector<Knot> knots; ///< the origin first, the ultimate stretch last
+
+public:
+	double stiffness = 0; ///< k [N/m]
+	double frictionShare = 0; ///< phi, 0 to 1 [-]
+
+	SlipLaw() = default;
+	/// points: behind the origin; their stretches ascend, the last one has no force.
+	SlipLaw(double stiffness, double frictionShare, const std::vector<BackbonePoint>& points);
+	/// Bilinear, with loss of strength.
+	SlipLaw(double stiffness, double strength, double frictionShare, double softeningStretch, double ultimateStretch)
+	        : SlipLaw(stiffness, frictionShare, { { strength / stiffness, strength }, { softeningStretch, strength }, { ultimateStretch, 0 } })
+	{
+	}
+
+	/// What points must be for this stiffness and are not; null if they are a backbone.
+	static const char* unmetBy(double stiffness, const std::vector<BackbonePoint>& points);
+	bool isValid() const { return knots.size() > 1 && stiffness > 0 && frictionShare >= 0 && frictionShare <= 1; }
+	double ultimateStretch() const { return knots.back().stretch; } ///< d_u: the spring breaks [m]
+	/// s and P when the largest length of the stretch is R.
+	struct Slack {
+		double slack; ///< s [m]
+		double limitIntegral; ///< P [m2]
+	};
+	Slack slackAt(double largest) const;
 };
 
 struct SlipHistory {

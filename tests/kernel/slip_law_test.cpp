@@ -66,6 +66,79 @@ TEST(SlipLaw, BackboneOfFirstLoading)
 	}
 }
 
+namespace {
+
+/// Points of a wall test: hardening, two peaks, a gentler start than the second line, no force at the end. [m, N]
+const std::vector<BackbonePoint> points { { 0.002, 1000 }, { 0.005, 3700 }, { 0.012, 5000 }, { 0.016, 4200 }, { 0.02, 4600 }, { 0.03, 1500 }, { 0.04, 0 } };
+constexpr double steepest = 9e5; ///< of the second line [N/m]
+
+double interpolated(double r)
+{
+	BackbonePoint last { 0, 0 };
+	for (const BackbonePoint& point : points) {
+		if (r <= point.stretch) return last.force + (point.force - last.force) * (r - last.stretch) / (point.stretch - last.stretch);
+		last = point;
+	}
+	return 0;
+}
+
+double areaUnderPoints()
+{
+	double area = 0;
+	BackbonePoint last { 0, 0 };
+	for (const BackbonePoint& point : points) {
+		area += (point.force + last.force) / 2 * (point.stretch - last.stretch);
+		last = point;
+	}
+	return area;
+}
+
+} // namespace
+
+/// First loading follows the lines through any points; all work to the last one is dissipated, however long the steps.
+TEST(SlipLaw, BackboneThroughPoints)
+{
+	const double area = areaUnderPoints();
+	for (const double phi : shares)
+		for (const int steps : { 1, 7, 300 }) {
+			Spring spring { SlipLaw(steepest, phi, points) };
+			for (int i = 1; i <= 80; ++i) {
+				const double r = 0.0005 * i;
+				spring.lead(r * direction, steps);
+				EXPECT_LT((spring.force - interpolated(r) * direction).norm(), rounding * F) << phi << " " << r;
+			}
+			EXPECT_NEAR(spring.energy, 0, rounding * area);
+			EXPECT_NEAR(spring.dissipated, area, rounding * area) << phi << " " << steps;
+		}
+}
+
+/// Steady cycles dissipate 4 phi B (a - B / k); behind a peak as before it.
+TEST(SlipLaw, AreaOfASteadyLoopOfPoints)
+{
+	for (const double phi : shares)
+		for (const double a : { 0.003, 0.008, 0.018, 0.025 }) {
+			Spring spring { SlipLaw(steepest, phi, points) };
+			spring.lead(a * direction, 9);
+			spring.lead(-a * direction, 9);
+			const double dissipated = spring.dissipated, force = interpolated(a);
+			spring.lead(a * direction, 50);
+			EXPECT_LT((spring.force - force * direction).norm(), rounding * F);
+			spring.lead(-a * direction, 50);
+			EXPECT_NEAR(spring.dissipated - dissipated, 4 * phi * force * (a - force / steepest), rounding * F * a * 100);
+		}
+}
+
+TEST(SlipLaw, PointsThatAreNoBackbone)
+{
+	EXPECT_EQ(SlipLaw::unmetBy(steepest, points), nullptr);
+	EXPECT_STREQ(SlipLaw::unmetBy(0.99 * steepest, points), "nowhere steeper than kn");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 0 } }), "of two or more points");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.01, 0 } }), "of ascending stretches > 0");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 5 } }), "of forces > 0, the last one 0");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 0 }, { 0.03, 0 } }), "of forces > 0, the last one 0");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, std::nan("") }, { 0.02, 0 } }), "finite");
+}
+
 /// A steady cycle of amplitude a encloses the parallelogram of the friction part, 4 phi F g (a - F g / k), and nothing else.
 TEST(SlipLaw, AreaOfASteadyLoop)
 {

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.house.layout import HOUSE  # noqa: E402
-from yade_timber.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text, Variants  # noqa: E402
+from yade_timber.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants  # noqa: E402
 
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")
@@ -38,6 +38,8 @@ def value_words(field):
     """Admissible values of a key, as worded on the page."""
     if isinstance(field, Number):
         return f"{'whole ' if field.whole else ''}number{field._range()}"
+    if isinstance(field, Pair):
+        return f"list of 2 ({value_words(field.first)}; {value_words(field.second)})"
     if isinstance(field, ListOf):
         one = ", or one alone" if field.scalar else ""
         return f"list of {f'{field.length} ' if field.length else ''}({value_words(field.item)}){one}"

@@ -13,12 +13,13 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh  # noqa: E402
+from yade_timber.house.nails import nailed_wall  # noqa: E402
 
 
-def house(tmp_path, walls, types="{}", base="C"):
+def house(tmp_path, walls, types="{}", base="C", level=None):
     path = tmp_path / "own.yaml"
     path.write_text(f"extends: {base}\nname: own\nwall_types: {types}\nstructures:\n  main:\n    walls:\n      - {walls}\n")
-    return build_house(load_house(path))
+    return build_house(load_house(path), wall_level=level)
 
 
 def sheets(model, kind="wall_beam"):
@@ -39,16 +40,95 @@ def test_bays_storeys_and_names(tmp_path):
 
 @pytest.mark.parametrize("opening, wide, ratio", [("none", False, 1), ("window", False, 0.4), ("window", True, 0.3), ("door", False, 0.2), ("door", True, 0.15)])
 def test_values_of_the_springs(tmp_path, opening, wide, ratio):
-    """Half of 1.5 times and of 150 / rad times the allowable 1.96 kN/m, over the bay's length; stretches are drifts times height or length."""
+    """Level design: half of 1.5 times and of 150 / rad times the allowable 1.96 kN/m, over the bay's length; stretches are drifts times height or length."""
     ends, length = ("{along: x, at: 4, from: 4, to: 7", 3 * 0.91) if wide else ("{along: x, at: 4, from: 0, to: 1", 0.91)
     ratio = {("window", True): 0.2, ("door", True): 0.1}.get((opening, wide), ratio)  # longer than 2 m
-    model = house(tmp_path, ends + f", type: plywood, opening: {opening}, storeys: 1}}")
+    model = house(tmp_path, ends + f", type: plywood, opening: {opening}, storeys: 1}}", level="design")
     beams, columns = sheets(model)[0], sheets(model, "wall_column")[0]
     strength = 1.5 * 1960 * 2.5 * length * ratio
     assert beams.strength == pytest.approx(strength / 2) and columns.strength == pytest.approx(strength / 2 * 2.73 / length)
     for joint, lever in ((beams, 2.73), (columns, length)):
         assert joint.strength / joint.kn == pytest.approx(lever / 100)
         assert (joint.softening_stretch, joint.ultimate_stretch, joint.ks) == (pytest.approx(0.05 * lever), pytest.approx(0.103 * lever), 0)
+
+
+def drifts_and_shears(joint, length=0.91, height=2.73):
+    """Envelope of a beams' half as that of the wall's type. [rad, N/m]"""
+    return [(stretch / height, force / length * 2) for stretch, force in joint.envelope]
+
+
+MEAN = [(1 / 120, 1.4), (1 / 80, 1.8), (1 / 30, 2.8), (0.115, 0.0)]
+"""Of the level mean: shear over the allowable one."""
+
+
+def test_levels_of_a_multiplier(tmp_path):
+    """mean is the default; the house file and the caller may ask for design; a type that is stronger early is straight up to its peak."""
+    line, allowable = "{along: x, at: 0, from: 0, to: 1, type: %s, storeys: 1}", 2.5 * 1960
+    joint, = sheets(house(tmp_path, line % "plywood"))
+    assert np.ravel(drifts_and_shears(joint)) == pytest.approx(np.ravel([(d, r * allowable) for d, r in MEAN]))
+    assert joint.kn == pytest.approx(1.4 * 120 * allowable * 0.91 / 2 / 2.73) and joint.strength == pytest.approx(2.8 * allowable * 0.91 / 2)
+    own = tmp_path / "design.yaml"
+    own.write_text("extends: own.yaml\nlaw: {wall_level: design}\n")
+    model = build_house(load_house(own))
+    assert model.law["wall_level"] == "design" and np.ravel(drifts_and_shears(sheets(model)[0])) == pytest.approx([0.01, 7350, 0.05, 7350, 0.103, 0])
+    assert build_house(load_house(own), wall_level="mean").law["wall_level"] == "mean"
+    early = drifts_and_shears(sheets(house(tmp_path, line % "a", "{a: {multiplier: 1, softening_drift: 0.016}}"))[0])
+    assert np.ravel(early) == pytest.approx([0.016, 2.8 * 1960, 0.115, 0])
+    assert build_house(load_house("C")).law["wall_level"] is None
+
+
+def test_envelope_of_a_test(tmp_path):
+    """Points as they are; beyond the last one, the line from the peak through it, or to ultimate_drift."""
+    line = "{along: x, at: 0, from: 0, to: 1, type: a, storeys: 1}"
+    points = "[[1/120, 6590], [0.03, 13000], [1/20, 10400]]"
+    joint, = sheets(house(tmp_path, line, f"{{a: {{envelope: {points}}}}}"))
+    assert np.ravel(drifts_and_shears(joint)) == pytest.approx([1 / 120, 6590, 0.03, 13000, 0.05, 10400, 0.13, 0])
+    assert joint.kn == pytest.approx(6590 * 120 * 0.91 / 2 / 2.73) and joint.softening_stretch == pytest.approx(0.03 * 2.73)
+    last = drifts_and_shears(sheets(house(tmp_path, line, f"{{a: {{envelope: {points}, ultimate_drift: 1/15}}}}"))[0])[-1]
+    assert last == pytest.approx((1 / 15, 0))
+    origin, = sheets(house(tmp_path, line, f"{{a: {{envelope: {points.replace('[[', '[[0, 0], [')}}}}}"))
+    assert origin.envelope == joint.envelope
+    late, = sheets(house(tmp_path, line, "{a: {envelope: [[0.002, 1000], [0.004, 4000], [0.1, 0]]}}"))  # a gentle start
+    assert late.kn == pytest.approx(1.5e6 * 0.91 / 2 / 2.73)
+
+
+NAILS = ("{k: 4.83e5, Pv: 1130, dv: 2.3e-3, du: 0.017, spacing: 0.075, height: 3.0, "
+         "board: {width: 0.91, heights: [1.82, 0.91], thickness: 0.012, shear_modulus: 3.92e8}}")
+"""Printed example of the book named in house/nails.py. Not printed there: boards of 3 x 6 and 3 x 3 shaku, nails 10 mm from their edges, plywood of
+12 mm and 392 N/mm2. Its results follow from them."""
+
+
+def test_printed_example_of_nails(tmp_path):
+    """H 3.0 m, W 0.91 m: K 1255 kN/rad, My 34.6 and Mu 41.3 kN m, ductility 5.25, Pa 8.37 kN; to 1 %."""
+    path = tmp_path / "nails.yaml"
+    path.write_text(f"extends: C\nname: nails\nwall_types: {{a: {{nails: {NAILS}}}}}\n")
+    wall = nailed_wall(load_house(path).data["wall_types"]["a"]["nails"])
+    found = [wall.stiffness, wall.yield_moment, wall.ultimate_moment, wall.ductility, wall.allowable]
+    assert found == pytest.approx([1255e3, 34.6e3, 41.3e3, 5.25, 8.37e3], rel=0.01)
+
+
+def test_nails_of_one_board_against_a_minimum():
+    """A board turns by the share q of the drift for which the nails' work is least; nothing else is assumed."""
+    nails = {"k": 4e5, "Pv": 900.0, "du": 0.017, "spacing": 0.15, "inner_spacing": 0.2, "height": None,
+             "board": {"width": 0.91, "heights": [1.8], "thickness": 1.0, "shear_modulus": 1e20, "edge": 0.02}}
+    xs, ys, inner = np.linspace(-0.435, 0.435, 7), np.linspace(-0.88, 0.88, 13), np.linspace(-0.88, 0.88, 10)[1:-1]
+    points = [(x, y) for x in (-0.435, 0.435) for y in ys] + [(x, y) for x in xs[1:-1] for y in (-0.88, 0.88)] + [(0, y) for y in inner]
+    x, y = np.array(points).T
+    work = [4e5 * (((1 - q) * y) ** 2 + (q * x) ** 2).sum() for q in np.linspace(0, 1, 100001)]
+    best = np.linspace(0, 1, 100001)[np.argmin(work)]
+    slips = np.hypot((1 - best) * y, best * x)
+    wall = nailed_wall(nails)
+    assert wall.stiffness * 1.8 == pytest.approx(min(work), rel=1e-6)
+    assert wall.yield_moment == pytest.approx(900 * min(work) / 4e5 / slips.max(), rel=1e-3)
+    assert wall.ultimate_moment == pytest.approx(900 * slips.sum(), rel=1e-3)
+
+
+def test_wall_of_nails(tmp_path):
+    """The example's wall in a bay: elastic, plastic up to the nails' failure, then the tail of tested walls."""
+    joint, = sheets(house(tmp_path, "{along: x, at: 0, from: 0, to: 1, type: a, storeys: 1}", f"{{a: {{nails: {NAILS}}}}}"))
+    (start, strength), (first, plastic), (end, nothing) = drifts_and_shears(joint)
+    assert (strength, plastic, nothing) == (pytest.approx(41.3e3 / 3.0 / 0.91, rel=0.01), pytest.approx(strength), 0)
+    assert (start, first, end) == (pytest.approx(41.3 / 3 / 1255, rel=0.01), pytest.approx(5.25 * start, rel=0.01), pytest.approx(2.314 * first, rel=0.01))
 
 
 def test_own_wall_type(tmp_path):
@@ -110,6 +190,19 @@ MISTAKES = {
     "twice": ("{along: y, at: [8, 8], from: 0, to: 1, type: mud}", "{}", ["main.wall1.NS.x8.0-1", "type mud already"]),
     "no strength": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {stiffness: 1.0e5}}", ["own.yaml:3", "wall_types.a", "give multiplier or strength"]),
     "descending": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, softening_drift: 0.005}}", ["0.01", "must ascend"]),
+    "two forms": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 2, envelope: [[0.01, 5000], [0.1, 0]]}}", ["own.yaml:3", "give one of"]),
+    "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", ["own.yaml:3", "the drifts must ascend"]),
+    "points end at the peak": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", ["ultimate_drift"]),
+    "points with a gap": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", ["only the last point"]),
+    "shear in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", ["own.yaml:3", "N per m of wall", "kN"]),
+    "no points": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
+    "shear at rest": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
+    "point of one number": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [0.01, 5000]}}", ["envelope[1]", "a list of two items"]),
+    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", ["envelope[1][1]", "[0, 1] rad"]),
+    "nails in kN/mm": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), ["nails.k", "0.483 kN/mm = 483000"]),
+    "nails without slip": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"), ["nails.du", "greater than Pv / k"]),
+    "nails in contradiction": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), ["nails.dv", "within 10 %"]),
+    "strength of nails": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {strength: 5000, nails: %s}}" % NAILS, ["'strength' does not go with nails"]),
     "opening": ("{along: y, at: 8, from: 0, to: 1, type: mud, opening: hole}", "{}", ["none, window, door"]),
 }
 

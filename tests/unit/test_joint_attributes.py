@@ -74,6 +74,30 @@ def test_law_and_body_set_between_steps():
     assert step_agrees(joint) and joint.stretches[0].norm() > 4
 
 
+def test_envelope_set_between_steps():
+    """Points in place of the straight lines; with perJoint each of the four springs has a quarter of their forces. They are saved."""
+    state, joint = hung()
+    O.run(10, True)
+    stretch = max(s.norm() for s in joint.stretches)
+    points = [(stretch / 8, stretch * joint.kn / 16), (stretch / 2, stretch * joint.kn / 8), (10 * stretch, 0)]
+    joint.updateAttrs({"law": "slip", "strength": points[1][1], "envelope": points})
+    O.step()
+    length = joint.stretches[0].norm()
+    force = points[1][1] * (points[2][0] - length) / (points[2][0] - points[1][0])
+    assert joint.forces[0].norm() == pytest.approx(force, rel=1e-9)
+    joint.perJoint = True
+    O.step()
+    length = joint.largestStretches[0]
+    assert joint.forces[0].norm() == pytest.approx(points[1][1] / 4 * (points[2][0] - length) / (points[2][0] - points[1][0]), rel=1e-9)
+    forces = joint.forces
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.yade")
+        O.save(path)
+        O.load(path)
+    joint = find_engine(yt.JointEngine).joints[0]
+    assert [tuple(point) for point in joint.envelope] == points and joint.forces == forces
+
+
 def test_saved_with_the_forces_of_the_last_step():
     joint = hung()[1]
     forces, stretches, load = joint.forces, joint.stretches, joint.load

@@ -30,6 +30,8 @@ RANGES = [  # class, attributes that make it complete, owner of the attribute in
         (yw.TimberJoint, SLIP, "TimberJoint", *one)
         for one in (("ks", (2, NAN)), ("softeningStretch", (0.5, NAN, INF)), ("ultimateStretch", (1.5, NAN, INF)), ("law", ("ductile",)))
     ],
+    (yw.TimberJoint, SLIP, "TimberJoint", "envelope", ([(1, 1)], [(1, 1), (1, 0)], [(1, 1), (2, 1)], [(0.5, 1), (2, 0)], [(NAN, 1), (2, 0)], [(1, -1), (2, 0)])),
+    (yw.TimberJoint, SLIP | {"envelope": [(1, 0.5), (2, 1), (3, 0)]}, "TimberJoint", "strength", (0.5, 2, NAN)),
     (yw.TimberJoint, JOINT, "TimberJoint", "normal", ((0, 0, 0), (0, 0, 2), (NAN, 0, 1))),
     *[(yw.TimberJoint, JOINT, "TimberJoint", name, ([(0, 0, NAN)], [(0, 0, 0)] * 2)) for name in ("anchors1", "anchors2")],
     (yw.TimberJoint, JOINT, "TimberJoint", "broken", ([0, 0],)),

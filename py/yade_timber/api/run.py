@@ -33,8 +33,8 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     out : str or Path, optional
         Folder of the results; by default ``results/NAME``, for further runs of a house in a session ``results/NAME_2`` and so on.
     **options
-        Further options of the run scripts, with ``_`` for ``-``. Of the run: ``dt`` [s], ``until_collapse``, ``joint_damping`` [-], ``resume``,
-        ``no_frames``, ``every_step``, ``quiet``. Of the motion: ``seed``, ``scale`` [-], ``azimuth`` [degrees], ``start``, ``end`` [s],
+        Further options of the run scripts, with ``_`` for ``-``. Of the run: ``dt`` [s], ``until_collapse``, ``joint_damping`` [-], ``walls``,
+        ``resume``, ``no_frames``, ``every_step``, ``quiet``. Of the motion: ``seed``, ``scale`` [-], ``azimuth`` [degrees], ``start``, ``end`` [s],
         ``pga`` [gal], ``intensity``, ``detrend``, ``highpass`` [Hz], ``resample``, ``component``, ``units``.
 
     Returns

@@ -28,7 +28,20 @@ def main_town(argv=None):
 
 def _launch(read, argv):
     script = Path((sys.argv if argv is None else argv)[0])
-    return launch(read, lambda scenario, output: _ensemble(script, scenario, output), argv)
+    return launch(lambda cli, arguments: _with_other_walls(script, *read(cli, arguments)), lambda scenario, output: _ensemble(script, scenario, output), argv)
+
+
+def _with_other_walls(script, scenario, output):
+    """(scenario, output), for a report on a house with rated walls after a run with those of the other level. Raises InputError."""
+    from ..run.cli import TownPlan
+    from ..study import other_walls
+
+    if output.report and output.ensemble is None and not isinstance(scenario, TownPlan):
+        try:
+            output.other_walls = other_walls.run(script, scenario, output)
+        except KeyboardInterrupt:
+            leave("stopped; the same command continues", 128 + signal.SIGINT)
+    return scenario, output
 
 
 def _ensemble(script, scenario, output):

@@ -17,14 +17,19 @@ from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
 from .roof import OUTWARD, lay_roof, lay_snow, tie_gables
 from .structure import Structure, require_few
-from .walls import multiplier, sheathe
+from .wall_types import has_rated_walls, multiplier
+from .walls import sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
 
-def build_house(description, snow_depth=None, check=True):
-    """Build a described house. snow_depth [m], vertical (None: the description's own). Raises HouseError; see `check_house`."""
+def build_house(description, snow_depth=None, check=True, wall_level=None):
+    """Build a described house. snow_depth [m], vertical; wall_level: of walls of a rated multiplier (None: the description's own).
+
+    Raises HouseError; see `check_house`.
+    """
     data = description.data
+    level = wall_level or data["law"]["wall_level"]
     depth = _snow_depth(data, snow_depth)
     structures = {}
     for name, table in data["structures"].items():
@@ -42,9 +47,10 @@ def build_house(description, snow_depth=None, check=True):
     joints = find_joints(elements, description)
     for structure in structures.values():
         tie_gables(structure, joints)
-        joints += sheathe(structure, elements, data)
+        joints += sheathe(structure, elements, data, level)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)
+    model.law["wall_level"] = level if has_rated_walls(data) else None
     if check:
         check_house(model)
     return model
@@ -128,4 +134,5 @@ def _model(description, elements, joints, structures, depth):
     levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"} for s in structures.values()}
     grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
     return HouseModel(data["name"], data["description"], elements, joints, {k: dict(v) for k, v in data["materials"].items()},
-                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids, {name: multiplier(table) for name, table in data["wall_types"].items()})
+                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids,
+                      {name: multiplier(table) for name, table in data["wall_types"].items()})

@@ -12,7 +12,7 @@ from .layout import HOUSE, MAX_SNOW, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail, nearest
-from .walls import check_wall_types
+from .wall_types import check_wall_types
 
 
 @dataclass(frozen=True)

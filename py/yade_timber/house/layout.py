@@ -2,7 +2,7 @@
 """Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
 
 from .limits import MAX_LINES, MAX_NAME
-from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Record, Text, Variants
+from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
@@ -12,6 +12,10 @@ MIN_SPACING = 0.01
 """Smallest distance of two grid positions. [m]"""
 MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50
 """Of one structure; MAX_REGIONS of the house's damage."""
+MAX_POINTS, MAX_BOARDS = 50, 20
+"""Of a wall type: points of its envelope, boards above one another."""
+WALL_LEVELS = ("design", "mean")
+"""Levels of walls of a rated multiplier: wall_types.LEVELS."""
 
 
 def length(low=0.0, high=100.0, default=REQUIRED, open_low=True):
@@ -125,11 +129,20 @@ joint_type = Record({
 SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
 
+_drift = Number("rad", 1e-4, 1.0, default=None)
+board = Record({"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS), "thickness": length(0.001, 0.2),
+                "shear_modulus": Number("Pa", 1e6, 1e11), "edge": length(high=0.1, default=0.01, open_low=False)})
+nails = Record({
+    "k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None), "du": length(1e-4, 0.5),
+    "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None), "board": board, "height": length(0.1, 20.0, default=None),
+}, default=None)
 wall_type = Record({
     "multiplier": Number("", 0.1, 20.0, default=None),
     "strength": Number("N/m", 10.0, 1e6, default=None), "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
+    "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
+    "nails": nails,
     "friction_share": Number("", 0.0, 1.0, default=0.2),
-    "softening_drift": Number("rad", 1e-4, 1.0, default=0.05), "ultimate_drift": Number("rad", 1e-4, 1.0, default=0.103),
+    "softening_drift": _drift, "ultimate_drift": _drift,
 })
 
 joint_rule = Record({
@@ -150,6 +163,7 @@ HOUSE = Record({
     "law": Record({
         "joint_reading": Choice(("spring", "joint"), "joint"),
         "joint_damping": Number("", 0.0, 1.0, default=0.0),
+        "wall_level": Choice(WALL_LEVELS, "mean"),
         "vertex_edge_contacts": Flag(False),
         "flush_supports": Flag(True),
         "hertz": Choice(("closed", "increment"), "closed"),

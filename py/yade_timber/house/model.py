@@ -82,6 +82,7 @@ class JointSpec:
     friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
     softening_stretch: object = None  # [m] law 'slip': stretch from which the strength falls
     ultimate_stretch: object = None   # [m] law 'slip': stretch at which no strength is left
+    envelope: tuple = ()  # law 'slip': (stretch [m], force [N]) of the first loading, in place of the line through the three values above
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
@@ -110,7 +111,7 @@ class HouseModel:
     joints: list
     materials: dict          # name -> {'law': 'timber', 'density', 'young', 'poisson'} or {'law': 'snow', 'density', 'stiffness_per_kg'}
     friction: list           # [(material, material, coefficient)]
-    law: dict                # 'joint_reading', 'vertex_edge_contacts', 'flush_supports', 'hertz'
+    law: dict                # 'joint_reading', ...; 'wall_level': None without walls of a rated multiplier
     snow_depth: float        # [m]
     storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}

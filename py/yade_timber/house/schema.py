@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema checker with one-line errors: file and line, key, problem, admissible range, nearest known key.
 
-A schema is made of Number, Text, Flag, Choice, ListOf, MapOf, Record and Variants. Each has `default`
+A schema is made of Number, Text, Flag, Choice, Pair, ListOf, MapOf, Record and Variants. Each has `default`
 (REQUIRED = must be given) and `check(value, where, name)`, which returns the value, checked and with
 defaults filled in, or raises HouseError. `where` is the value's "file:line", `name` the path of its key.
 """
@@ -24,6 +24,7 @@ OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "P
                "N/m": (("kN/m", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6)), "N": (("kN", 1e3),),
                "kN/m2": (("N/m2", 1e-3), ("kg/m2", GRAVITY / 1000)), "rise over run": (("sun (tenths)", 0.1),)}
 """Units often used by mistake: unit of the schema -> (unit, factor)."""
+_FRACTION = re.compile(r"(\d{1,9}(?:\.\d{1,9})?) ?/ ?(\d{1,9}(?:\.\d{1,9})?)")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d{1,20},\d{1,20}")
 
 
@@ -40,7 +41,10 @@ def nearest(word, known):
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when `open_low`."""
+    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when `open_low`.
+
+    In rad a text like 1/120 is a number, too.
+    """
 
     unit: str = ""
     low: float = -math.inf
@@ -51,6 +55,9 @@ class Number:
     default: object = REQUIRED
 
     def check(self, value, where, name):
+        fraction = self.unit == "rad" and isinstance(value, str) and _FRACTION.fullmatch(value)
+        if fraction and float(fraction[2]):
+            value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
         wrong_kind = math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
@@ -116,6 +123,21 @@ class Choice:
         if value not in self.options:
             fail(where, name, f"{shown(value)} is unknown, {nearest(value, self.options)}")
         return value
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A list of two different items."""
+
+    first: object
+    second: object
+    default: object = REQUIRED
+
+    def check(self, value, where, name):
+        if not isinstance(value, list) or len(value) != 2:
+            fail(where, name, f"expected a list of two items, got {f'{len(value)} items' if isinstance(value, list) else shown(value)}")
+        checked = [field.check(v, value.at(i), f"{name}[{i + 1}]") for i, (field, v) in enumerate(zip((self.first, self.second), value))]
+        return Items(checked, value.where, value.entries)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheathed walls: springs of the law slip in each bay, whose shear follows the backbone of a wall test. Lengths in m.
+"""Sheathed walls: springs of the law slip in each bay, whose shear follows the envelope of their type. Lengths in m.
 
 A sheet is nailed to the beams above and below it and to the columns at its sides. Its drift is that of its bay. Half of its shear H acts
 between the beams, horizontally; the other half between the columns, vertically: as a force H h / L, with the bay's height h and length L,
@@ -18,14 +18,9 @@ from .errors import HouseError
 from .loads import bay_length
 from .members import DIRECTION, column_plan
 from .model import JointSpec
-from .schema import fail
 from .structure import ACROSS
+from .wall_types import envelope
 
-ALLOWABLE = 1960.0
-"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article 46)"""
-STRENGTH_RATIO, STIFFNESS_RATIO = 1.5, 150.0
-"""Least strength over the allowable shear [-], least stiffness over it [1/rad], by which wall tests give a multiplier: two thirds of the largest
-load, and the load at a drift of 1/150 (sources and assumptions: docs/house_files.md)."""
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
@@ -74,33 +69,8 @@ class Bay:
         return np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
 
 
-def check_wall_types(types):
-    """HouseError for a type without strength or stiffness, or whose yield, softening and ultimate drift do not ascend."""
-    for name, table in types.items():
-        for key in ("strength", "stiffness"):
-            if table["multiplier"] is None and table[key] is None:
-                fail(table.where, f"wall_types.{name}", f"give multiplier or {key}")
-        strength, stiffness = backbone(table)
-        start, first, last = strength / stiffness, table["softening_drift"], table["ultimate_drift"]
-        if not start < first < last:
-            fail(table.at("softening_drift"), f"wall_types.{name}", f"strength / stiffness = {start:.3g}, softening_drift {first:g} and "
-                 f"ultimate_drift {last:g} must ascend")
-
-
-def backbone(table):
-    """(strength [N/m], stiffness [N/m per rad]) of a wall type: its own, else those that its multiplier demands."""
-    allowable = ALLOWABLE * (table["multiplier"] or 0.0)
-    return (STRENGTH_RATIO * allowable if table["strength"] is None else table["strength"],
-            STIFFNESS_RATIO * allowable if table["stiffness"] is None else table["stiffness"])
-
-
-def multiplier(table):
-    """Wall multiplier of a type: its own, else that of its strength, as the allowable shear is two thirds of it. [-]"""
-    return table["multiplier"] or table["strength"] / (STRENGTH_RATIO * ALLOWABLE)
-
-
-def sheathe(structure, elements, data):
-    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file."""
+def sheathe(structure, elements, data, level):
+    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file; level: of walls of a rated multiplier."""
     members = [element for element in elements if element.group in (structure.name, "")]
     joints, seen = [], {}
     for line in structure.table["walls"]:
@@ -109,7 +79,7 @@ def sheathe(structure, elements, data):
                 if (bay.name, name) in seen:
                     raise HouseError(f"{bay.where}: {bay.name} has sheathing of type {name} already ({seen[bay.name, name]}); remove one")
                 seen[bay.name, name] = bay.where
-                joints += _joints(bay, name, members, data)
+                joints += _joints(bay, name, members, data, level)
     return joints
 
 
@@ -150,25 +120,29 @@ def _bay(structure, line, place, by_name):
     return Bay(name, low, high, structure.sides(**{across: at}), line["opening"], line.where)
 
 
-def _joints(bay, name, members, data):
+def _joints(bay, name, members, data, level):
     """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in '.plywood.window.beams'."""
     label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
     along = bay.high.solid.centroid - bay.low.solid.centroid
     along[2] = 0.0
     below, above = (_member_at(bay, members, top) for top in (False, True))
-    beams = _values(bay, data["wall_types"][name], bay.height, 1.0)
-    columns = _values(bay, data["wall_types"][name], bay.length, bay.height / bay.length)
-    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side,
-                  group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"])
+    points = envelope(data["wall_types"][name], level)
+    beams, columns = _values(bay, points, bay.height, 1.0), _values(bay, points, bay.length, bay.height / bay.length)
+    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side, group=bay.low.group,
+                  law="slip", damping_ratio=data["law"]["joint_damping"], friction_share=data["wall_types"][name]["friction_share"])
     return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams", **beams, **common),
             JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=WALL_COLUMN, label=f"{label}.columns", **columns, **common)]
 
 
-def _values(bay, table, lever, ratio):
-    """Law of one half. lever: stretch over drift [m]; ratio: force of the spring over the shear that it stands for [-]."""
-    part, (strength, stiffness) = SHARE * bay.share * bay.length * ratio, backbone(table)
-    return {"kn": part * stiffness / lever, "strength": part * strength, "friction_share": table["friction_share"],
-            "softening_stretch": lever * table["softening_drift"], "ultimate_stretch": lever * table["ultimate_drift"]}
+def _values(bay, points, lever, ratio):
+    """Law of one half. points: envelope of the wall's type; lever: stretch over drift [m]; ratio: force of the spring over the shear that it
+    stands for [-]. The spring unloads along the steepest line of its envelope."""
+    part = SHARE * bay.share * bay.length * ratio
+    envelope = tuple((lever * drift, part * shear) for drift, shear in points)
+    slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *envelope), envelope)]
+    strength = max(force for _, force in envelope)
+    softening = max(stretch for stretch, force in envelope if force == strength)
+    return {"kn": max(slopes), "strength": strength, "envelope": envelope, "softening_stretch": softening, "ultimate_stretch": envelope[-1][0]}
 
 
 def _member_at(bay, members, top):

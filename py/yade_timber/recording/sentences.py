@@ -27,7 +27,8 @@ def sentence(found):
         return town(found)
     onset = missed_onset(found)
     early = "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
-    parts = (outcome(found), weight(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found), early)
+    parts = (outcome(found), other_walls(found), weight(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found),
+             early)
     return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
 
 
@@ -104,6 +105,14 @@ def outcome(found):
     meaning = f"beyond the {limit.name} of {ratio(limit.drift)}" if limit else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
     lean = " and leans at the end" if verdict.leans(facts) else ""
     return f"is {verdict.judge(facts)}{lean}: peak storey drift {peak}, {meaning}"
+
+
+def other_walls(found):
+    """'with walls of the level design collapsed' where the verdict depends on the level of the walls."""
+    other = (found.get("walls") or {}).get("other")
+    if not other or other["verdict"] == verdict.judge(main_structure(found)):
+        return ""
+    return f"with walls of the level {other['level']} {other['verdict']}"
 
 
 def residual(found):

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..base.errors import RunError, one_line
 from ..base.notes import noted
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
-from ..house import Town, load_house, load_town, shipped_houses
+from ..house import LEVELS, Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
 from ..motion import GroundMotion, add_motion_options, motion_request, with_then
 from ..scene.scenario import Scenario
@@ -39,6 +39,7 @@ class Output:
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
+    other_walls: dict = None  # verdict with the walls of the other level: `other` of `walls` in summary.json
     options: tuple = ()  # arguments of the command line that decide the results
     ensemble: int = None  # number of runs of an ensemble, None: a run of its own
     jobs: int = None  # runs of an ensemble at a time, None: one per core
@@ -99,6 +100,7 @@ def house_parser():
     made.add_argument("file", metavar="HOUSE", help=f"house file, or a shipped house: {', '.join(shipped_houses())}")
     made.add_argument("--quake", action="store_true", help="with the default earthquake; --record gives a recorded one")
     made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs [m] (default: the house file's)")
+    _add_walls(made)
     return made
 
 
@@ -109,7 +111,13 @@ def town_parser():
     made.add_argument("file", metavar="TOWN", help="town file")
     made.add_argument("--quake", action="store_true", help="with the default earthquake; --record gives a recorded one")
     made.add_argument("--snow", type=float, metavar="METRES", help="depth of snow on the roofs of lots without `snow` [m] (default: the house files')")
+    _add_walls(made)
     return made
+
+
+def _add_walls(made):
+    made.add_argument("--walls", choices=tuple(LEVELS), help="walls of a rated multiplier: mean of tested ones, or design, which just pass their test "
+                      "(default: the house file's); with --report both are run, and the report has both verdicts where they differ")
 
 
 OUTPUT_OPTIONS = {
@@ -212,7 +220,7 @@ def _run(given, arguments, request):
     scale = 1.0 if shaking.scale is None else shaking.scale
     options = {"skip_rest": 0} if given.every_step else {}
     times = {"dt": given.dt, "duration": duration, "until_collapse": given.until_collapse, "joint_damping": given.joint_damping,
-             "disturb": given.disturb}
+             "disturb": given.disturb, "wall_level": getattr(given, "walls", None)}
     scenario = Scenario(request.name, request.house, motion, request.snow_depth, scale=scale, **times, options=options)
     return scenario, Output(
         folder=_path("--out", given.out) or Path("results") / request.name,

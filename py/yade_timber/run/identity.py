@@ -51,7 +51,7 @@ def identity(scenario, model):
 
 
 def _slip(joint):
-    return joint.law, joint.friction_share, joint.softening_stretch, joint.ultimate_stretch
+    return joint.law, joint.friction_share, joint.softening_stretch, joint.ultimate_stretch, joint.envelope
 
 
 def made_from(options, house=None):

@@ -213,7 +213,7 @@ class Run:
         self.take(O.time, last=True)
         tables = quantities.tables(self.observer)
         origin = made_from(self.output.options, self.scenario.house)
-        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s), "made_from": origin}
+        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s, self.output.other_walls), "made_from": origin}
         written = self._results(found, tables)
         written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]

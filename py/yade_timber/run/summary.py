@@ -29,9 +29,9 @@ NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, tables, wall_s):
+def summary(scenario, observed, tables, wall_s, other_walls=None):
     """Content of summary.json for the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run;
-    wall_s: wall time of its steps so far [s].
+    wall_s: wall time of its steps so far [s]; other_walls: verdict with the walls of the other level.
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; events: recording/events.py; broken, columns: recording/damage.py.
     """
@@ -51,6 +51,7 @@ def summary(scenario, observed, tables, wall_s):
         "weight": weigh(model),
         "diagnosis": diagnose(model),
         "joint_damping": scenario.joint_damping,
+        "walls": {"level": model.law["wall_level"], "other": other_walls} if model.law["wall_level"] else None,
         "record": record(scenario),
         "dt": scenario.dt,
         "duration_s": simulated,

@@ -116,11 +116,13 @@ def describe_joint(joint):
 
 
 def describe_slip(joint, state):
-    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], plastic (n, 3) in the world and largest (n,) [m]."""
+    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3) in the world and
+    largest (n,) [m]."""
     return {
         "friction_share": joint.frictionShare,
         "softening_stretch": joint.softeningStretch,
         "ultimate_stretch": joint.ultimateStretch,
+        "envelope": [list(point) for point in joint.envelope],
         "plastic": [list(state.ori * p) for p in joint.plasticStretches],
         "largest": list(joint.largestStretches),
     }

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import yade.wrapper as yw
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Vector2, Vector3
 
 from . import arguments
 from .engines import find_engine
@@ -34,6 +34,7 @@ class JointValues:
     friction_share: float = None
     softening_stretch: float = None
     ultimate_stretch: float = None
+    envelope: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -165,6 +166,7 @@ def make_joint(id1, id2, springs):
         "frictionShare": springs.friction_share,
         "softeningStretch": springs.softening_stretch,
         "ultimateStretch": springs.ultimate_stretch,
+        "envelope": [Vector2(*point) for point in springs.envelope],
     }
     return yw.TimberJoint(
         id1=id1,

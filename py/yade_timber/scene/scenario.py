@@ -25,8 +25,8 @@ class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run;
-    joint_damping: damping ratio of all joints [-], None: the house's own; disturb: seed of the house's disturbance, None: none; options: of
-    `engines.engines`.
+    joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed
+    of the house's disturbance, None: none; options: of `engines.engines`.
     """
 
     name: str
@@ -39,12 +39,13 @@ class Scenario:
     duration: float = 30.0
     until_collapse: bool = False
     joint_damping: float = None
+    wall_level: str = None
     disturb: int = None
     options: dict = field(default_factory=dict)
 
     def build_model(self):
         """HouseModel of the run. Raises HouseError."""
-        model = build_house(load_house(self.house), snow_depth=self.snow_depth)
+        model = build_house(load_house(self.house), snow_depth=self.snow_depth, wall_level=self.wall_level)
         if self.joint_damping is not None:
             for joint in model.joints:
                 joint.damping_ratio = self.joint_damping

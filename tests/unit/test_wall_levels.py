@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Levels of walls of a rated multiplier: option, results, report with both verdicts."""
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+from yade_timber.base.errors import RunError
+from yade_timber.recording.sentences import other_walls
+from yade_timber.run import cli
+from yade_timber.study import other_walls as study
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def strongest(scenario):
+    return max(joint.strength for joint in scenario.build_model().joints if joint.kind == "wall_beam")
+
+
+def test_option():
+    """The option has precedence over the house file; the two levels' strengths are 2.8 and 1.5 times the allowable shear."""
+    found = {level: cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))])[0] for level in (None, "mean", "design")}
+    assert strongest(found[None]) == strongest(found["mean"]) == pytest.approx(2.8 / 1.5 * strongest(found["design"]))
+    with pytest.raises(RunError, match="design"):
+        cli.read_house(["house.py", "tiled_house", "--walls", "weak"])
+
+
+def test_options_of_the_other_level():
+    assert study._without_walls(("a.yaml", "--quake", "--walls", "mean", "--scale", "2")) == ("a.yaml", "--quake", "--scale", "2")
+    assert study._without_walls(("--walls=mean", "a.yaml")) == ("a.yaml",)
+
+
+def test_sentence_names_the_other_verdict_where_they_differ():
+    facts = {"peak_drift": 0.02, "residual_drift": 0.0, "columns_lost": 0, "broken": 0, "partly_broken": 0, "collapsed": False}
+    found = {"structures": {"main": facts}, "walls": {"level": "mean", "other": {"level": "design", "verdict": "collapsed"}}}
+    assert other_walls(found) == "with walls of the level design collapsed"
+    found["walls"]["other"]["verdict"] = "repairable"
+    assert other_walls(found) == other_walls({"structures": {"main": facts}, "walls": None}) == ""
+
+
+def test_report_runs_both_levels(tmp_path):
+    """A pulse for which the levels differ is not needed: the other run's verdict is in the summary. A house without rated walls has one run."""
+    for house, walls in (("tiled_house", "design"), ("storehouse", None)):
+        out = tmp_path / house
+        words = ["yade", "-n", "-x", ROOT / "scripts" / "house.py", house, "--duration", "0.01", "--report", "--no-views", "--quiet", "--out", out]
+        done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+        assert done.returncode == 0 and (out / "report.html").exists(), done.stdout + done.stderr
+        found = json.loads((out / "summary.json").read_text())["walls"]
+        assert found == (walls and {"level": "mean", "other": {"level": walls, **found["other"]}}) and (out / "walls_design").exists() == bool(walls)
+        if walls:
+            other = json.loads((out / "walls_design" / "summary.json").read_text())
+            assert (other["walls"]["level"], found["other"]["verdict"]) == ("design", other["verdict"])
