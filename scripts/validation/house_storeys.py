@@ -9,6 +9,8 @@ from yade_timber.house.walls import SHARE
 from yade_timber.house.weight import weigh
 
 AXES = {"ew": 0, "ns": 1}
+ROUNDING = 0.1
+"""Radius of a column's edges over its width: it turns about an edge that lies inside by this. [-]"""
 
 
 def shear_storeys(model, data, structure, direction):
@@ -20,7 +22,8 @@ def shear_storeys(model, data, structure, direction):
         columns = [e for e in model.of_kind("column", group=structure) if e.storey == storey]
         width = columns[0].section[0]
         springs = [*wall_springs(model, storey, direction, height), column_ends(data, len(columns), width, height)]
-        storeys.append(Storey(mass_of(weight["level_kn"]), height, 1000 * weight["carried_kn"], width, springs))
+        edges = (1 - 2 * ROUNDING) * width
+        storeys.append(Storey(mass_of(weight["level_kn"]), height, 1000 * weight["carried_kn"], edges, springs))
     return storeys
 
 
@@ -42,12 +45,12 @@ def wall_springs(model, storey, direction, height):
 def column_ends(data, columns, width, height):
     """SlipSpring of all column ends of a storey; columns of this width [m]."""
     rule = data["joints"]["column_ends"]
-    fitting = data["joint_types"][rule["type"]]
-    many, reach = columns * rule["number"], width / height
+    fitting, lever = data["joint_types"][rule["type"]], (1 - ROUNDING) * width
+    many = columns * rule["number"] * lever / height
     return slip_spring(
-        stiffness=many * fitting["kn"] * width * reach,
-        strength=many * fitting["strength"] * reach,
+        stiffness=many * fitting["kn"] * lever,
+        strength=many * fitting["strength"],
         friction_share=fitting["friction_share"],
-        softening=fitting["softening_stretch"] / width,
-        ultimate=fitting["ultimate_stretch"] / width,
+        softening=fitting["softening_stretch"] / lever,
+        ultimate=fitting["ultimate_stretch"] / lever,
     )

@@ -119,13 +119,13 @@ def test_a_graded_house_has_its_walls(level, tmp_path):
 
 
 def test_column_ends_by_hand():
-    """One column of 0.1 m, two fittings of 1 MN/m and 5 kN: 2 n k b2 / h per rad, 2 F b / h."""
+    """One column of 0.1 m, two fittings of 1 MN/m and 5 kN, levers b of 0.09 m: 2 k b2 / h per rad, 2 F b / h."""
     data = {"joints": {"column_ends": {"number": 2, "type": "f"}},
             "joint_types": {"f": {"kn": 1e6, "strength": 5e3, "friction_share": 0.15, "softening_stretch": 0.01, "ultimate_stretch": 0.04}}}
     spring = column_ends(data, 1, 0.1, 2.5)
-    assert spring.stiffness == pytest.approx(2 * 1e6 * 0.01 / 2.5)
-    assert spring.forces.max() == pytest.approx(2 * 5e3 * 0.1 / 2.5)
-    assert spring.drifts[2:] == pytest.approx([0.1, 0.4])
+    assert spring.stiffness == pytest.approx(2 * 1e6 * 0.09**2 / 2.5)
+    assert spring.forces.max() == pytest.approx(2 * 5e3 * 0.09 / 2.5)
+    assert spring.drifts[2:] == pytest.approx([0.01 / 0.09, 0.04 / 0.09])
 
 
 def test_peaks_count_until_a_storey_is_lost():
