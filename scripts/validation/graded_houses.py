@@ -118,13 +118,14 @@ def draw(rows, path):
     axes.plot(ends, ends, color="0.5", lw=1)
     axes.fill_between(ends, 0.8 * ends, 1.2 * ends, color="0.9", label="20 %")
     for row in rows:
-        look = {"mfc": "C0" if row["direction"] == "ew" else "C1", "mec": "k" if row["lost"] else "none"}
+        color = "C0" if row["direction"] == "ew" else "C1"
         marker = "s" if row["level"] == "design" else "o"
-        axes.plot(row["storey1_model"], row["storey1"], marker, ms=6 + 8 * (row["grade"] - 1), **look)
+        filling = "none" if row["lost"] or row["lost_model"] else color
+        axes.plot(row["storey1_model"], row["storey1"], marker, ms=6 + 8 * (row["grade"] - 1), mec=color, mfc=filling)
     axes.set(xlabel="lumped-mass model", ylabel="package", xlim=ends, ylim=ends)
     axes.set_title("peak drift of storey 1 before a storey is lost\n"
                    "square: design walls, circle: mean; blue: E-W, orange: N-S;\n"
-                   "size: wall quantity; black edge: a storey is lost in the package", fontsize=8)
+                   "size: wall quantity; hollow: a storey is lost, by definition at 1/10", fontsize=8)
     axes.legend(loc="upper left")
     with written_whole(path) as part:
         figure.savefig(part, dpi=130)
