@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of falling blocks: the wave of scripts/validation/block_rows.py against the theory of rigid blocks, block by block."""
+"""Rows of falling blocks: scripts/validation/block_rows.py against the theory of rigid blocks, block by block."""
 import pathlib
 import sys
 
@@ -26,7 +26,8 @@ def test_theory_agrees_with_another_solution(pitch):
 
 
 def test_the_speed_at_the_end_does_not_depend_on_the_push():
-    slow, fast = (touch_times(Row(HEIGHT, THICKNESS, 0.0298, NUMBER, velocity)) for velocity in (4.0, 10.0))
+    rows = [Row(HEIGHT, THICKNESS, 0.0298, NUMBER, velocity) for velocity in (4.0, 10.0)]
+    slow, fast = map(touch_times, rows)
     assert wave_speed(0.0298, slow, LAST) == pytest.approx(wave_speed(0.0298, fast, LAST), rel=1e-4)
 
 
@@ -35,7 +36,8 @@ def test_theory_of_one_block_is_that_of_a_pendulum():
     single = row(0.0298, 1)
     angle, velocity, step, time = 0.0, single.first_velocity, 1e-6, 0.0
     while angle < single.touch_angle:
-        velocity += step * single.gravity / (2 * single.inertia) * (single.height * np.sin(angle) - single.thickness * np.cos(angle))
+        torque = single.height * np.sin(angle) - single.thickness * np.cos(angle)
+        velocity += step * single.gravity / (2 * single.inertia) * torque
         angle += step * velocity
         time += step
     assert touch_times(single)[0] == pytest.approx(time, rel=1e-4)

@@ -54,7 +54,8 @@ def test_only_the_friction_part_acts_within_the_slip():
 
 def test_a_loop_dissipates_four_yield_forces_of_the_friction_part():
     """After the first cycle to g: 4 phi F (g - y), a parallelogram; the slip part returns its energy."""
-    spring, path = wall(), np.concatenate([np.linspace(0, 0.04, 400), *2 * [np.linspace(0.04, -0.04, 800), np.linspace(-0.04, 0.04, 800)]])
+    there, back = np.linspace(0.04, -0.04, 800), np.linspace(-0.04, 0.04, 800)
+    spring, path = wall(), np.concatenate([np.linspace(0, 0.04, 400), there, back, there, back])
     forces = np.array([spring.shear(g) for g in path])
     work = np.trapz(forces[2000 - 1:], path[2000 - 1:])
     assert work == pytest.approx(4 * 0.2 * 1e4 * (0.04 - 0.01), rel=2e-3)
@@ -89,7 +90,7 @@ def test_a_storey_is_lost_where_its_weight_overcomes_its_walls():
 
 
 def test_existing_wall_quantity_by_hand():
-    """Storey 1, E-W: eight bays of 0.91 m of outer wall with 2.5 + 1.0 + 0.9, five inner ones with 2.5 + 0.9. N-S: eight and four."""
+    """Storey 1, E-W: eight outer bays of 0.91 m of 2.5 + 1 + 0.9, five inner ones of 2.5 + 0.9. N-S: eight, four."""
     model, data = grades.build_house(grades.load_house(grades.HOUSE)), grades.changed_house(grades.HOUSE)
     found = {d: grades.existing_quantity(model, data["wall_types"], 1, d) for d in AXES}
     assert found == pytest.approx({"ew": 0.91 * (8 * 4.4 + 5 * 3.4), "ns": 0.91 * (8 * 4.4 + 4 * 3.4)})
@@ -105,7 +106,7 @@ def test_factors_meet_the_required_quantity():
 
 @pytest.mark.parametrize("level", grades.STRENGTH_RATIOS)
 def test_a_graded_house_has_its_walls(level, tmp_path):
-    """All bays of tiled_house, with stiffness and strength by the factor; only boards without a softening drift of their own have the mean."""
+    """All bays of tiled_house with the factor; only boards without a softening drift of their own have the mean."""
     plain = grades.build_house(grades.load_house(grades.HOUSE))
     factors = grades.factors(plain, grades.changed_house(grades.HOUSE)["wall_types"], 1.5)
     model = grades.build_house(grades.load_house(grades.house_file(tmp_path, 1.5, level)))
@@ -115,13 +116,14 @@ def test_a_graded_house_has_its_walls(level, tmp_path):
         assert len(after) == len(before)
         assert sum(j.kn for j in after) == pytest.approx(factor * sum(j.kn for j in before))
         boards = [j for j in after if j.type.startswith("plywood")]
-        assert sum(j.strength for j in boards) == pytest.approx(factor * stronger * sum(j.strength for j in before if j.type == "plywood"))
+        rated = sum(j.strength for j in before if j.type == "plywood")
+        assert sum(j.strength for j in boards) == pytest.approx(factor * stronger * rated)
 
 
 def test_column_ends_by_hand():
     """One column of 0.1 m, two fittings of 1 MN/m and 5 kN, levers b of 0.09 m: 2 k b2 / h per rad, 2 F b / h."""
-    data = {"joints": {"column_ends": {"number": 2, "type": "f"}},
-            "joint_types": {"f": {"kn": 1e6, "strength": 5e3, "friction_share": 0.15, "softening_stretch": 0.01, "ultimate_stretch": 0.04}}}
+    fitting = {"kn": 1e6, "strength": 5e3, "friction_share": 0.15, "softening_stretch": 0.01, "ultimate_stretch": 0.04}
+    data = {"joints": {"column_ends": {"number": 2, "type": "f"}}, "joint_types": {"f": fitting}}
     spring = column_ends(data, 1, 0.1, 2.5)
     assert spring.stiffness == pytest.approx(2 * 1e6 * 0.09**2 / 2.5)
     assert spring.forces.max() == pytest.approx(2 * 5e3 * 0.09 / 2.5)
