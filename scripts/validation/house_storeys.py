@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Storeys of the lumped-mass model (shear_model.py) from a house of the package. Needs no YADE."""
+import numpy as np
+from shear_model import Storey, slip_spring
+
+from yade_timber.base.gravity import mass_of
+from yade_timber.base.joint_kinds import WALL_BEAM
+from yade_timber.house.walls import SHARE
+from yade_timber.house.weight import weigh
+
+AXES = {"ew": 0, "ns": 1}
+ROUNDING = 0.1
+"""Radius of a column's edges over its width: it turns about an edge that lies inside by this. [-]"""
+
+
+def shear_storeys(model, data, structure, direction):
+    """Storeys of a structure in a direction, from below. data: content of the house file."""
+    weights = weigh(model)["storeys"][structure]
+    storeys = []
+    for storey, (low, high) in model.storey_levels[structure].items():
+        height, weight = high - low, weights[str(storey)]
+        columns = [e for e in model.of_kind("column", group=structure) if e.storey == storey]
+        width = columns[0].section[0]
+        springs = [*wall_springs(model, storey, direction, height), column_ends(data, len(columns), width, height)]
+        edges = (1 - 2 * ROUNDING) * width
+        storeys.append(Storey(mass_of(weight["level_kn"]), height, 1000 * weight["carried_kn"], edges, springs))
+    return storeys
+
+
+def wall_joints(model, storey, direction):
+    """wall_beam JointSpecs of a storey and direction, "ew" or "ns"."""
+    axis = AXES[direction]
+    return [j for j in model.joints if j.kind == WALL_BEAM and j.storey == storey and abs(j.normal[axis]) > 0.5]
+
+
+def wall_springs(model, storey, direction, height):
+    """A SlipSpring for each type of the walls of a storey: both halves, whose stretch is the drift times the height."""
+    sums = {}
+    for j in wall_joints(model, storey, direction):
+        shape = j.friction_share, j.softening_stretch / height, j.ultimate_stretch / height
+        sums[shape] = sums.get(shape, 0.0) + np.array([j.kn * height, j.strength]) / SHARE
+    return [slip_spring(*values, *shape) for shape, values in sums.items()]
+
+
+def column_ends(data, columns, width, height):
+    """SlipSpring of all column ends of a storey; columns of this width [m]."""
+    rule = data["joints"]["column_ends"]
+    fitting, lever = data["joint_types"][rule["type"]], (1 - ROUNDING) * width
+    many = columns * rule["number"] * lever / height
+    return slip_spring(
+        stiffness=many * fitting["kn"] * lever,
+        strength=many * fitting["strength"],
+        friction_share=fitting["friction_share"],
+        softening=fitting["softening_stretch"] / lever,
+        ultimate=fitting["ultimate_stretch"] / lever,
+    )

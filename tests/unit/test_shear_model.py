@@ -1,0 +1,149 @@
+# runner: python
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The lumped-mass model and the graded houses of scripts/validation, against closed forms and sums by hand."""
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import lsim
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
+
+import graded_houses as graded  # noqa: E402
+import kobe_like  # noqa: E402
+import shear_model as shear  # noqa: E402
+import wall_grades as grades  # noqa: E402
+from house_storeys import AXES, column_ends, wall_joints  # noqa: E402
+
+HEIGHT = 2.73
+"""[m]"""
+ELASTIC = (1e9, 0.2, 1e6, 2e6)
+"""Strength [N], friction share, softening and ultimate drift of a spring that never yields."""
+
+
+def elastic_storey(mass, stiffness, weight=0.0):
+    """stiffness [N/m]"""
+    return shear.Storey(mass, HEIGHT, weight, 1e-9, [shear.slip_spring(stiffness * HEIGHT, *ELASTIC)])
+
+
+def wall():
+    """Backbone 10 kN at 0.01 rad, flat to 0.05, zero at 0.1; a fifth of it in friction."""
+    return shear.slip_spring(1e6, 1e4, 0.2, 0.05, 0.1)
+
+
+# --- model ------------------------------------------------------------------------------------------------------------
+
+
+def test_first_loading_follows_the_backbone():
+    for drift, force in ((0.005, 5e3), (0.02, 1e4), (0.05, 1e4), (0.075, 5e3), (0.1, 0.0), (0.2, 0.0)):
+        spring = wall()
+        shears = [spring.shear(g) for g in np.linspace(0, drift, 200)]
+        assert shears[-1] == pytest.approx(force, abs=1e-6)
+
+
+def test_only_the_friction_part_acts_within_the_slip():
+    spring = wall()
+    for drift in (*np.linspace(0, 0.04, 100), *np.linspace(0.04, -0.01, 100)):
+        force = spring.shear(drift)
+    assert force == pytest.approx(-0.2 * 1e4)
+    for drift in np.linspace(-0.01, -0.04, 100):
+        force = spring.shear(drift)
+    assert force == pytest.approx(-1e4)
+
+
+def test_a_loop_dissipates_four_yield_forces_of_the_friction_part():
+    """After the first cycle to g: 4 phi F (g - y), a parallelogram; the slip part returns its energy."""
+    there, back = np.linspace(0.04, -0.04, 800), np.linspace(-0.04, 0.04, 800)
+    spring, path = wall(), np.concatenate([np.linspace(0, 0.04, 400), there, back, there, back])
+    forces = np.array([spring.shear(g) for g in path])
+    work = np.trapz(forces[2000 - 1:], path[2000 - 1:])
+    assert work == pytest.approx(4 * 0.2 * 1e4 * (0.04 - 0.01), rel=2e-3)
+
+
+def test_periods_of_two_equal_storeys():
+    """omega2 = k/m (3 - sqrt 5) / 2."""
+    storeys = [elastic_storey(1e4, 1e6), elastic_storey(1e4, 1e6)]
+    assert shear.first_period(storeys) == pytest.approx(2 * np.pi / np.sqrt(100 * (3 - np.sqrt(5)) / 2))
+
+
+@pytest.mark.parametrize("weight", [0.0, 3e5])
+def test_response_is_that_of_an_oscillator(weight):
+    """With P-delta the stiffness is k - W / h. Tolerance: second order in the step, observed 3e-4."""
+    mass, stiffness, dt = 1e4, 1e6, 0.01
+    time = np.arange(0, 8, dt)
+    ground = np.sin(2 * np.pi * time / 0.9)
+    times, drifts = shear.response([elastic_storey(mass, stiffness, weight)], ground, dt, 0.05)
+    damping = 2 * 0.05 * np.sqrt(stiffness / mass)
+    system = ([[0, 1], [-(stiffness - weight / HEIGHT) / mass, -damping]], [[0], [-1]], [[1, 0]], [[0]])
+    expected = lsim(system, np.interp(times, time, ground), times)[1]
+    assert np.abs(drifts[:, 0] * HEIGHT - expected).max() < 2e-3 * np.abs(expected).max()
+
+
+def test_a_storey_is_lost_where_its_weight_overcomes_its_walls():
+    storey = shear.Storey(1e4, HEIGHT, 3e5, 0.1, [wall()])
+    times, drifts = shear.response([storey], np.full(400, 4.0), 0.01, 0.03)
+    assert times[-1] < 3.9 and abs(drifts[-1, 0]) > shear.LIMIT
+
+
+# --- graded houses ----------------------------------------------------------------------------------------------------
+
+
+def test_existing_wall_quantity_by_hand():
+    """Storey 1, E-W: eight outer bays of 0.91 m of 2.5 + 1 + 0.9, five inner ones of 2.5 + 0.9. N-S: eight, four."""
+    model, data = grades.build_house(grades.load_house(grades.HOUSE)), grades.changed_house(grades.HOUSE)
+    found = {d: grades.existing_quantity(model, data["wall_types"], 1, d) for d in AXES}
+    assert found == pytest.approx({"ew": 0.91 * (8 * 4.4 + 5 * 3.4), "ns": 0.91 * (8 * 4.4 + 4 * 3.4)})
+
+
+def test_factors_meet_the_required_quantity():
+    """33 and 21 cm per m2 of 7.28 m x 6.37 m."""
+    model, data = grades.build_house(grades.load_house(grades.HOUSE)), grades.changed_house(grades.HOUSE)
+    factors = grades.factors(model, data["wall_types"], 1.25)
+    assert factors[1, "ew"] == pytest.approx(1.25 * 0.33 * 7.28 * 6.37 / (0.91 * 52.2))
+    assert factors[2, "ns"] == pytest.approx(1.25 * 0.21 * 7.28 * 6.37 / (0.91 * 48.8))
+
+
+@pytest.mark.parametrize("level", grades.STRENGTH_RATIOS)
+def test_a_graded_house_has_its_walls(level, tmp_path):
+    """All bays of tiled_house with the factor; only boards without a softening drift of their own have the mean."""
+    plain = grades.build_house(grades.load_house(grades.HOUSE))
+    factors = grades.factors(plain, grades.changed_house(grades.HOUSE)["wall_types"], 1.5)
+    model = grades.build_house(grades.load_house(grades.house_file(tmp_path, 1.5, level)))
+    for (storey, direction), factor in factors.items():
+        before, after = (wall_joints(m, storey, direction) for m in (plain, model))
+        stronger = grades.STRENGTH_RATIOS[level] / 1.5
+        assert len(after) == len(before)
+        assert sum(j.kn for j in after) == pytest.approx(factor * sum(j.kn for j in before))
+        boards = [j for j in after if j.type.startswith("plywood")]
+        rated = sum(j.strength for j in before if j.type == "plywood")
+        assert sum(j.strength for j in boards) == pytest.approx(factor * stronger * rated)
+
+
+def test_column_ends_by_hand():
+    """One column of 0.1 m, two fittings of 1 MN/m and 5 kN, levers b of 0.09 m: 2 k b2 / h per rad, 2 F b / h."""
+    fitting = {"kn": 1e6, "strength": 5e3, "friction_share": 0.15, "softening_stretch": 0.01, "ultimate_stretch": 0.04}
+    data = {"joints": {"column_ends": {"number": 2, "type": "f"}}, "joint_types": {"f": fitting}}
+    spring = column_ends(data, 1, 0.1, 2.5)
+    assert spring.stiffness == pytest.approx(2 * 1e6 * 0.09**2 / 2.5)
+    assert spring.forces.max() == pytest.approx(2 * 5e3 * 0.09 / 2.5)
+    assert spring.drifts[2:] == pytest.approx([0.01 / 0.09, 0.04 / 0.09])
+
+
+def test_peaks_count_until_a_storey_is_lost():
+    drifts = np.array([[0.01, 0.0], [-0.05, 0.02], [0.2, 0.03], [0.5, 0.9]])
+    peak, lost = graded.before_loss(drifts)
+    assert peak.tolist() == [0.05, 0.02] and lost
+    assert graded.before_loss(drifts[:2])[1] is False
+
+
+# --- motion -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_synthetic_motion_has_the_spectra_of_the_record():
+    """Mean within 10 %, every ordinate within 25 %: iterations scale neighbouring frequencies together."""
+    motion = kobe_like.kobe_like(0)
+    for name, target in kobe_like.TARGETS.items():
+        ratio = kobe_like.spectrum(getattr(motion, name)) / np.array(target)
+        assert abs(ratio.mean() - 1) < 0.1 and np.abs(ratio - 1).max() < 0.25
+    np.testing.assert_array_equal(motion.acceleration, kobe_like.kobe_like(0).acceleration)
