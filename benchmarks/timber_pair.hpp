@@ -26,13 +26,13 @@ class TimberPair {
 		bodies[1].position = poseB.position;
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * configuration.normal;
 		bodies[1].newSpin = bodies[1].spin;
-		solver.begin(bodies, 50);
-		solver.addPair(0, 1, points.size());
-		const SolverStep step { solver, bodies, h };
-		prepareContacts(step, 0, properties, points, records);
-		sweeps += solver.solve(bodies, 1e-3);
+		solver.begin(bodies, h, 500);
+		solver.addPair(0, 1, records.data(), records.size());
+		prepareContacts(solver, 0, properties, points);
+		sweeps += solver.solve(1e-3).sweeps;
 		++steps;
-		storeForces(step, 0, properties, records, nullptr);
+		PairEnergies energies;
+		storeForces(solver, 0, properties, energies);
 	}
 
 public:

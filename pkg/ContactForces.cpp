@@ -53,7 +53,8 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& foun
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
 			found.push_back(
-			        { I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy });
+			        { I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy,
+			        phys.placedEnergy });
 	}
 }
 
@@ -87,6 +88,16 @@ void ContactForces::collectBodies()
 	timber::forAll(count, [this](int id) { collectBody(id); });
 }
 
+/// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.
+void ContactForces::checkPlacements() const
+{
+	for (const ContactPair& pair : pairs)
+		if (pair.placed > 0 && pair.phys->placedOverlap > timber::largestPlacedOverlap)
+			throw std::runtime_error("bodies " + std::to_string(pair.id1) + " and " + std::to_string(pair.id2) + " were placed with an overlap of "
+			        + std::to_string(1000 * pair.phys->placedOverlap) + " mm: at most " + std::to_string(1000 * timber::largestPlacedOverlap)
+			        + " mm; move one of them");
+}
+
 void ContactForces::findIslands()
 {
 	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
@@ -98,19 +109,12 @@ void ContactForces::findIslands()
 	islands.find(bodies.size(), links);
 }
 
-void ContactForces::preparePair(timber::ContactSolver& solver, size_t k, const ContactPair& p)
+timber::PairProperties ContactForces::propertiesOf(const ContactPair& p) const
 {
+	timber::PairProperties properties = p.phys->properties();
 	const Real inverseMass = timber::pairInverseMass(bodies[p.id1], bodies[p.id2]);
-	// bodies may be fixed, freed or get another mass in a session; the elastic law of this step had the old mass
-	if (inverseMass > 0) p.phys->mass = 1 / inverseMass;
-	timber::prepareContacts({ solver, bodies, scene->dt }, k, p.phys->properties(), p.geom->contactPoints, p.phys->records);
-}
-
-void ContactForces::storePair(timber::ContactSolver& solver, size_t k, const ContactPair& p, timber::PairEnergies& energies)
-{
-	const timber::PairForce f
-	        = timber::storeForces({ solver, bodies, scene->dt }, k, p.phys->properties(), p.phys->records, trackEnergy ? &energies : nullptr);
-	addForce(f, p.id1, p.id2);
+	if (inverseMass > 0) properties.mass = 1 / inverseMass; // that of now: bodies may be fixed, freed or get another mass in a session
+	return properties;
 }
 
 void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
@@ -124,23 +128,23 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 {
 	IslandResult result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
-	const timber::SolverStep step { solver, bodies, scene->dt };
 	const int count = int(island.size()), pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
+	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
 	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
-	solver.begin(bodies, sweeps);
+	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
-		solver.addPair(pairs[island[k]].id1, pairs[island[k]].id2, pairs[island[k]].points);
+		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
 	for (int k = pairCount; k < count; ++k)
 		solver.addDashpot(joint(k).id1, joint(k).id2);
 	timber::forAll(count, [&](int k) {
-		if (k < pairCount) preparePair(solver, k, pairs[island[k]]);
-		else prepareJoint(step, k - pairCount, joint(k), *scene);
+		if (k < pairCount) timber::prepareContacts(solver, k, propertiesOf(pair(k)), pair(k).geom->contactPoints);
+		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
-	result.sweeps = solver.solve(bodies, tolerance);
+	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k)
-		storePair(solver, k, pairs[island[k]], result.energies);
+		addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies), pair(k).id1, pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
-		addForce(storeJoint(step, k - pairCount, result.jointDashpot), joint(k).id1, joint(k).id2);
+		addForce(storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
 	return result;
 }
 
@@ -156,29 +160,42 @@ void ContactForces::solveAll()
 
 void ContactForces::sumResults()
 {
-	elasticNormal = elasticShear = elasticPower = 0;
-	if (trackEnergy)
-		for (const ContactPair& pair : pairs)
-			released += pair.released;
-	int maxSweeps = 0;
+	elasticNormal = elasticShear = newmark = 0;
+	for (const ContactPair& pair : pairs) {
+		placed += pair.placed;
+		released += math::max(Real(0), pair.released);
+		created += math::max(Real(0), Real(-pair.released));
+	}
+	int mostSweeps = 0;
+	Real largestChange = 0;
+	bool allConverged = true;
 	for (const IslandResult& result : results) {
 		dashpotNormal += result.energies.dashpotNormal;
 		dashpotShear += result.energies.dashpotShear;
 		friction += result.energies.friction;
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
-		elasticPower += result.energies.elasticPower;
-		if (trackEnergy) jointDashpot += result.jointDashpot;
-		maxSweeps = std::max(maxSweeps, result.sweeps);
+		jointDashpot += result.joints.dissipated;
+		newmark += result.joints.stored;
+		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
+		allConverged = allConverged && result.convergence.converged;
+		largestChange = std::max(largestChange, result.convergence.change);
 	}
-	sweepsDone += maxSweeps;
+	sweepsDone += mostSweeps;
+	sweepsMax = std::max(sweepsMax, mostSweeps);
+	if (!allConverged) ++unconverged;
+	worstChange = std::max(worstChange, largestChange);
 }
 
 void ContactForces::action()
 {
 	collectPairs();
+	checkPlacements();
 	collectBodies();
-	findImplicitJoints(*scene, bodies, sweeps > 0, joints);
+	Real lost = 0;
+	findImplicitJoints(*scene, bodies, sweeps > 0, joints, lost);
+	jointDashpot += math::max(Real(0), lost);
+	created += math::max(Real(0), Real(-lost));
 	findIslands();
 	solveAll();
 	sumResults();

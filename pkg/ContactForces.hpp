@@ -18,13 +18,13 @@ class ContactForces : public GlobalEngine {
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
 		ManifoldPhys* phys;
 		size_t points; ///< copy of the number of phys's records
-		Real released; ///< copy of phys->releasedEnergy [J]
+		Real released, placed; ///< copies of phys->releasedEnergy and phys->placedEnergy [J]
 		bool hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
-		Real jointDashpot = 0; ///< [J]
-		int sweeps = 0;
+		JointEnergies joints;
+		timber::Convergence convergence;
 	};
 	std::vector<ContactPair> pairs, found; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `found`
@@ -41,9 +41,9 @@ class ContactForces : public GlobalEngine {
 	void collectPairs();
 	void collectBody(Body::id_t);
 	void collectBodies();
+	void checkPlacements() const;
 	void findIslands();
-	void preparePair(timber::ContactSolver&, size_t k, const ContactPair&);
-	void storePair(timber::ContactSolver&, size_t k, const ContactPair&, timber::PairEnergies&);
+	timber::PairProperties propertiesOf(const ContactPair&) const;
 	void addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
@@ -64,18 +64,22 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
 		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots (TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 50, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
+		((int, sweeps, 500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
 		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass; islands at rest are solved further, to the size of their own changes. [-]"))
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
-		((bool, trackEnergy, true, , "Whether the energies below are computed. [-]"))
-		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots and by Newmark's term. [J]"))
-		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots and by Newmark's term. [J]"))
-		((Real, friction, 0, , "Energy dissipated by sliding, and by tangential springs that lose stiffness. [J]"))
-		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints, and by Newmark's term of stiff ones. [J]"))
+		((int, sweepsMax, 0, , "Largest number of sweeps of a step. [-]"))
+		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still changed. [-]"))
+		((Real, worstChange, 0, , "Largest change of a pair's or joint's impulses in the last sweep of such a step, as twice its kinetic energy. [J]"))
+		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
+		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
+		((Real, friction, 0, , "Energy dissipated by sliding. [J]"))
+		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
-		((Real, elasticNormal, 0, , "Energy of the normal springs at the placement of the last step. [J]"))
-		((Real, elasticShear, 0, , "Energy of the tangential springs at the placement of the last step. [J]"))
-		((Real, elasticPower, 0, , "Rate of change of the springs' energy at the velocities after the last step. [W]")),
+		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
+		((Real, created, 0, , "Energy that contact points and joints had returned beyond what they had when they ceased to exist. [J]"))
+		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
+		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and the next one. [J]"))
+		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement and the next one. [J]")),
 		,
 		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the present contacts and joints of the scene. [1/s2]")
 	);

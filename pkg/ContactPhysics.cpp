@@ -31,6 +31,19 @@ namespace {
 		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
 	}
 
+	/// The IPhys of a pair, if it is new or its materials or masses have changed since it was set; else null.
+	template <class Phys> Phys* physToUpdate(Interaction& I, const Material& m1, const Material& m2)
+	{
+		const long changes = static_cast<const ElementMat&>(m1).changes + static_cast<const ElementMat&>(m2).changes;
+		const bool isNew = !I.phys;
+		if (isNew) I.phys = shared_ptr<Phys>(new Phys);
+		Phys& phys = *static_cast<Phys*>(I.phys.get());
+		const bool isKnown = phys.materialChanges >= 0;
+		if (!isNew && phys.materialChanges == changes) return nullptr;
+		phys.materialChanges = changes;
+		return isNew || isKnown ? &phys : nullptr;
+	}
+
 	bool boundsOverlap(const Body& b1, const Body& b2)
 	{
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
@@ -39,18 +52,25 @@ namespace {
 	timber::BodyKinematics kinematics(const State& s) { return { s.pos, s.vel, s.angVel }; }
 
 	/// Elastic step of a pair. Returns false when the interaction ends: no contact points, bounding boxes apart.
-	template <class Phys> bool elasticForces(IGeom* g, IPhys* p, Interaction* I, Scene* scene, timber::NormalForm form)
+	template <class Law>
+	bool elasticForces(const Law& law, IGeom* g, ManifoldPhys& phys, Interaction* I, Scene* scene, timber::NormalForm form = timber::NormalForm::Closed)
 	{
 		const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(g);
-		Phys& phys = *static_cast<Phys*>(p);
 		const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 		if (geom.contactPoints.empty() && phys.records.empty()) {
 			phys.releasedEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
+		phys.power = Law::power;
 		const timber::PairProperties pair = phys.properties();
-		phys.releasedEnergy = timber::elasticPair(phys.law(),
-		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, I->isFresh(scene) }, geom.contactPoints, phys.records);
+		const bool isPlaced = I->isFresh(scene);
+		phys.releasedEnergy = timber::elasticPair(
+		        law, { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, isPlaced }, geom.contactPoints, phys.records);
+		phys.placedEnergy = phys.placedOverlap = 0;
+		for (size_t k = 0; isPlaced && k < phys.records.size(); ++k) {
+			phys.placedEnergy += phys.records[k].normalStored;
+			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
+		}
 		return true;
 	}
 
@@ -92,35 +112,34 @@ boost::python::list ManifoldPhys::pyPoints() const
 
 void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
-	if (I->phys) return;
+	TimberPhys* phys = physToUpdate<TimberPhys>(*I, *m1, *m2);
+	if (!phys) return;
 	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-	shared_ptr<TimberPhys> phys(new TimberPhys);
 	const Real poisson = (t1.poisson + t2.poisson) / 2;
 	setProperties(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
 	phys->radius = timber::reduced(timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
-	I->phys = phys;
 }
 
 void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
-	if (I->phys) return;
+	SnowPhys* phys = physToUpdate<SnowPhys>(*I, *m1, *m2);
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-	shared_ptr<SnowPhys> phys(new SnowPhys);
-	setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
-	phys->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
-	I->phys = phys;
+	static_cast<SnowPhys*>(I->phys.get())->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // with the masses of now
+	if (phys) setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
 }
 
 bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
 {
-	return elasticForces<TimberPhys>(g.get(), p.get(), I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
+	TimberPhys& phys = *static_cast<TimberPhys*>(p.get());
+	return elasticForces(phys.law(), g.get(), phys, I, scene, increment ? timber::NormalForm::Increment : timber::NormalForm::Closed);
 }
 
 bool Law2_ManifoldGeom_SnowPhys_Linear::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)
 {
-	return elasticForces<SnowPhys>(g.get(), p.get(), I, scene, timber::NormalForm::Closed);
+	SnowPhys& phys = *static_cast<SnowPhys*>(p.get());
+	return elasticForces(phys.law(), g.get(), phys, I, scene);
 }
 
 } // namespace yade

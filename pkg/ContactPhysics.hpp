@@ -10,16 +10,15 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::ImpactState& i, const unsigned int)
 	{
-		ar& make_nvp("touchSpeed", i.touchSpeed) & make_nvp("duration", i.duration) & make_nvp("timeLeft", i.timeLeft) & make_nvp("rebound", i.rebound)
-		        & make_nvp("stored", i.stored);
+		ar& make_nvp("timeLeft", i.timeLeft) & make_nvp("rebound", i.rebound) & make_nvp("load", i.load);
 	}
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
 		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce) & make_nvp("dashpot", p.dashpotForce)
-		        & make_nvp("ahead", p.ahead) & make_nvp("impact", p.impact);
+		        & make_nvp("normalStored", p.normalStored) & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
 	}
-	/// The increment of a step is not saved.
+	/// The step of the solver is not saved.
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
 	{
 		ar& make_nvp("history", static_cast<timber::PointHistory&>(p));
@@ -34,9 +33,11 @@ class ManifoldPhys : public IPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
+	long materialChanges = -1; ///< sum of ElementMat::changes when the attributes were taken from the materials; -1: unknown, they were loaded
+	Real placedEnergy = 0, placedOverlap = 0; ///< of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
-	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio }; }
+	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio, power }; }
 	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
 
@@ -47,6 +48,7 @@ public:
 		((Real, shearRatio, NaN, Attr::triggerPostLoad, "K_s / K_n. [-] (paper, Eq. 40)"))
 		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping, C = 2 ratio sqrt(m K). [-] (paper, Eqs. 41-42: 1)"))
 		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: the cores touch. [m]"))
+		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by feature id. [-]"))
 		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
+#include <bodies.hpp>
 #include <SceneCheck.hpp>
 #include <validation.hpp>
 
@@ -11,6 +12,7 @@ void HealthCheck::validate() const
 {
 	require(every >= 1, "HealthCheck.every", every, ">= 1");
 	require(speedLimit > 0, "HealthCheck.speedLimit", speedLimit, "> 0");
+	require(turnLimit > 0, "HealthCheck.turnLimit", turnLimit, "> 0");
 }
 
 /// doSort: bodies were added or replaced since the collider ran.
@@ -47,11 +49,12 @@ void HealthCheck::checkState(const Body& b) const
 {
 	const State& s = *b.state;
 	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0)) checkBody(b);
-	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit) return;
+	const bool turns = isFree(s) && !(s.angVel.norm() * scene->dt <= turnLimit);
+	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit && !turns) return;
 	checkBodies(); // another cause than the time step
 	std::ostringstream message;
 	message << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
-	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s; the time step " << scene->dt << " s is probably too large";
+	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step " << scene->dt << " s is probably too large";
 	throw std::runtime_error(message.str());
 }
 
@@ -62,6 +65,11 @@ void HealthCheck::action()
 	const bool changed = hasSceneChanged();
 	if (!changed && scene->iter % every != 0) return;
 	if (changed) checkScene();
+	check();
+}
+
+void HealthCheck::check() const
+{
 	for (const shared_ptr<Body>& b : *scene->bodies)
 		if (b) checkState(*b);
 }

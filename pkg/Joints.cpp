@@ -108,6 +108,7 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 	const timber::JointSprings unpacked = springs();
 	packed = to;
 	index = packed->joints.size();
+	if (!modes.haveAnchors(springGroup())) modes.state.springs = 0; // changed in the session
 	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
 }
 

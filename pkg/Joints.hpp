@@ -12,8 +12,10 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
-		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies) & make_nvp("springs", m.springs);
-		ar& make_nvp("normal", m.stiffness.normal) & make_nvp("shear", m.stiffness.shear) & make_nvp("pairInverseMass", m.pairInverseMass);
+		ar& make_nvp("centre", m.centre) & make_nvp("spread", m.spread) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
+		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal) & make_nvp("shear", m.state.stiffness.shear);
+		ar& make_nvp("pairInverseMass", m.state.pairInverseMass) & make_nvp("inverseInertia", m.state.inverseInertia);
+		ar& make_nvp("relative", m.state.relative);
 	}
 }
 }
@@ -61,6 +63,7 @@ public:
 	/// Axis of springs that yield along the normal only (ks = 0), else zero. [-]
 	Vector3r slipAxis() const { return ks == 0 ? normal : Vector3r::Zero(); }
 	timber::SlipHistories slipHistories() { return { plasticStretches, largestStretches }; }
+	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
 	void breakSpring(size_t spring);
 	void breakAll();
 
@@ -88,6 +91,7 @@ public:
 		((vector<Vector3r>, stretches, , Attr::hidden, "Stretch of each spring when the scene was saved. [m]"))
 		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
 		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]"))
+		((Real, newmarkEnergy, 0, Attr::readonly, "Energy of Newmark's term of a stiff joint. [J]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, world frame. [N]")

@@ -8,8 +8,13 @@ namespace yade {
 /// Common base: YADE dispatches a pair of different materials in either order only through a base class.
 class ElementMat : public Material {
 public:
-	void postLoad(ElementMat&) { validate(); }
+	void postLoad(ElementMat&)
+	{
+		validate();
+		++changes;
+	}
 	void validate() const;
+	long changes = 0; ///< number of times that attributes were set: contacts read them again (ContactPhysics.cpp)
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not a material by itself.",
 		((Real, friction, 0.5, Attr::triggerPostLoad, "Coulomb friction coefficient; a pair has the smaller one of its two materials. [-]")),
@@ -22,7 +27,11 @@ REGISTER_SERIALIZABLE(ElementMat);
 
 class TimberMat : public ElementMat {
 public:
-	void postLoad(TimberMat&) { validate(); }
+	void postLoad(TimberMat&)
+	{
+		validate();
+		++changes;
+	}
 	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberMat, ElementMat, "Timber, or any other stiff material in Hertz contact (paper, section 3.1).",
@@ -37,7 +46,11 @@ REGISTER_SERIALIZABLE(TimberMat);
 
 class SnowMat : public ElementMat {
 public:
-	void postLoad(SnowMat&) { validate(); }
+	void postLoad(SnowMat&)
+	{
+		validate();
+		++changes;
+	}
 	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 (2)).",

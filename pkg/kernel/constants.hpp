@@ -71,6 +71,10 @@ constexpr double crossingSine = 0.2;
 /// Larger: a search after smaller rotations; smaller: the small-angle bounds of the search no longer hold.
 constexpr double minRegionSkins = 25;
 
+/// Largest overlap with which bodies may be placed. [m] Loaded members of a house overlap by less than 0.1 mm.
+/// Larger: springs of bodies placed in each other throw them apart; smaller: loaded bodies cannot be placed at rest.
+constexpr double largestPlacedOverlap = 5e-4;
+
 // --- contact solver ---
 
 /// Convergence threshold of the first sweep of a step, as a share of the tolerance of the later sweeps. [-]
@@ -83,25 +87,36 @@ constexpr double firstSweepShare = 1e-8;
 /// at rest, and no less motion.
 constexpr double restTolerance = 1e-6;
 
-/// Duration of the longest impact that separates by its restitution, in steps. [-] Longer ones are resolved by the steps: the restitution is
+/// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all impulses are zero after the first
+/// sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger: error of the impulses of soft contacts.
+constexpr double roundingTolerance = 1e-8;
+
+/// Duration of the longest impact whose velocity of separation is bounded, in steps. [-] Longer ones are resolved by the steps: the restitution is
 /// right to 10 % at 20 steps for a critical dashpot.
 /// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.
 constexpr double impactSteps = 20;
 
-/// Longest impact of a contact point, in durations of the undamped one. [-] Damped impacts that act alone take at most one.
-/// Larger: the velocity at which contacts with other loads separate is limited for longer; smaller: impacts end without their restitution.
+/// Time for which the separation after a touch is bounded, in durations of the undamped impact. [-] Damped impacts that act alone take at most one.
+/// Larger: the velocity at which contacts with other loads separate is bounded for longer; smaller: impacts end without their restitution.
 constexpr double impactDurations = 1.5;
 
-/// Rounding error of the velocity of separation at the end of an impact. [-]
-constexpr double reboundRounding = 1e-9;
-
-/// Velocity change by all other forces within the duration of an impact, or a step if that is longer, over the touch speed, from which on the contact counts as
-/// loaded. [-] Larger: loaded contacts are treated as impacts; smaller: impacts of loaded members are left to the step's scheme. Errors of houses are the same
-/// from 0.1 to 3.
+/// Velocity by which other contacts and forces press the surfaces together within the duration of an impact, or a step if that is longer, over the touch
+/// speed, from which on the contact counts as loaded. [-] Larger: more bounds, which contradict each other where members are wedged, and twice the
+/// sweeps; smaller: impacts of loaded members are left to the step's scheme.
 constexpr double impactLoadShare = 1;
 
-/// Iterations of Newton's method for the hardening of a contact in a visit of its point. [-]
-constexpr int hardeningSteps = 3;
+/// Softness s of the bound of an impact. [-] Points of an edge have nearly the same equation and bounds that differ by some per cent.
+/// Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single point; 0: their impulses move from one point to
+/// another by 1e-4 a sweep.
+constexpr double reboundSoftness = 0.02;
+
+/// Rounding error of Coulomb's limit. [-] A point within it slides: its work is friction's.
+constexpr double slidingRounding = 1e-9;
+
+/// Most iterations of Newton's method for the hardening of a contact in a visit of its point [-], and the relative change of the impulse that ends them [-].
+/// Two or three suffice but for overlaps that grow a thousandfold.
+constexpr int hardeningSteps = 40;
+constexpr double hardeningTolerance = 1e-6;
 
 /// Closing displacement in a step, over the overlap, beyond which the hardening of a contact is taken into account. [-]
 /// Larger: contacts that close fast gain energy; smaller: more computation.
@@ -121,9 +136,8 @@ constexpr double stiffPhase = 1;
 /// Larger: joints with h omega above 10 gain energy; smaller: more sweeps.
 constexpr double stiffJointShare = 1e-3;
 
-/// Steps for which the vibration modes of a joint are reused. [-]
-/// They vary only with the rotation of the joint's bodies relative to each other. Larger: slower convergence in a collapse, and a damping
-/// ratio of an earlier placement; smaller: longer steps, 2 us for each computation.
-constexpr int modeSteps = 1024;
+/// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The modes vary only with it.
+/// Larger: slower convergence in a collapse, and a damping ratio of an earlier placement; smaller: longer steps, 2 us for each computation.
+constexpr double modeAngle = 0.05;
 
 } // namespace timber

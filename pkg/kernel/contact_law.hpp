@@ -5,8 +5,7 @@
 /// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and pushes the bodies
 /// apart. Joints have the opposite convention (joint_law.hpp).
 #pragma once
-#include "contact_solver.hpp"
-#include "manifold.hpp"
+#include "contact_step.hpp"
 #include "preconditions.hpp"
 #include <algorithm>
 #include <cassert>
@@ -27,13 +26,14 @@ inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 /// Radius of the sphere of the same volume (section 3.1). volume [m3]; returns [m].
 inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4 * M_PI)); }
 
-// A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy) [m]. F(0) = 0, F
-// increases. F is a power of n (impact.hpp).
+// A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy) [m], and the exponent
+// `power`, q, of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
 
 /// Timber on timber: Hertz (Eqs. 37-39). overlap n [m].
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
+	static constexpr double power = 1.5; ///< q [-]
 	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * sqrt(Number(radius) * n) * n; } ///< [N] (Eq. 37)
 	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * sqrt(Number(radius) * n); } ///< [N/m] (Eq. 39)
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
@@ -43,6 +43,7 @@ struct HertzLaw {
 /// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].
 struct LinearLaw {
 	double constant; ///< [N/m]
+	static constexpr double power = 1; ///< q [-]
 	template <class Number> Number force(Number n) const { return Number(constant) * n; } ///< [N]
 	template <class Number> Number stiffness(Number) const { return Number(constant); } ///< [N/m]
 	template <class Number> Number energy(Number n) const { return Number(0.5 * constant) * n * n; } ///< [J]
@@ -56,6 +57,7 @@ struct PairProperties {
 	double shearRatio = 1; ///< K_s / K_n: 1/(2(1+nu)) for timber (Eq. 40), 1 for snow [-]
 	double overlapLimit = 0; ///< the normal force is constant beyond it: the cores touch [m]
 	double dampingRatio = 1; ///< share of critical damping, C = 2 ratio sqrt(m K) (Eqs. 41, 42: 1) [-]
+	double power = HertzLaw::power; ///< exponent q of the law [-]
 };
 
 /// Dashpot constants of a point, C_n (Eq. 41) and C_s (Eq. 42). stiffness: K_n [N/m]; returns [N s/m].
@@ -67,34 +69,6 @@ template <class Number> [[gnu::always_inline]] inline Number shearDamping(const 
 {
 	return normalDamping * Number(std::sqrt(pair.shearRatio));
 }
-
-/// State of a point's springs. Forces act on B.
-template <class Number> struct PointSprings {
-	Number excess = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
-	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
-	Number stiffness = 0.; ///< K_n [N/m]
-	Number normalForce = 0.; ///< elastic normal force e_n [N]
-	Number energy = 0.; ///< of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
-	Vec3Of<Number> shearForce = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
-};
-
-/// Increment of a point's tangential spring in a step, from which the work of friction follows.
-template <class Number> struct ShearIncrement {
-	Vec3Of<Number> slip = Vec3Of<Number>::Constant(Number(0.)); ///< tangential displacement of B relative to A [m]
-	Vec3Of<Number> shearBefore = Vec3Of<Number>::Constant(Number(0.)); ///< e_s before the slip [N]
-	Number shearEnergyBefore = 0.; ///< [J]
-};
-
-/// History of a contact point: saved with the scene.
-struct PointHistory : PointSprings<double> {
-	FeatureId id;
-	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
-	double ahead = 0; ///< energy of both springs in the middle between the last placement and the next one: a point that ceases to exist loses it [J]
-	ImpactState impact;
-};
-
-/// History of a contact point, and the increment of the present step, which is not saved.
-struct PointRecord : PointHistory, ShearIncrement<double> { };
 
 /// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic energy can
 /// compress. A stiff contact stops a fast light member within the step.
@@ -121,11 +95,6 @@ template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number s
 	return selectLazily(
 	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
-template <class Number> Number shearEnergy(const PointSprings<Number>& s, const PairProperties& p)
-{
-	return shearEnergy<Number>(s.shearForce, Number(p.shearRatio) * s.stiffness);
-}
-
 /// e_s after sliding: at most friction times the normal force. [N]
 template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce)
 {
@@ -155,13 +124,11 @@ enum class NormalForm { Closed, Increment };
 /// energy. It slides in storeForces(), once the total normal force is known: limitedShear().
 /// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
-[[gnu::always_inline]] inline ShearIncrement<Number> elasticStep(const Law& law, const PairProperties& pair, const Point& point,
-        const RelativeMotion<Number>& motion, double h, NormalForm form, PointSprings<Number>& springs)
+[[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const RelativeMotion<Number>& motion, double h,
+        NormalForm form, PointSprings<Number>& springs)
 {
 	assert(h > 0 && pair.shearRatio > 0 && pair.overlapLimit >= 0);
-	ShearIncrement<Number> increment;
 	const Number none = 0., limit = pair.overlapLimit;
-	const Number closing = -motion.velocity.dot(point.normal) * Number(h);
 	springs.excess = min(springs.excess, point.overlap);
 	const Number before = springs.overlap, stiffnessBefore = springs.stiffness, total = point.overlap - springs.excess;
 	springs.overlap = min(total, limit);
@@ -170,15 +137,11 @@ template <class Law, class Point, class Number>
 	else springs.normalForce = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
-	const Number shearStiffness = Number(pair.shearRatio) * springs.stiffness;
 	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);
-	increment.shearBefore = springs.shearForce;
-	increment.shearEnergyBefore = shearEnergy<Number>(springs.shearForce, Number(pair.shearRatio) * stiffnessBefore);
 	springs.shearForce *= selectLazily(
 	        springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
-	increment.slip = (motion.velocity + Number(closing / Number(h)) * point.normal) * Number(h);
-	springs.shearForce -= shearStiffness * increment.slip;
-	return increment;
+	const Vec3Of<Number> slip = (motion.velocity - motion.velocity.dot(point.normal) * point.normal) * Number(h);
+	springs.shearForce -= Number(pair.shearRatio) * springs.stiffness * slip;
 }
 
 } // namespace timber

@@ -28,8 +28,7 @@ namespace {
 
 	template <class Law> void elasticPoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
 	{
-		static_cast<ShearIncrement<double>&>(record) = elasticStep<Law, ContactPoint, double>(
-		        law, input.pair, point, relativeMotion<double>(point.position, input), input.h, input.form, record);
+		elasticStep<Law, ContactPoint, double>(law, input.pair, point, relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
 	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of it that the point takes. [J]
@@ -40,13 +39,19 @@ namespace {
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
-		const double taken = law.energy(initial) - law.energy(std::min(initial, approach));
-		if (input.form == NormalForm::Closed) record.impact.expect(taken);
-		return taken;
+		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
+		return record.normalStored;
+	}
+
+	/// First step of a point whose bodies were placed in contact: the spring is loaded, without an impact.
+	template <class Law> void placePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
+	{
+		elasticPoint(law, input, point, record);
+		record.normalStored = record.energy;
+		record.impact = ImpactState::over();
 	}
 
 	using SpringsOf = PointSprings<double>;
-	using IncrementOf = ShearIncrement<double>;
 
 	/// Springs before the step; the increment form also needs the normal force.
 	template <class Number> [[gnu::always_inline]] inline PointSprings<Number> loadSprings(const Group<Number, PointRecord>& record, NormalForm form)
@@ -60,9 +65,7 @@ namespace {
 		return s;
 	}
 
-	template <class Number>
-	[[gnu::always_inline]] inline void saveSprings(
-	        const PointSprings<Number>& s, const ShearIncrement<Number>& increment, const Group<Number, PointRecord>& record)
+	template <class Number> [[gnu::always_inline]] inline void saveSprings(const PointSprings<Number>& s, const Group<Number, PointRecord>& record)
 	{
 		record.set(&SpringsOf::excess, s.excess);
 		record.set(&SpringsOf::overlap, s.overlap);
@@ -70,9 +73,6 @@ namespace {
 		record.set(&SpringsOf::normalForce, s.normalForce);
 		record.set(&SpringsOf::energy, s.energy);
 		record.set(&SpringsOf::shearForce, s.shearForce);
-		record.set(&IncrementOf::slip, increment.slip);
-		record.set(&IncrementOf::shearBefore, increment.shearBefore);
-		record.set(&IncrementOf::shearEnergyBefore, increment.shearEnergyBefore);
 	}
 
 	/// Elastic step of points whose features are those of the last step.
@@ -88,9 +88,9 @@ namespace {
 			const Group<Number, PointRecord> record(&records[k], points.size() - k);
 			PointSprings<Number> springs = loadSprings<Number>(record, input.form);
 			const Placement placement { point.get(&ContactPoint::normal), point.get(&ContactPoint::overlap) };
-			const ShearIncrement<Number> increment = elasticStep<Law, Placement, Number>(
+			elasticStep<Law, Placement, Number>(
 			        law, input.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), input), input.h, input.form, springs);
-			saveSprings<Number>(springs, increment, record);
+			saveSprings<Number>(springs, record);
 		});
 	}
 
@@ -103,147 +103,119 @@ namespace {
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.
 			for (; old != records.end() && old->id < points[k].id; ++old)
-				released += old->ahead;
+				released += old->normalStored + old->shearStored;
 			if (old != records.end() && old->id == points[k].id) next[k] = *old++;
 		}
 		for (; old != records.end(); ++old)
-			released += old->ahead;
+			released += old->normalStored + old->shearStored;
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;
-			if (isNew && !input.placedInContact) released -= initialisePoint(law, input, points[k], released, next[k]);
+			if (isNew && input.placedInContact) placePoint(law, input, points[k], next[k]);
+			else if (isNew) released -= initialisePoint(law, input, points[k], released, next[k]);
 			else elasticPoint(law, input, points[k], next[k]);
 		}
 		records.swap(next);
 		return released;
 	}
 
-	/// Constraints of the k-th pair from a point on, as many as a Number has lanes.
-	template <class Number> decltype(auto) constraintsFrom(const ContactSolver& solver, size_t k, size_t point)
-	{
-		if constexpr (std::is_same_v<Number, double>) return solver.constraint(k, point);
-		else return solver.constraintGroup(k, point);
-	}
-
-	/// Solver input of points. record: after the elastic step.
+	/// Physics of points in a step. record: after the elastic step.
 	template <class Number>
-	[[gnu::always_inline]] inline ContactInput<Number> contactInput(const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h,
+	[[gnu::always_inline]] inline StepInput<Number> stepInput(const SolverBodies& bodies, const PairProperties& pair, double h,
 	        const Group<Number, const ContactPoint>& point, const Group<Number, const PointRecord>& record)
 	{
 		const Vec3Of<Number> position = point.get(&ContactPoint::position);
-		ContactInput<Number> p;
-		p.armA = position - broadcast<Number>(a.position);
-		p.armB = position - broadcast<Number>(b.position);
+		StepInput<Number> p;
+		p.armA = position - broadcast<Number>(bodies.a.position);
+		p.armB = position - broadcast<Number>(bodies.b.position);
 		p.normal = point.get(&ContactPoint::normal);
 		p.elasticNormal = record.get(&PointRecord::normalForce);
 		p.elasticShear = record.get(&PointRecord::shearForce);
-		p.normalDamping = normalDamping<Number>(pair, record.get(&PointRecord::stiffness));
+		p.normalStiffness = record.get(&PointRecord::stiffness);
+		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
+		p.normalDamping = normalDamping<Number>(pair, p.normalStiffness);
 		p.shearDamping = shearDamping<Number>(pair, p.normalDamping);
 		p.friction = pair.friction;
 		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
-		p.normalStiffness = record.get(&PointRecord::stiffness);
-		p.shearStiffness = Number(pair.shearRatio) * p.normalStiffness;
-		p.release = (point.get(&ContactPoint::overlap) - record.get(&PointRecord::excess)) / Number(h);
-		p.energy = record.get(&PointRecord::energy);
+		p.energy = max(Number(0.), Number(record.get(&PointRecord::normalStored)));
+		p.shearEnergy = max(Number(0.), Number(record.get(&PointRecord::shearStored)));
+		if (pair.power == 1) return p;
+		// K n - F = (q - 1) c n^q for F = k n + c n^q
+		p.power = pair.power;
 		p.overlap = record.get(&PointRecord::overlap);
-		const auto isHertz = p.normalStiffness * p.overlap > Number(1.25) * p.elasticNormal; // 1.5; linear: 1
-		p.hardening
-		        = select(logicalAnd(isHertz, p.overlap > Number(roundingOverlap)), Number(p.elasticNormal / (p.overlap * sqrt(p.overlap))), Number(0.));
+		p.room = max(Number(0.), Number(Number(pair.overlapLimit) - p.overlap));
+		const Number excess = p.normalStiffness * p.overlap - p.elasticNormal;
+		p.hardening = select(p.overlap > Number(roundingOverlap), max(Number(0.), Number(excess * Number(1 / (pair.power - 1)))), Number(0.));
 		return p;
 	}
 
-	/// Velocity of B relative to A along the normal of a constraint, before and after the step. [m/s]
-	struct NormalVelocity {
-		double before, after;
-		NormalVelocity(const ContactSolver::Constraint& c, const SolverBody& a, const SolverBody& b)
-		        : before(relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin).dot(c.normal))
-		        , after(relativeVelocity<double>(c.armA, c.armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin).dot(c.normal))
-		{
-		}
-		double mean() const { return (before + after) / 2; }
-	};
-
-	/// Starts the impact of a point whose surfaces have touched in the last step.
-	void touch(const ContactSolver::Constraint& c, const SolverBody& a, const SolverBody& b, const PairProperties& pair, double h, PointRecord& r)
+	/// Impacts of a pair's points: prepare phase. The history says that the surfaces have just touched, or are in an impact.
+	void prepareImpacts(const SolverPair& points, const PairProperties& pair, double h)
 	{
-		const Vec3 v = relativeVelocity<double>(c.armA, c.armB, a.velocity, a.spin, b.velocity, b.spin);
-		const PowerSpring spring { r.overlap, r.normalForce, r.stiffness };
-		startImpact(r.impact, spring, pair.dampingRatio, pair.mass, c.response, -v.dot(c.normal), h);
-	}
-
-	/// Points of a pair in an impact: prepare phase.
-	void prepareImpacts(const SolverStep& step, size_t k, const PairProperties& pair, Records& records)
-	{
-		const SolverPair& ids = step.solver.pair(k);
-		for (size_t i = 0; i < records.size(); ++i) {
-			PointRecord& r = records[i];
-			if (r.impact.isPast() && r.overlap == 0) r.impact.expect(0);
-			if (r.impact.isPending() && r.normalForce > 0)
-				touch(step.solver.constraint(k, i), step.bodies[ids.bodyA], step.bodies[ids.bodyB], pair, step.h, r);
-			if (r.impact.isActive()) step.solver.setImpact(k, i, r.impact.rebound);
+		for (size_t i = 0; i < points.count; ++i) {
+			PointRecord& r = points.points[i];
+			if (r.overlap == 0) r.impact = {};
+			else if (r.impact.isPending() && r.step.before[0] < 0)
+				r.impact = startImpact({ r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio, pair.mass, r.step.response(), -r.step.before[0], h);
+			r.step.rebound = r.impact.rebound;
 		}
 	}
 
-	/// Whether the other forces on the bodies change the velocity too much for the restitution of this point alone. change: velocity of
-	/// separation after the step minus before [m/s]; own: the part of it by the point's impulse [m/s]. In impacts shorter than a step the change
-	/// within the step counts: otherwise a load that returns the point to the contact in each step would push it through.
-	bool isLoaded(const ImpactState& impact, double change, double own, double h)
+	/// Velocity change of B relative to A at a point that the impulses of the pair's points explain. [m/s]
+	double changeByPair(const PointStep& point, const SolverBodies& bodies, const PairForce& impulse)
 	{
-		return (own - change) * std::max(impact.duration / h, 1.) > impactLoadShare * impact.touchSpeed;
+		const Vec3 vA = -bodies.a.inverseMass * impulse.onB, wA = bodies.a.inverseInertia * impulse.torqueA, vB = bodies.b.inverseMass * impulse.onB,
+		           wB = bodies.b.inverseInertia * impulse.torqueB;
+		return relativeVelocity<double>(point.armA, point.armB, vA, wA, vB, wB).dot(point.axes[0]);
 	}
 
-	/// The normal spring has no force any more. The rest of the overlap, which the step does not resolve, is excess.
-	void endImpact(PointRecord& r)
+	/// Impacts of a pair's points after a step. impulse: of the pair, with angular impulses [N s, N m s].
+	void followImpacts(const SolverPair& points, const SolverBodies& bodies, const PairForce& impulse, double h)
 	{
-		r.excess = largestSize;
-		r.overlap = r.energy = 0;
-		r.impact.expect(0);
+		for (size_t i = 0; i < points.count; ++i) {
+			PointRecord& r = points.points[i];
+			if (!r.impact.isActive()) continue;
+			const double change = bodies.velocity<double>(r.step.armA, r.step.armB).dot(r.step.axes[0]) - r.step.before[0];
+			r.impact.pass(h, r.step.bounded, changeByPair(r.step, bodies, impulse) - change);
+		}
 	}
 
-	/// Elastic normal force over the half step after the placement. A point that separates returns its energy and no more: (5) of the solver.
-	/// force: at the placement [N]; after: velocity of separation [m/s].
-	template <class Number> [[gnu::always_inline]] inline Number forceAhead(const ContactConstraint<Number>& c, Number force, Number after, double h)
+	template <class Number> Number powerOf(Number s, double q)
 	{
-		return selectLazily(
-		        after > c.release, [&] { return Number(Number(2.) * c.energy / (Number(h) * after)); }, [&] { return force; });
+		if (q == 1.5) return s * sqrt(s);
+		if constexpr (std::is_same_v<Number, double>) return std::pow(s, q);
+		else return eachLane(s, [q](double x) { return std::pow(x, q); });
 	}
 
-	/// Energy that the normal dashpot dissipates in a step. impulse: of the contact [N s]; force, ahead: elastic, see forceAhead() [N].
+	/// Energy of the normal spring after a closing displacement `way` from the placement, F = k n + c n^q. [J]
+	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left until the force is constant [m].
 	template <class Number>
-	[[gnu::always_inline]] inline Number normalDissipation(Number impulse, Number force, Number ahead, Number before, Number after, double h)
+	[[gnu::always_inline]] inline Number energyAfter(Number U, Number F, Number K, Number n, Number room, Number way, double q)
 	{
-		return -((impulse - Number(h) * force) * before + (impulse - Number(h) * ahead) * after) / Number(2.);
-	}
-
-	/// Impact of a point after a step. Its dashpot dissipates the work that the normal spring does not store. That is at most the energy of the
-	/// law. energies: with those of spring and dashpot without an impact.
-	void followImpact(const ContactSolver::Constraint& c, const NormalVelocity& v, double h, PointRecord& r, PairEnergies& energies)
-	{
-		const double impulse = c.impulse.dot(c.normal), available = r.impact.stored - impulse * v.mean(), energy = r.energy;
-		const double force = r.normalForce, ahead = forceAhead(c, force, v.after, h), byLaw = energy - ahead * v.after * h / 2;
-		r.impact.timeLeft -= h;
-		double stored = byLaw;
-		const bool loaded = isLoaded(r.impact, v.after - v.before, impulse * c.response, h);
-		if (loaded) r.impact.rebound = noRebound;
-		if (v.after > (loaded ? c.release : std::min(c.rebound, c.release)) * (1 - reboundRounding)) stored = 0, endImpact(r);
-		else if (r.impact.timeLeft <= 0) r.impact.cancel();
-		else stored = std::max(0., std::min(available, byLaw));
-		r.impact.stored = stored;
-		r.ahead += stored - byLaw;
-		energies.dashpotNormal += available - stored - normalDissipation(impulse, force, ahead, v.before, v.after, h);
-		energies.elasticNormal += stored - energy;
-		energies.elasticPower += ahead * v.after;
-	}
-
-	void followImpacts(const SolverStep& step, size_t k, Records& records, PairEnergies& energies)
-	{
-		const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
-		for (size_t i = 0; i < records.size(); ++i) {
-			if (!records[i].impact.isActive()) continue;
-			const ContactSolver::Constraint c = step.solver.constraint(k, i);
-			followImpact(c, { c, a, b }, step.h, records[i], energies);
+		const Number none = 0., g = min(max(way, Number(-n)), room), rest = max(none, Number(way - room)); // of the way, with and without change of the force
+		Number change = F * g + K * g * g / Number(2.), force = F + K * g;
+		if (q > 1) {
+			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor, hard = (K * n - F) / Number(q - 1), ratio = g / floor, power = powerOf<Number>(s, q);
+			// c ((n + g)^(q+1) - n^(q+1)) / (q+1), less the linear and square terms of the above
+			change += hard * floor * ((s * power - Number(1.)) / Number(q + 1) - ratio - Number(q / 2) * ratio * ratio);
+			force += hard * (power - Number(1.) - Number(q) * ratio);
 		}
+		return select(way > -n, max(none, Number(U + change + rest * force)), none);
 	}
+
+	/// What a spring has after a step, and what was dissipated. The account is negative after a step whose sweeps ended with a small error: the point has
+	/// returned too much, and the next work on it settles the debt.
+	template <class Number> struct Account {
+		Number stored, dissipated; ///< [J]
+
+		/// before: account before the step; work: of the impulse on the bodies; law: energy that the spring may have after the step. [J]
+		Account(Number before, Number work, Number law)
+		{
+			const Number available = before - work;
+			stored = min(available, law);
+			dissipated = available - stored;
+		}
+	};
 
 	[[maybe_unused]] bool isValid(const ElasticInput& input)
 	{
@@ -271,60 +243,70 @@ template <class Law> double elasticPair(const Law& law, const ElasticInput& inpu
 template double elasticPair(const HertzLaw&, const ElasticInput&, const Points&, Records&);
 template double elasticPair(const LinearLaw&, const ElasticInput&, const Points&, Records&);
 
-void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, const Points& points, Records& records)
+void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair, const Points& points)
 {
-	assert(points.size() == records.size() && points.size() == step.solver.pair(k).count);
-	assert(step.h > 0 && pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0);
-	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
+	const SolverPair& records = solver.pair(k);
+	assert(points.size() == records.count);
+	assert(pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0 && pair.power >= 1);
+	const SolverBodies bodies = solver.bodiesOf(records);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
-		const Group<Number, const PointRecord> record(&records[i], points.size() - i);
-		step.solver.prepare<Number>(k, i, step.bodies, contactInput<Number>(a, b, pair, step.h, point, record), step.h);
+		const Group<Number, const PointRecord> record(records.points + i, points.size() - i);
+		solver.prepare<Number>(k, i, stepInput<Number>(bodies, pair, solver.stepLength(), point, record));
 	});
-	if (!step.solver.isExplicit()) prepareImpacts(step, k, pair, records);
+	if (!solver.isExplicit()) prepareImpacts(records, pair, solver.stepLength());
 }
 
-PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, Records& records, PairEnergies* energies)
+PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, PairEnergies& energies)
 {
-	assert(step.h > 0 && records.size() == step.solver.pair(k).count && pair.friction >= 0 && pair.shearRatio > 0);
-	const SolverBody &a = step.bodies[step.solver.pair(k).bodyA], &b = step.bodies[step.solver.pair(k).bodyB];
-	const double h = step.h;
-	Sums<9> forces;
-	PairEnergies unused;
-	PairEnergies& result = energies ? *energies : unused;
-	Sums<6> sums(result.dashpotNormal, result.dashpotShear, result.friction, result.elasticNormal, result.elasticShear, result.elasticPower);
-	inLanes(records.size(), [&](auto number, size_t i) {
+	const SolverPair& points = solver.pair(k);
+	const SolverBodies bodies = solver.bodiesOf(points);
+	const double h = solver.stepLength();
+	Sums<9> impulses;
+	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal, energies.elasticShear);
+	inLanes(points.count, [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
-		const size_t count = records.size() - i;
-		decltype(auto) constraint = constraintsFrom<Number>(step.solver, k, i);
-		const Group<Number, PointRecord> record(&records[i], count);
-		const Vec &normal = constraint.normal, &armA = constraint.armA, &armB = constraint.armB;
-		const Vec force = constraint.impulse / Number(h), torqueA = -armA.cross(force), torqueB = armB.cross(force);
-		const Number elasticNormal = record.get(&PointRecord::normalForce);
-		const Vec shearForce = limitedShear<Number>(record.get(&PointRecord::shearForce), Number(pair.friction), force.dot(normal));
-		const Vec dashpotForce = force - elasticNormal * normal - shearForce;
-		record.set(&PointRecord::shearForce, shearForce);
-		record.set(&PointRecord::dashpotForce, dashpotForce);
-		forces.add<Number>(count, force, torqueA, torqueB);
-		const Vec after = relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-		const Number separation = after.dot(normal), ahead = forceAhead<Number>(constraint, elasticNormal, separation, h),
-		             power = -(ahead * separation + shearForce.dot(after)), energy = record.get(&PointRecord::energy),
-		             stored = shearEnergy<Number>(shearForce, Number(pair.shearRatio) * record.get(&PointRecord::stiffness));
-		record.set(&PointRecord::ahead, Number(energy + stored + Number(h / 2) * power));
-		if (!energies) return;
-		const Vec before = relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
-		const Number impulse = constraint.impulse.dot(normal);
-		const Number normalWork = normalDissipation<Number>(impulse, elasticNormal, ahead, before.dot(normal), separation, h),
-		             shearWork = -(Number(h / 2) * (dashpotForce - dashpotForce.dot(normal) * normal).dot(before + after));
-		const Number friction = -(record.get(&PointRecord::slip).dot(record.get(&PointRecord::shearBefore) + shearForce) / Number(2.) + stored
-		        - record.get(&PointRecord::shearEnergyBefore));
-		sums.add<Number>(count, normalWork, shearWork, friction, energy, stored, power);
+		const size_t count = points.count - i;
+		const Group<Number, PointRecord> record(points.points + i, count);
+		const Group<Number, PointStep> step(count, [&](size_t n) { return &points.points[i + n].step; });
+		const Vec armA = step.get(&PointStep::armA), armB = step.get(&PointStep::armB);
+		Vec axes[3];
+		Number p[3];
+		for (int c = 0; c < 3; ++c) {
+			axes[c] = step.get(&PointStep::axes, c);
+			p[c] = step.get(&PointStep::impulse, c);
+		}
+		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
+		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)));
+		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness), n = record.get(&PointRecord::overlap),
+		             limit = Number(pair.friction) * p[0] / Number(h), none = 0.;
+		const Vec shear = limitedShear<Number>(record.get(&PointRecord::shearForce), Number(pair.friction), Number(p[0] / Number(h)));
+		record.set(&PointRecord::shearForce, shear);
+		record.set(&PointRecord::dashpotForce, Vec(force - e * axes[0] - shear));
+
+		const Vec after = bodies.velocity<Number>(armA, armB), mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
+		const Number separation = after.dot(axes[0]), way = Number(-h / 2) * separation; // closing way to the middle of the step
+		const Number room = max(none, Number(Number(pair.overlapLimit) - n)),
+		             normalLaw = energyAfter<Number>(record.get(&PointRecord::energy), e, K, n, room, way, pair.power);
+		const Account<Number> normal(record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
+
+		const Number shearStiffness = Number(pair.shearRatio) * K;
+		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip; // spring in the middle of the step
+		const auto sliding = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
+		const Vec spring = select(sliding, shear, ahead);
+		const Account<Number> tangential(
+		        record.get(&PointRecord::shearStored), p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]), shearEnergy<Number>(spring, shearStiffness));
+		record.set(&PointRecord::normalStored, normal.stored);
+		record.set(&PointRecord::shearStored, tangential.stored);
+		const Number friction = select(sliding, tangential.dissipated, none), dashpot = tangential.dissipated - friction;
+		sums.add<Number>(count, normal.dissipated, dashpot, friction, normal.stored, tangential.stored);
 	});
-	result = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
-	followImpacts(step, k, records, result);
-	return { forces.vector(0), forces.vector(3), forces.vector(6) };
+	energies = { sums[0], sums[1], sums[2], sums[3], sums[4] };
+	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6) };
+	followImpacts(points, bodies, impulse, h);
+	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h };
 }
 
 } // namespace timber

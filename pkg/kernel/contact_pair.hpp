@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// One step of all contact points of a pair, SIMD-vectorised:
 ///     1. elasticPair(): elastic forces for the new contact points (contact loop);
-///     2. prepareContacts(): constraints for the solver, warm start included;
+///     2. prepareContacts(): the points' steps for the solver, warm start included;
 ///     3. storeForces(): forces on the bodies, history and energies from the solver's impulses.
+///
+/// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v + v') / 2 that the bodies do on the
+/// point with the impulse p of spring and dashpot. What exceeds the energy of the law there has been dissipated. Rule (5) of the solver keeps the
+/// accounts from going below zero but for errors of the sweeps, which later work settles. No dissipation is negative.
 #pragma once
 #include "contact_law.hpp"
+#include "contact_solver.hpp"
 
 namespace timber {
 
@@ -19,32 +24,24 @@ struct ElasticInput {
 
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.
 /// points: sorted by id; records: in-out.
-/// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J]
+/// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J] Negative: those points were in debt.
 template <class Law> double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
-/// Arguments that prepareContacts() and storeForces() share.
-struct SolverStep {
-	ContactSolver& solver;
-	const std::vector<SolverBody>& bodies;
-	double h; ///< length of the step [s]
-};
-
-/// Constraints of the k-th pair of the solver.
-void prepareContacts(const SolverStep& step, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+/// Prepares the points of the solver's k-th pair.
+void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points);
 
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {
 	Vec3 onB = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
 };
 
-/// Energies dissipated in a step, and elastic energies at its placement. [J]
+/// Energies dissipated in a step, and those of the springs in the middle between its placement and the next one. [J]
 struct PairEnergies {
 	double dashpotNormal = 0, dashpotShear = 0, friction = 0;
 	double elasticNormal = 0, elasticShear = 0;
-	double elasticPower = 0; ///< rate of change of the elastic energy at the velocities after the step [W]
 };
 
-/// Stores the impulses of the k-th pair in its records. energies: added to, unless null.
-PairForce storeForces(const SolverStep& step, size_t k, const PairProperties& pair, std::vector<PointRecord>& records, PairEnergies* energies);
+/// Stores forces, history and energies of the points of the k-th pair. energies: added to.
+PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, PairEnergies& energies);
 
 } // namespace timber

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "impact.hpp"
 #include "constants.hpp"
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace timber {
-
-void ImpactState::expect(double energy)
-{
-	*this = {};
-	timeLeft = -1;
-	stored = energy;
-}
-
-void ImpactState::cancel()
-{
-	timeLeft = 0;
-	rebound = noRebound;
-}
 
 double restitution(double ratio)
 {
@@ -35,15 +23,13 @@ double PowerSpring::duration(double mass, double speed) const
 	return 2 * integral * largest / speed;
 }
 
-void startImpact(ImpactState& impact, const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h)
+ImpactState startImpact(const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h)
 {
-	assert(spring.force > 0 && spring.stiffness > 0 && spring.overlap > 0 && mass > 0 && response > 0 && h > 0);
-	if (speed <= 0) return impact.cancel();
-	const double q = spring.power();
-	impact.touchSpeed = speed;
-	impact.duration = spring.duration(1 / response, speed);
-	impact.timeLeft = impactDurations * impact.duration + h;
-	if (impact.duration <= impactSteps * h) impact.rebound = speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1)));
+	assert(spring.force > 0 && spring.stiffness > 0 && spring.overlap > 0 && mass > 0 && response > 0 && speed > 0 && h > 0);
+	const double q = spring.power(), duration = spring.duration(1 / response, speed);
+	if (duration > impactSteps * h) return ImpactState::over();
+	return { impactDurations * duration + h, speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1))),
+		impactLoadShare * speed / std::max(duration / h, 1.) };
 }
 
 } // namespace timber

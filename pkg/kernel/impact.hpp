@@ -7,10 +7,9 @@
 /// Its velocity n' = dx/dt' is largest where the force ends:
 ///     restitution e = exp(-2 D acos(D) / sqrt(1 - D^2)),  D > 1: exp(-2 D acosh(D) / sqrt(D^2 - 1))     (2)
 /// at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
-/// For impacts of few steps, down to fractions of one, the solver takes the velocity of separation from (2): contact_solver.hpp. In longer ones,
-/// which the steps resolve, only the energy is followed.
-/// Loads that change the velocity within the duration, or within a longer step, by more than the touch speed take the velocity of separation
-/// away: the contact is then a loaded one, of which only the energy is followed.
+/// An impact of a few steps, or of a fraction of one, is not resolved by them: the solver bounds its velocity of separation by w = e times the touch
+/// speed (contact_solver.hpp (6)), for its duration and as long as the bound acts. The steps resolve longer ones.
+/// A contact that is pressed together by more than the touch speed within the duration, or within a longer step, is a loaded one, without a bound.
 ///
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz: 1.5) [-].
 #pragma once
@@ -18,24 +17,24 @@
 
 namespace timber {
 
-/// Velocity of separation without a limit: the point is not in an impact. [m/s]
+/// Velocity of separation without a bound. [m/s]
 constexpr double noRebound = std::numeric_limits<double>::infinity();
 
 /// State of a point's impact.
 struct ImpactState {
-	double touchSpeed = 0; ///< closing velocity at the touch [m/s]
-	double duration = 0; ///< without dashpots and other forces [s]
-	double timeLeft = 0; ///< in which the impact must end; 0: no impact; < 0: the surfaces have not touched yet [s]
-	double rebound = noRebound; ///< velocity of separation at the end of a short impact [m/s]
-	double stored = 0; ///< energy of the normal spring after the last step [J]
+	double timeLeft = -1; ///< for which the separation is bounded; 0: the impact is over; < 0: the surfaces have not touched yet [s]
+	double rebound = noRebound; ///< w [m/s]
+	double load = 0; ///< velocity by which other contacts and forces may press the surfaces together in a step [m/s]
 
+	static ImpactState over() { return { 0, noRebound, 0 }; }
 	bool isPending() const { return timeLeft < 0; }
 	bool isActive() const { return timeLeft > 0; }
-	bool isPast() const { return timeLeft == 0 && duration > 0; } ///< the contact went on after it
-	/// The next compression will be an impact. energy: which the normal spring has already [J].
-	void expect(double energy);
-	/// No impact any more; the contact goes on.
-	void cancel();
+	/// After a step of h [s]. bounded: whether the bound acted; pressing: velocity by which other contacts and forces pressed the surfaces together [m/s].
+	void pass(double h, bool bounded, double pressing)
+	{
+		if (!bounded) timeLeft -= h;
+		if (timeLeft <= 0 || pressing > load) *this = over();
+	}
 };
 
 /// Restitution e (2). ratio: D >= 0 [-].
@@ -51,8 +50,8 @@ struct PowerSpring {
 	double duration(double mass, double speed) const;
 };
 
-/// Starts the impact of a point whose surfaces have touched in the last step. dampingRatio: C / (2 sqrt(m K)) [-]; mass: m [kg]; response: a
-/// [1/kg]; speed: of closing [m/s]; h: step [s].
-void startImpact(ImpactState& impact, const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h);
+/// Impact of a point whose surfaces have touched in the last step. dampingRatio: C / (2 sqrt(m K)) [-]; mass: m [kg]; response: a
+/// [1/kg]; speed: of closing, > 0 [m/s]; h: step [s].
+ImpactState startImpact(const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h);
 
 } // namespace timber

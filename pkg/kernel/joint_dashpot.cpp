@@ -33,6 +33,14 @@ namespace {
 		return sum / double(springs.count());
 	}
 
+	double spreadOf(const SpringGroup& springs, const Vec3& centre)
+	{
+		double sum = 0;
+		for (size_t i = 0; i < springs.broken.size(); ++i)
+			if (!springs.broken[i]) sum += (springs.anchors[i] - centre).squaredNorm();
+		return sum;
+	}
+
 	/// Part of a body in R.
 	Mat6 twistResponse(const SolverBody& body, const Vec3& arm)
 	{
@@ -101,15 +109,19 @@ namespace {
 
 } // namespace
 
-JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs)
+bool JointModes::haveAnchors(const SpringGroup& springs) const
+{
+	return springs.count() > 0 && centreOf(springs) == centre && spreadOf(springs, centre) == spread;
+}
+
+JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs, const JointState& state)
 {
 	assert(isRotation(axesA) && isUnit(springs.normal) && springs.anchors.size() == springs.broken.size() && springs.count() > 0);
 	assert(springs.stiffness.normal > 0 && springs.stiffness.shear >= 0 && pairInverseMass(a, b) > 0);
 	JointModes result;
-	result.springs = springs.count();
-	result.stiffness = springs.stiffness;
-	result.pairInverseMass = pairInverseMass(a, b);
+	result.state = state;
 	result.centre = centreOf(springs);
+	result.spread = spreadOf(springs, result.centre);
 	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
 	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt(); // rounding may make the eigenvalue of a free rotation negative
@@ -117,9 +129,10 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	return result;
 }
 
-void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h)
+void prepareDashpot(
+        DashpotConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h, double stored)
 {
-	assert(h > 0 && ratio >= 0 && modes.springs > 0 && isRotation(axesA));
+	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
 	c.modes = &modes;
 	c.axesA = axesA;
 	c.armA = axesA * modes.centre;
@@ -131,21 +144,26 @@ void prepareDashpot(DashpotConstraint& c, const SolverBody& a, const SolverBody&
 	c.decay = x;
 	c.share = (x + g) / (1 + x + g);
 	c.shareBefore = (x - g) / (1 + x + g);
+	c.newmark = g;
 	c.impulse.setZero();
+	c.stored = stored;
 	c.dissipated = 0;
 }
 
 void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
-	const Vec6 now = modalNow(c, a, b), sum = c.before + now;
-	const Vec6 change = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before) - c.impulse; // (3)
-	c.squaredChange = change.squaredNorm();
-	if (c.squaredChange <= threshold) {
-		c.dissipated = -c.impulse.dot(sum) / 2;
-		return;
+	const Vec6 now = modalNow(c, a, b), sum = c.before + now - c.impulse; // eta + eta' without q
+	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before); // (3)
+	const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
+	const double account = std::max(0., c.stored);
+	if (linear + square > 2 * account) { // (4)
+		const double root = std::sqrt(linear * linear + 8 * square * account);
+		q *= linear > 0 ? 4 * account / (linear + root) : (root - linear) / (2 * square);
 	}
+	const Vec6 change = q - c.impulse;
+	c.squaredChange = change.squaredNorm();
+	if (c.squaredChange <= threshold) return;
 	c.impulse += change;
-	c.dissipated = -c.impulse.dot(sum + change) / 2;
 	apply(c, a, b, change);
 }
 
@@ -153,7 +171,14 @@ void applyExplicitDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyM
 {
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, a, b, c.impulse);
-	c.dissipated = -c.impulse.dot(c.before + modalNow(c, a, b)) / 2;
+}
+
+void finishDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
+{
+	const Vec6 now = modalNow(c, a, b);
+	const double available = c.stored - c.impulse.dot(c.before + now) / 2, mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
+	c.stored = std::min(available, mass);
+	c.dissipated = available - c.stored;
 }
 
 DashpotImpulse dashpotImpulse(const DashpotConstraint& c) { return impulseOf(c, c.impulse); }

@@ -11,22 +11,26 @@
 /// About the centroid of the springs' ends, forces do not rotate and torques do not move: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and the dissipated energy
-/// h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w). In terms of the modes, P = Z q, eta = Z^T w, these are
-/// six scalars:
+/// h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w), as a mass beta h2 K would. In terms of the modes,
+/// P = Z q, eta = Z^T w, these are six scalars:
 ///     q = -x (eta + eta') - g (eta' - eta),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2      (2)
-/// with beta = 0 for modes that the step resolves, h omega <= stiffPhase.
+/// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass of Newmark's term has the energy sum g eta'^2 / 2, at most the work
+/// that the bodies have done on the joint and that is neither returned nor dissipated (the account N). The rest of that work is dissipated.
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
 ///     q = s (q0 - Z^T u) - r Z^T w,   s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)    (3)
+/// Newmark's term may put back what it has stored and no more, whatever the modes: q is shortened to
+///     q^T (eta + eta') / 2 <= N                                                                 (4)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so that no impulse has to be
 /// kept from step to step.
-/// Z is fixed in the axes of A. It is reused while the springs and masses are the same (modeSteps): (2) holds for any Z, and Z decides with (1)
-/// about the damping ratio and the convergence of (3) only.
+/// Z is fixed in the axes of A. It is reused while springs, masses and moments of inertia are the same and the bodies have turned against each other by
+/// less than modeAngle: (2) holds for any Z, and Z decides with (1) about the damping ratio and the convergence of (3) only.
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
 ///     beta     -             Newmark's parameter of a mode [-]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
 ///     g        -             weight of Newmark's term [-]
+///     N        stored        account of Newmark's term [J]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
 ///     omega    frequency     angular, of a mode [rad/s]
 ///     P        impulse       on B at the joint's centre [N s, N m s]
@@ -59,30 +63,38 @@ struct SpringGroup {
 	size_t count() const { return size_t(std::count(broken.begin(), broken.end(), 0)); }
 };
 
-/// Vibration modes of two bodies with a joint, and the springs and masses for which they hold.
-struct JointModes {
-	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
-	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
-	Vec6 frequencies = Vec6::Zero(); ///< omega
+/// What the vibration modes of a joint depend on.
+struct JointState {
 	size_t springs = 0; ///< number of the unbroken springs; 0: not computed
 	JointStiffness stiffness { 0, 0 }; ///< of each
 	double pairInverseMass = 0; ///< [1/kg]
+	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
+	Quat relative = Quat::Identity(); ///< orientation of B in the axes of A
+
+	/// Whether modes of this state serve for another one.
+	bool fits(const JointState& now) const
+	{
+		return springs == now.springs && stiffness.normal == now.stiffness.normal && stiffness.shear == now.stiffness.shear
+		        && pairInverseMass == now.pairInverseMass && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia
+		        && std::abs(relative.dot(now.relative)) > std::cos(modeAngle / 2);
+	}
+};
+
+/// Vibration modes of two bodies with a joint.
+struct JointModes {
+	JointState state; ///< for which they were computed
+	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
+	double spread = 0; ///< sum of their anchors' squared distances from it [m2]
+	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
+	Vec6 frequencies = Vec6::Zero(); ///< omega
 
 	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
 	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
-	/// Whether these modes are those of springs k (or of more of them), and a step of h [s] resolves them.
-	bool areResolved(double h, const JointStiffness& k) const
-	{
-		return springs > 0 && !isStiff(h) && stiffness.normal == k.normal && stiffness.shear == k.shear;
-	}
-	bool holdFor(const SpringGroup& group, double inverseMass) const
-	{
-		return springs == group.count() && stiffness.normal == group.stiffness.normal && stiffness.shear == group.stiffness.shear
-		        && pairInverseMass == inverseMass;
-	}
+	/// Whether the springs' anchors in A are those for which they were computed.
+	bool haveAnchors(const SpringGroup& springs) const;
 };
 /// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
-JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs);
+JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs, const JointState& state);
 
 /// A joint's dashpots in a step.
 struct DashpotConstraint {
@@ -94,20 +106,26 @@ struct DashpotConstraint {
 	Vec6 decay, share, shareBefore; ///< x, s, r
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
-	double dissipated; ///< -q (eta + eta') / 2 after the last visit, Newmark's term included: of the step, if no velocity changed afterwards [J]
+	Vec6 newmark; ///< g
+	long sweep; ///< of the last visit
+	double stored; ///< N: in-out [J]
+	double dissipated; ///< in the step, after finishDashpot() [J]
 	double thresholdShare; ///< of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Constraint for a step of h [s], with zero impulse. modes are not copied.
-void prepareDashpot(
-        DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h);
+/// Constraint for a step of h [s], with zero impulse. modes are not copied. stored: N before the step [J].
+void prepareDashpot(DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h,
+        double stored);
 
-/// One Gauss-Seidel visit: (3). A squared change of at most `threshold` [J] is not applied.
+/// One Gauss-Seidel visit: (3), (4). A squared change of at most `threshold` [J] is not applied.
 void solveDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
 void applyExplicitDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+
+/// Account and dissipated energy after the step. a, b: after the sweeps.
+void finishDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
 /// Impulse of the dashpots on B at the joint's centre.
 struct DashpotImpulse {

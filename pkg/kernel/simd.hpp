@@ -285,6 +285,16 @@ public:
 		const auto component = [&](int c) { return gathered([&](int i) { return (item[i]->*member)[c]; }); };
 		return { component(0), component(1), component(2) };
 	}
+	/// A component of a member: of an array of vectors, or of a vector of numbers.
+	template <class Class> [[gnu::always_inline]] Vec3s get(Vec3 (Class::*member)[3], int k) const
+	{
+		const auto component = [&](int c) { return gathered([&](int i) { return (item[i]->*member)[k][c]; }); };
+		return { component(0), component(1), component(2) };
+	}
+	template <class Array, class Class> [[gnu::always_inline]] Lanes get(Array Class::*member, int k) const
+	{
+		return gathered([&](int i) { return (item[i]->*member)[k]; });
+	}
 	template <class Value, class Class, class Wide> [[gnu::always_inline]] void set(Value Class::*member, const Wide& x) const
 	{
 		for (int i = laneCount; i-- > 0;)
@@ -310,6 +320,8 @@ public:
 	const Item& vectors() const { return item; }
 	template <class Vector> void set(const Vector& x) const { item = x; }
 	template <class Value, class Class> const Value& get(Value Class::*member) const { return item.*member; }
+	template <class Class> const Vec3& get(Vec3 (Class::*member)[3], int k) const { return (item.*member)[k]; }
+	template <class Array, class Class> double get(Array Class::*member, int k) const { return (item.*member)[k]; }
 	template <class Value, class Class> void set(Value Class::*member, const Value& x) const { item.*member = x; }
 };
 

@@ -61,6 +61,14 @@ struct InverseRootMass {
 		return { Number(L(0, 0)) * t.x() + Number(L(1, 0)) * t.y() + Number(L(2, 0)) * t.z(), Number(L(1, 1)) * t.y() + Number(L(2, 1)) * t.z(),
 			Number(L(2, 2)) * t.z() };
 	}
+	/// Mass-weighted spin: R^-1 times a spin. [kg^1/2 m/s]
+	Vec3 weightedSpin(const Vec3& spin) const
+	{
+		const Mat3& L = angular;
+		const auto over = [](double x, double y) { return y > 0 ? x / y : 0; };
+		const double x = over(spin.x(), L(0, 0)), y = over(spin.y() - L(1, 0) * x, L(1, 1));
+		return { x, y, over(spin.z() - L(2, 0) * x - L(2, 1) * y, L(2, 2)) };
+	}
 	/// Change of spin of the angular part of a change of W. [rad/s]
 	Vec3 spinOf(const double* w) const
 	{

@@ -17,7 +17,7 @@ inline SolverBody body(double mass, const Vec3& velocity)
 	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0, mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
 }
 
-struct HeapPoint : ContactInput<double> {
+struct HeapPoint : StepInput<double> {
 	int bodyA = 0, bodyB = 0; ///< indices of the bodies
 };
 
@@ -34,6 +34,9 @@ inline HeapPoint central(double damping, double elastic = 0)
 	return p;
 }
 
+/// Impulse of a point on B, world frame. [N s]
+inline Vec3 worldImpulse(const PointStep& p) { return p.impulse[0] * p.axes[0] + p.impulse[1] * p.axes[1] + p.impulse[2] * p.axes[2]; }
+
 /// One step of points sorted by pairs, by a solver and islands that may have been used before. Returns the number of
 /// sweeps of the island that took most.
 inline int solveContacts(
@@ -49,21 +52,19 @@ inline int solveContacts(
 	}
 	islands.find(bodies.size(), links);
 	int maxSweeps = 0;
+	std::vector<PointRecord> records(points.size());
 	for (size_t island = 0; island < islands.count(); ++island) {
-		solver.begin(bodies, sweeps);
+		solver.begin(bodies, h, sweeps);
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
-			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));
+			const size_t k = solver.addPair(first->bodyA, first->bodyB, &records[size_t(first - points.begin())], size_t(last - first));
 			for (Place p = first; p != last; ++p)
-				solver.prepare<double>(k, size_t(p - first), bodies, *p, h);
+				solver.prepare<double>(k, size_t(p - first), *p);
 		}
-		maxSweeps = std::max(maxSweeps, solver.solve(bodies, tolerance));
-		for (size_t k = 0; k < islands[island].size(); ++k) {
-			const auto [first, last] = pairs[size_t(islands[island][k])];
-			for (Place p = first; p != last; ++p)
-				p->impulse = solver.constraint(k, size_t(p - first)).impulse;
-		}
+		maxSweeps = std::max(maxSweeps, solver.solve(tolerance).sweeps);
 	}
+	for (size_t k = 0; k < points.size(); ++k)
+		points[k].impulse = worldImpulse(records[k].step);
 	return maxSweeps;
 }
 inline int solveContacts(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)

@@ -70,8 +70,9 @@ TEST(Preconditions, OfTheSolver)
 	EXPECT_REFUSED(solve(central(100, 10), 0));
 	EXPECT_REFUSED(solve(central(100, 10), 1e-4, -1));
 	[[maybe_unused]] ContactSolver solver;
-	EXPECT_REFUSED(solver.begin({}, -1));
-	EXPECT_REFUSED(solver.addPair(1, 1, 4));
+	std::vector<SolverBody> no;
+	EXPECT_REFUSED(solver.begin(no, 1e-4, -1));
+	EXPECT_REFUSED(solver.addPair(1, 1, nullptr, 4));
 }
 
 TEST(Preconditions, OfJointsAndStability)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Record of a contact point from touch to separation. Its geometry is the ContactPoint of the manifold with the same index; its history is
+/// saved with the scene; its step is prepared for the solver, read and changed by the sweeps, and not saved.
+#pragma once
+#include "impact.hpp"
+#include "manifold.hpp"
+#include "solver_body.hpp"
+
+namespace timber {
+
+/// State of a point's springs. Forces act on B.
+template <class Number> struct PointSprings {
+	Number excess = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
+	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
+	Number stiffness = 0.; ///< K_n [N/m]
+	Number normalForce = 0.; ///< elastic normal force e_n [N]
+	Number energy = 0.; ///< U(n) of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
+	Vec3Of<Number> shearForce = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
+};
+
+/// History of a contact point.
+struct PointHistory : PointSprings<double> {
+	FeatureId id;
+	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
+	double normalStored = 0, shearStored = 0; ///< A: work of the bodies on the springs that these have neither returned nor dissipated [J]
+	ImpactState impact;
+};
+
+/// A contact point in a step of the solver. Symbols: contact_solver.hpp.
+struct PointStep {
+	using Quad = PairVector::Quad; ///< normal, tangent, second tangent, 0
+	PairVector rows[3]; ///< of J R
+	Quad before, velocity; ///< v, u0 [m/s]
+	Quad impulse; ///< p: warm start; after the sweeps the contact impulse on B in these axes [N s]
+	Quad factor, bias, mass; ///< f, b, M
+	Quad column; ///< a_n, a_nt, a_nu: velocity change by a unit normal impulse [1/kg]
+	Quad shearResponse; ///< a_tt, a_tu, a_uu: by tangential impulses [1/kg]
+	double friction; ///< mu
+	double rebound, energy, shearEnergy; ///< w, A_n, A_s
+	double hardening, power, overlap, room, damping; ///< c n_0^q, q, n_0, overlap left to the limit, C_n
+	double length; ///< h
+	bool bounded; ///< whether (6) limited the impulse in the last visit
+	Vec3 axes[3]; ///< unit: normal from A to B, tangent, second tangent
+	Vec3 armA, armB; ///< from the centres of mass to the point [m]
+
+	double response() const { return column[0]; } ///< a_n
+};
+
+struct PointRecord : PointHistory {
+	PointStep step;
+};
+
+} // namespace timber
