@@ -68,10 +68,6 @@ def pairs(options, skip):
     return run
 
 
-def energies(options, skip):
-    return shaken(options, track_energy=not skip)
-
-
 def joints(options, skip):
     """All joints broken, with or without the engine that visits them."""
     run = shaken(options)
@@ -95,7 +91,6 @@ CASES = {  # (skipped work, scene) -> build
     ("steps while the house rests and the ground is quiet (RestSkipper)", f"at rest under snow, {RESTING:g} s"): rest,
     ("the collider, until a body may have left its bounding box, and YADE's dispatch", "strong shaking, snow"): collider,
     ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
-    ("energies that are not recorded", "strong shaking, snow"): energies,
     ("the joint engine when all joints are broken", "strong shaking, snow, no joints"): joints,
     ("fixed bodies: no integration, no pairs", "200 blocks side by side"): fixed,
 }

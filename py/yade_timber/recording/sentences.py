@@ -4,6 +4,8 @@ from . import verdict
 
 DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
 """Limits of storey drifts and their meaning. [-]"""
+CONVERGED = 1e-6
+"""Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
 
@@ -28,8 +30,21 @@ def sentence(found):
     onset = missed_onset(found)
     early = "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
     parts = (outcome(found), other_walls(found), weight(found), residual(found), structures(found), joints(found), columns(found), snow(found), record(found),
-             early)
-    return f"{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
+             early, unconverged(found))
+    return f"{cut_off(found)}{ensemble(found)}House {found['model']} {'; '.join(filter(None, parts))}"
+
+
+def cut_off(found):
+    """'Cut off at 5.93 s, results until then: ' of a run whose numbers failed, else empty."""
+    return f"Cut off at {found['duration_s']:.2f} s, not to be relied on: " if found.get("cut_off") else ""
+
+
+def unconverged(found):
+    """Steps that did not converge, if what they lack could be more than CONVERGED of the energy put in; else empty."""
+    known, supplied = found.get("solver"), found.get("energy", {}).get("input", 0.0)
+    if not known or known["unconverged_steps"] * known["worst_change_j"] <= CONVERGED * supplied:
+        return ""
+    return f"{known['unconverged_steps']} steps did not converge (largest change {known['worst_change_j']:.2g} J)"
 
 
 def missed_onset(found):

@@ -34,6 +34,10 @@ class Interrupted(Exception):
         self.number, self.time = number, time
 
 
+class PhysicsError(RunError):
+    """The numbers of the scene are not those of a physical motion any more."""
+
+
 class Run:
     """A scenario in YADE, its outputs (cli.Output), and its progress. The number of steps is duration / dt; a collapse may end the run earlier."""
 
@@ -116,12 +120,19 @@ class Run:
     # --- steps --------------------------------------------------------------------------------------------------------
 
     def complete(self):
-        """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
-        if not self.only_export:
-            with self._stop_signals(), Progress(self.scenario, self.observer.log, self.output.quiet) as progress:
-                while O.iter < self.steps:
-                    self._chunk()
-                    progress.update()
+        """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal.
+
+        What was computed before the physics failed is written, too, as a run that was cut off.
+        """
+        try:
+            if not self.only_export:
+                with self._stop_signals(), Progress(self.scenario, self.observer.log, self.output.quiet) as progress:
+                    while O.iter < self.steps:
+                        self._chunk()
+                        progress.update()
+        except PhysicsError as problem:
+            self.write(cut_off=str(problem))
+            raise
         self.write()
 
     @contextmanager
@@ -153,7 +164,9 @@ class Run:
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
 
     def after_chunk(self):
-        """End the run after a collapse, record a frame, save a checkpoint when it is due. Raises Interrupted after a signal."""
+        """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises PhysicsError, and Interrupted
+        after a signal."""
+        self.check()
         if self.collapse_ends_it():
             self.steps = O.iter
         if O.iter == self.steps:
@@ -169,6 +182,13 @@ class Run:
         """Whether the run ends now because its house has collapsed."""
         return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
 
+    def check(self):
+        """Raises PhysicsError for bodies that have left the physical range."""
+        try:
+            find_engine(yw.HealthCheck).check()
+        except RuntimeError as problem:
+            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
+
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
         self.observer.observe(time)
@@ -182,7 +202,7 @@ class Run:
             while O.iter < step:
                 O.step()
         except RuntimeError as problem:
-            raise RunError(f"{problem}; the run stops at {O.time:.4f} s without results") from None
+            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
         self.wall_s += time.perf_counter() - since
 
     def _checkpoint_due(self):
@@ -205,20 +225,27 @@ class Run:
 
     # --- results ------------------------------------------------------------------------------------------------------
 
-    def write(self):
-        """Write results and pictures of the scene as it is now, and print their names."""
+    def write(self, cut_off=None):
+        """Write results and pictures of the scene as it is now, and print their names. Raises PhysicsError, after writing, for energy from nothing.
+
+        cut_off: reason why the run ends before its duration. The last frame is then that of the last chunk.
+        """
         if self.only_export:
             self.report(f"written: {self.output.export}")
             return
-        self.take(O.time, last=True)
+        if cut_off is None:
+            self.take(O.time, last=True)
         tables = quantities.tables(self.observer)
         origin = made_from(self.output.options, self.scenario.house)
-        found = self.summary = {**summary.summary(self.scenario, self.observer, tables, self.wall_s, self.output.other_walls), "made_from": origin}
+        numbers = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.output.other_walls, cut_off)
+        found = self.summary = {**numbers, "made_from": origin}
         written = self._results(found, tables)
         written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
+        if cut_off is None and found["cut_off"]:
+            raise PhysicsError(found["cut_off"])
 
     def _results(self, found, tables):
         written = []

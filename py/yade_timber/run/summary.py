@@ -7,6 +7,7 @@ import yade.wrapper as yw
 
 from .. import _plugin
 from ..base.atomic_write import write_text
+from ..base.errors import RunError
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..motion import constant_note, interpolation_error, onset
@@ -22,6 +23,8 @@ from .versions import versions
 
 DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield")
 """Terms of the energy balance that are dissipated."""
+CREATED, NEGLIGIBLE = 1e-4, 1e-3
+"""Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
 SUMMARY, BREAKS = "summary.json", "breaks.csv"
 NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
 """Files that `write` makes."""
@@ -29,16 +32,17 @@ NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, tables, wall_s, other_walls=None):
+def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
     """Content of summary.json for the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run;
-    wall_s: wall time of its steps so far [s]; other_walls: verdict with the walls of the other level.
+    wall_s: wall time of its steps so far [s]; other_walls: verdict with the walls of the other level; cut_off: reason why the run ends before its duration.
+    Raises RunError for energies that are not finite.
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; events: recording/events.py; broken, columns: recording/damage.py.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
     history = History(monitor.columns(), monitor.rows)
-    tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
+    tilt, collapse = _time(monitor.tiltTime), _time(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     found = {
@@ -56,6 +60,7 @@ def summary(scenario, observed, tables, wall_s, other_walls=None):
         "dt": scenario.dt,
         "duration_s": simulated,
         "until_collapse": scenario.until_collapse,
+        "cut_off": None,
         "steps": O.iter,
         "wall_s": round(wall_s, 3),
         "skipped_s": round(skipper.skipped if skipper else 0.0, 3),
@@ -78,8 +83,10 @@ def summary(scenario, observed, tables, wall_s, other_walls=None):
         "still_moving": drift.still_moving(amplitude),
         "events": observed.log.records(),
         "energy": energy_balance(queries.energy()),
+        "solver": solver(),
         "versions": versions(),
     }
+    found["cut_off"] = cut_off or created_too_much(found["energy"])
     found["diagnosis"]["disagreement"] = comparison(found["diagnosis"], found["collapsed"])
     found["structures"] = structures(found, observed, state)
     found["quantities"] = quantities.summarised(tables, observed)
@@ -131,24 +138,50 @@ def energy_balance(terms):
     """The part `energy` [J] from the terms of `queries.energy`.
 
     input: work of the ground motion and potential energy released by gravity since the start. residual: stored, kinetic and dissipated energy minus
-    the input; residual_fraction: its absolute value over the input, None without input.
+    the input; residual_fraction: its absolute value over the input, None without input. created: negative dissipation of single contact points and
+    joints, as a positive number; contained in `dissipated`. Raises RunError for numbers that are not finite.
     """
-    ground = terms.get("ground_motion", 0.0)
-    supplied, residual = ground - terms["gravity"], queries.energy_residual(terms)
+    terms = {"ground_motion": 0.0, **dict.fromkeys(DISSIPATED, 0.0), **terms}
+    supplied, residual = terms["ground_motion"] - terms["gravity"], queries.energy_residual(terms)
+    balance = {
+        "input": supplied,
+        "kinetic": terms["kinetic"],
+        "elastic": sum(value for name, value in terms.items() if name.startswith("elastic_")),
+        "dissipated": {name: terms[name] for name in DISSIPATED},
+        "created": find_engine(yw.ContactForces).created,
+        "residual": residual,
+        "residual_fraction": abs(residual) / supplied if supplied > 0 else None,
+        "ground_motion": terms["ground_motion"],
+        "gravity_released": -terms["gravity"],
+    }
+    if not all(math.isfinite(value) for value in (supplied, residual, balance["created"], *balance["dissipated"].values())):
+        raise RunError(f"the energies at {O.time:.4f} s are not finite: {balance}; try a smaller --dt")
+    return balance
+
+
+def solver():
+    """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had converged, and the largest change of a pair
+    in the last sweep of one, as twice its kinetic energy [J]."""
+    forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
+    computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
     return {
-        "input": _finite(supplied),
-        "kinetic": _finite(terms["kinetic"]),
-        "elastic": _finite(sum(value for name, value in terms.items() if name.startswith("elastic_"))),
-        "dissipated": {name: _finite(terms.get(name, 0.0)) for name in DISSIPATED},
-        "residual": _finite(residual),
-        "residual_fraction": _finite(abs(residual) / supplied) if supplied > 0 else None,
-        "ground_motion": _finite(ground),
-        "gravity_released": _finite(-terms["gravity"]),
+        "sweeps_mean": round(forces.sweepsDone / max(1, computed), 3),
+        "sweeps_max": forces.sweepsMax,
+        "unconverged_steps": forces.unconverged,
+        "worst_change_j": forces.worstChange,
     }
 
 
-def _finite(value):
-    """A number for JSON: None instead of NaN and infinities."""
+def created_too_much(energy):
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy: part of a summary"""
+    if energy["created"] <= CREATED * max(energy["input"], 0.0) or energy["created"] < NEGLIGIBLE:
+        return None
+    share = energy["created"] / energy["input"] if energy["input"] > 0 else math.inf
+    return f"contacts and joints have created {energy['created']:.3g} J, {share:.1g} of the energy put in (admissible: {CREATED:g}); try a smaller --dt"
+
+
+def _time(value):
+    """A time for JSON: None for one that has not come (NaN, infinite)."""
     return value if math.isfinite(value) else None
 
 

@@ -26,10 +26,9 @@ class ContactOptions:
     damping_ratio: float
     sweeps: int
     tolerance: float
-    track_energy: bool
 
     def __post_init__(self):
-        for name in ("vertex_edge", "flush_supports", "increment", "track_energy"):
+        for name in ("vertex_edge", "flush_supports", "increment"):
             arguments.flag(f"engines: {name}", getattr(self, name))
         arguments.number("engines: damping_ratio", self.damping_ratio)
         arguments.count("engines: sweeps", self.sweeps)
@@ -45,7 +44,7 @@ class ContactOptions:
 
     def forces(self):
         """ContactForces with these options."""
-        return yw.ContactForces(sweeps=self.sweeps, tolerance=self.tolerance, trackEnergy=self.track_energy)
+        return yw.ContactForces(sweeps=self.sweeps, tolerance=self.tolerance)
 
 
 def engines(
@@ -59,7 +58,6 @@ def engines(
     damping_ratio=_RATIO,
     sweeps=_FORCES.sweeps,
     tolerance=_FORCES.tolerance,
-    track_energy=True,
     health_check=100,
     skip_rest=0,
 ):
@@ -82,13 +80,11 @@ def engines(
     increment : bool
         Normal force from increments (Eq. 38) instead of the closed form (Eq. 37).
     damping_ratio : float
-        Share of critical damping [-]; below 1, contacts that last fewer than some ten steps may gain energy (docs/theory.md, section 5).
+        Share of critical damping [-]; below 1, impacts shorter than some ten steps lose more energy than the dashpots take (docs/theory.md, section 5).
     sweeps : int
         Most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper.
     tolerance : float
         Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at rest. [-]
-    track_energy : bool
-        Whether `energy` is available.
     health_check : int
         Steps between checks for finite numbers; 0: no check of scene and engines at all.
     skip_rest : int
@@ -98,7 +94,7 @@ def engines(
     -------
     list of Engine
     """
-    contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance, track_energy)
+    contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance)
     chain = [yw.HealthCheck(every=health_check)] if arguments.count("engines: health_check", health_check) else []
     # verletDist = 0: the margin of the boxes and CollisionTrigger replace it, without NewtonIntegrator
     collider = yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0)

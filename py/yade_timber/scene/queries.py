@@ -58,7 +58,8 @@ def energy():
     Returns
     -------
     dict
-        Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts``, ``elastic_joints``;
+        Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the placement of bodies in
+        contact), ``elastic_joints``;
         ``ground_motion`` (work done by it); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``, ``broken_springs``,
         ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
         The sum of all terms but ``ground_motion``, minus ``ground_motion``, is constant.

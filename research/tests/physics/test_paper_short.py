@@ -24,7 +24,7 @@ PINNED = ("plumb.drift=1e-3", "structures.main.stack[1].width=0.105", "structure
 
 def monitored(house, snow=0.0, motion=None, duration=1.0, until=lambda monitor: False):
     """HouseMonitor after `duration` [s], or when `until` becomes true."""
-    scenario.build(scenario.Scenario("short", house, motion, snow_depth=snow, options={"track_energy": False}))
+    scenario.build(scenario.Scenario("short", house, motion, snow_depth=snow))
     monitor = engines.find_engine(yw.HouseMonitor)
     while O.time < duration and not until(monitor):
         O.run(250, True)

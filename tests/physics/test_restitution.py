@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies that fall on a plate at the default step: points, edges, faces and the foot of a column, in every phase of the step.
+
+The restitution of one point with Hertz's spring and a critical dashpot is 0.1196 (docs/theory.md). Points of a face share the impulse with a softness of
+0.02: up to 0.02 more. Several dashpots of a face dissipate more, so that faces may leave slower.
+"""
+import numpy as np
+import pytest
+import yade_timber as yt
+from cases import turned
+
+STEP = 5e-4
+"""Default step of scripts. [s]"""
+POINT, SOFTNESS = 0.1196, 0.02
+QUARTER = np.pi / 4
+CORNER = float(np.arctan(np.sqrt(2)))
+"""Angle by which a cube is turned about a diagonal of its face to stand on a corner. [rad]"""
+SHAPES = {
+    "cube on its face": ((0.2, 0.2, 0.2), None),
+    "cube on an edge": ((0.2, 0.2, 0.2), turned((1, 0, 0), QUARTER)),
+    "cube on a corner": ((0.2, 0.2, 0.2), turned((1, -1, 0), CORNER)),
+    "column on its foot": ((0.105, 0.105, 2.73), None),
+    "beam on its side": ((3.64, 0.105, 0.12), None),
+    "brace on its side": ((1.8, 0.045, 0.09), None),
+}
+SPEEDS = (0.1, 0.3, 1.0, 3.0, 10.0)
+"""[m/s]"""
+PHASES = np.arange(8) / 8 + 0.01
+"""Part of a step by which the gap exceeds three steps' way. [-]"""
+
+
+def bounce(extents, orientation, speed, phase):
+    """(restitution, energy after over energy before, least dissipation of a step over it, unconverged steps) of a fall without gravity."""
+    O.reset()
+    O.bodies.append(yt.box((6, 6, 0.4), (0, 0, -0.2), fixed=True))
+    body = yt.box(extents, (0, 0, 0), orientation)
+    lowest = min((body.state.ori * vertex)[2] for vertex in body.shape.core) - body.shape.radius
+    body.state.pos = (0, 0, -lowest + speed * STEP * (3 + phase))
+    O.bodies.append(body)
+    O.dt, O.engines = STEP, yt.engines(gravity=(0, 0, 0))
+    yt.set_velocity(body, (0, 0, -speed))
+    forces = next(engine for engine in O.engines if isinstance(engine, yt.ContactForces))
+    before, terms, least = body.state.mass * speed**2 / 2, np.zeros(3), 0.0
+    for _ in range(400):
+        O.step()
+        now = np.array([forces.dashpotNormal, forces.dashpotShear, forces.friction])
+        least, terms = min(least, (now - terms).min()), now
+        if O.iter > 6 and body.state.vel[2] > 0 and not yt.contacts(0, 1):
+            break
+    return body.state.vel[2] / speed, yt.energy()["kinetic"] / before, least / before, forces.unconverged
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_never_faster_than_one_point(shape):
+    results = np.array([bounce(*SHAPES[shape], speed, phase) for speed in SPEEDS for phase in PHASES])
+    restitution, energy, least, unconverged = results.T
+    print(f"\n{shape}: restitution {restitution.min():.3f} to {restitution.max():.3f}, sweeps without convergence {unconverged.sum():.0f}")
+    assert restitution.max() <= POINT + SOFTNESS
+    assert restitution.min() >= -1e-3  # it leaves, or stays
+    assert energy.max() <= (POINT + SOFTNESS) ** 2 * 1.01  # rotations included; of rounding of the shapes
+    assert least.min() >= -1e-9
+    assert unconverged.sum() == 0
+
+
+def test_one_point_is_within_the_known_range():
+    """Observed: 0.063 to 0.1196. The steps do not resolve the impact; the bound alone is exact."""
+    restitution = [bounce(*SHAPES["cube on a corner"], speed, phase)[0] for speed in SPEEDS for phase in PHASES]
+    assert POINT - 0.06 <= min(restitution) and max(restitution) <= POINT + 1e-3
