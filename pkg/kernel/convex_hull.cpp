@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "convex_hull.hpp"
 #include "constants.hpp"
+#include "triangle_hull.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -164,13 +166,31 @@ namespace {
 			        through((face.sidePlanes[k].normal + face.sidePlanes[(k + count - 1) % count].normal).normalized(), points[face.corners[k]]));
 	}
 
-	/// Face from its unordered corners: Newell normal, corners counter-clockwise seen from outside.
-	Face orderedFace(const std::vector<Vec3>& points, std::vector<int> corners, const Vec3& inside)
+	Vec3 meanOf(const std::vector<Vec3>& points, const Corners& corners)
 	{
 		Vec3 centre = Vec3::Zero();
 		for (int k : corners)
 			centre += points[k];
-		centre /= double(corners.size());
+		return centre / double(corners.size());
+	}
+
+	/// Face from its corners, counter-clockwise seen from outside, and their mean: Newell normal.
+	Face faceOf(const std::vector<Vec3>& points, Corners corners, const Vec3& centre)
+	{
+		Vec3 newell = Vec3::Zero();
+		for (size_t k = 0; k < corners.size(); ++k)
+			newell += (points[corners[k]] - centre).cross(points[corners[(k + 1) % corners.size()]] - centre);
+		Face face;
+		face.plane.normal = newell.normalized();
+		face.plane.offset = face.plane.normal.dot(centre);
+		face.corners = std::move(corners);
+		return face;
+	}
+
+	/// Face from its unordered corners.
+	Face orderedFace(const std::vector<Vec3>& points, std::vector<int> corners, const Vec3& inside)
+	{
+		const Vec3 centre = meanOf(points, corners);
 		const Vec3 u = (points[corners[0]] - centre).normalized();
 		Vec3 direction = Vec3::Zero();
 		for (size_t k = 1; k < corners.size(); ++k) {
@@ -183,15 +203,7 @@ namespace {
 			const Vec3 a = points[k] - centre, b = points[l] - centre;
 			return std::atan2(a.dot(v), a.dot(u)) < std::atan2(b.dot(v), b.dot(u));
 		});
-		Vec3 newell = Vec3::Zero();
-		for (size_t k = 0; k < corners.size(); ++k)
-			newell += (points[corners[k]] - centre).cross(points[corners[(k + 1) % corners.size()]] - centre);
-		Face face;
-		face.plane.normal = newell.normalized();
-		face.plane.offset = face.plane.normal.dot(centre);
-		face.corners = std::move(corners);
-		setSidePlanes(face, points);
-		return face;
+		return faceOf(points, std::move(corners), centre);
 	}
 
 	Edge edgeBetween(const std::vector<Vec3>& points, const std::vector<Face>& faces, int tail, int head, int left, int right)
@@ -217,6 +229,14 @@ namespace {
 		return edges;
 	}
 
+	const char* const coplanar = "the vertices lie in one plane: a polyhedron needs a volume";
+
+	PolyhedronError noCorner(const std::vector<Vec3>& points, size_t k)
+	{
+		return PolyhedronError("vertex " + std::to_string(k) + " " + toText(points[k])
+		        + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
+	}
+
 	void checkCorners(const std::vector<Vec3>& points, const std::vector<Corners>& faces)
 	{
 		std::vector<int> degree(points.size(), 0);
@@ -224,9 +244,86 @@ namespace {
 			for (int k : corners)
 				++degree[k];
 		for (size_t k = 0; k < points.size(); ++k)
-			if (degree[k] < 3)
-				throw PolyhedronError("vertex " + std::to_string(k) + " " + toText(points[k])
-				        + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
+			if (degree[k] < 3) throw noCorner(points, k);
+	}
+
+	/// Largest distance of a point from the planes of triangles, > 0 outside; those without a plane are left out. [m]
+	double heightAbove(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, const Vec3& x)
+	{
+		double height = -std::numeric_limits<double>::infinity();
+		for (const Triangle& t : triangles) {
+			const Vec3 &a = points[t[0]], ab = points[t[1]] - a, ac = points[t[2]] - a, normal = ab.cross(ac);
+			const bool isLine = normal.norm() <= 1e-9 * std::max(ab.squaredNorm(), ac.squaredNorm());
+			if (!isLine) height = std::max(height, normal.normalized().dot(x - a));
+		}
+		return height;
+	}
+
+	/// Refuses points that are within the tolerance of the hull of the others.
+	void checkHeights(const std::vector<Vec3>& points, double tolerance)
+	{
+		for (size_t k = 0; k < points.size(); ++k) {
+			std::vector<Vec3> others = points;
+			others.erase(others.begin() + long(k));
+			if (others.size() < 4) continue;
+			const std::vector<Triangle> hull = hullTriangles(others);
+			if (!hull.empty() && heightAbove(others, hull, points[k]) <= tolerance) throw noCorner(points, k);
+		}
+	}
+
+	bool isPlanar(const std::vector<Vec3>& points, const Face& face, double tolerance)
+	{
+		return std::all_of(face.corners.begin(), face.corners.end(),
+		        [&](int k) { return std::abs(face.plane.normal.dot(points[k]) - face.plane.offset) <= tolerance; });
+	}
+
+	/// A face and its triangles.
+	struct Patch {
+		std::vector<Triangle> triangles;
+		Face face;
+	};
+
+	/// Joins two patches that are neighbours in one plane within the tolerance.
+	bool join(const std::vector<Vec3>& points, Patch& patch, const Patch& other, double tolerance)
+	{
+		const auto liesIn = [&](const Face& f, const HalfSpace& plane) { return isPlanar(points, { plane, f.corners, {}, {} }, 4 * tolerance); };
+		if (!liesIn(other.face, patch.face.plane) && !liesIn(patch.face, other.face.plane)) return false;
+		std::vector<Triangle> triangles = patch.triangles;
+		triangles.insert(triangles.end(), other.triangles.begin(), other.triangles.end());
+		const Corners outline = outlineOf(triangles);
+		if (outline.empty()) return false;
+		Face face = faceOf(points, outline, meanOf(points, outline));
+		if (!isPlanar(points, face, tolerance)) return false;
+		patch = { std::move(triangles), std::move(face) };
+		return true;
+	}
+
+	/// Faces of triangles, with neighbours in one plane joined.
+	std::vector<Face> joinedFaces(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
+	{
+		std::vector<Patch> patches;
+		for (const Triangle& t : triangles)
+			patches.push_back({ { t }, faceOf(points, { t.begin(), t.end() }, meanOf(points, { t.begin(), t.end() })) });
+		for (size_t k = 0; k < patches.size(); ++k)
+			for (size_t l = k + 1; l < patches.size();)
+				if (join(points, patches[k], patches[l], tolerance)) {
+					patches.erase(patches.begin() + long(l));
+					l = k + 1;
+				} else ++l;
+		std::vector<Face> faces;
+		for (Patch& patch : patches)
+			faces.push_back(std::move(patch.face));
+		return faces;
+	}
+
+	/// Number of faces at the corner with the fewest.
+	int leastDegree(size_t count, const std::vector<Face>& faces)
+	{
+		std::vector<int> degree(count, 0);
+		for (const Face& face : faces)
+			for (int k : face.corners)
+				++degree[k];
+		return *std::min_element(degree.begin(), degree.end());
 	}
 
 } // namespace
@@ -255,27 +352,52 @@ Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance)
 	Vec3 inside = Vec3::Zero();
 	for (const Vec3& p : points)
 		inside += p / double(points.size());
-	Polyhedron body;
-	body.vertices = points;
 	const std::vector<Corners> sets = supportingSets(points, tolerance);
-	if (sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Corners& s) { return s.size() == points.size(); }))
-		throw PolyhedronError("the vertices lie in one plane: a polyhedron needs a volume");
+	if (sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Corners& s) { return s.size() == points.size(); })) throw PolyhedronError(coplanar);
+	std::vector<Face> faces;
 	for (const Corners& corners : sets)
-		body.faces.push_back(orderedFace(points, corners, inside));
+		faces.push_back(orderedFace(points, corners, inside));
 	checkCorners(points, sets);
+	return closedBody(points, std::move(faces));
+}
+
+Polyhedron closedBody(std::vector<Vec3> vertices, std::vector<Face> faces)
+{
+	Polyhedron body { std::move(vertices), std::move(faces), {} };
+	for (Face& face : body.faces)
+		setSidePlanes(face, body.vertices);
 	body.edges = edgesOf(body.vertices, body.faces);
 	if (body.vertices.size() + body.faces.size() != body.edges.size() + 2)
 		throw OpenSurface("faces, edges and vertices do not form one closed surface (Euler's formula)");
 	return body;
 }
 
-Polyhedron closedConvexHull(const std::vector<Vec3>& points)
+/// Faces are as planar as leaves each point the corner of three.
+Polyhedron triangulatedHull(const std::vector<Vec3>& points)
+{
+	const double tolerance = planarShare * sizeOf(points);
+	const std::vector<Triangle> triangles = hullTriangles(points);
+	if (triangles.empty()) throw PolyhedronError(coplanar);
+	checkHeights(points, tolerance);
+	for (double share = 1; share > 1e-4; share /= 10)
+		if (std::vector<Face> faces = joinedFaces(points, triangles, share * tolerance); leastDegree(points.size(), faces) > 2)
+			return closedBody(points, std::move(faces));
+	return closedBody(points, joinedFaces(points, triangles, 0));
+}
+
+void checkPoints(const std::vector<Vec3>& points)
 {
 	for (size_t k = 0; k < points.size(); ++k)
 		if (!points[k].allFinite()) throw PolyhedronError("vertex " + std::to_string(k) + " is not finite: " + toText(points[k]));
 	const double size = sizeOf(points);
 	checkSize(size);
 	checkDistinct(points, planarShare * size);
+}
+
+Polyhedron closedConvexHull(const std::vector<Vec3>& points)
+{
+	checkPoints(points);
+	const double size = sizeOf(points);
 	for (double share = planarShare; share < warpShare; share *= 10)
 		try {
 			return convexHull(points, share * size);

@@ -2,6 +2,8 @@
 #include "polyhedron.hpp"
 #include "constants.hpp"
 #include "convex_hull.hpp"
+#include "inner_core.hpp"
+#include "triangle_hull.hpp"
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace timber {
 namespace {
@@ -56,12 +59,27 @@ namespace {
 		return body;
 	}
 
-	Polyhedron coreOf(const Polyhedron& sharp, double radius)
+	/// The planes of the faces, moved inwards.
+	std::vector<HalfSpace> innerPlanes(const Polyhedron& sharp, double radius)
 	{
 		std::vector<HalfSpace> planes;
 		for (const Face& face : sharp.faces)
 			planes.push_back({ face.plane.normal, face.plane.offset - radius });
-		return Polyhedron::fromHalfSpaces(planes);
+		return planes;
+	}
+
+	/// Core whose faces no tolerance tells from corners.
+	Polyhedron closedCore(const Polyhedron& sharp, double radius)
+	{
+		const double size = sizeOf(sharp.vertices), tolerance = planarShare * size;
+		const Sphere largest = inscribedSphere(innerPlanes(sharp, 0), sharp.vertices.front(), size);
+		if (radius >= largest.radius - tolerance) {
+			std::ostringstream what;
+			what << "rounding radius " << radius << " m leaves no core: it must be below the radius of the inscribed sphere, " << largest.radius
+			     << " m";
+			throw PolyhedronError(what.str());
+		}
+		return intersectionAround(largest.centre, innerPlanes(sharp, radius), 4 * tolerance);
 	}
 
 } // namespace
@@ -72,7 +90,12 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 	if (points.size() > maxVertices)
 		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got " + std::to_string(points.size())
 		        + ": the time of a contact grows with the third power of their number");
-	return closedConvexHull(points);
+	checkPoints(points);
+	try {
+		return closedConvexHull(points);
+	} catch (const PolyhedronError&) {
+		return triangulatedHull(points);
+	}
 }
 
 Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
@@ -108,6 +131,24 @@ double Polyhedron::thickness() const
 	return least;
 }
 
+namespace {
+
+	/// Triangles of the surface; of the convex hull where corners are outside the planes of their faces.
+	std::vector<Triangle> surfaceOf(const Polyhedron& body)
+	{
+		const double rounding = roundingShare * sizeOf(body.vertices);
+		std::vector<Triangle> triangles;
+		for (const Face& face : body.faces) {
+			for (const int k : face.corners)
+				if (std::abs(face.plane.normal.dot(body.vertices[k]) - face.plane.offset) > rounding) return hullTriangles(body.vertices);
+			for (size_t k = 1; k + 1 < face.corners.size(); ++k)
+				triangles.push_back({ face.corners[0], face.corners[k], face.corners[k + 1] });
+		}
+		return triangles;
+	}
+
+} // namespace
+
 /// Sum over tetrahedra (reference point, face triangle); second moments as in Tonon (2004), J. Math. Stat. 1, 8-11.
 MassProperties massProperties(const Polyhedron& body)
 {
@@ -116,16 +157,14 @@ MassProperties massProperties(const Polyhedron& body)
 	double volume = 0;
 	Vec3 first = Vec3::Zero();
 	Mat3 second = Mat3::Zero();
-	for (const Face& face : body.faces)
-		for (size_t k = 1; k + 1 < face.corners.size(); ++k) {
-			const Vec3 a = body.vertices[face.corners[0]] - origin, b = body.vertices[face.corners[k]] - origin,
-			           c = body.vertices[face.corners[k + 1]] - origin;
-			const double part = a.dot(b.cross(c)) / 6;
-			const Vec3 sum = a + b + c;
-			volume += part;
-			first += part / 4 * sum;
-			second += part / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-		}
+	for (const Triangle& t : surfaceOf(body)) {
+		const Vec3 a = body.vertices[t[0]] - origin, b = body.vertices[t[1]] - origin, c = body.vertices[t[2]] - origin;
+		const double part = a.dot(b.cross(c)) / 6;
+		const Vec3 sum = a + b + c;
+		volume += part;
+		first += part / 4 * sum;
+		second += part / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+	}
 	const Vec3 centre = first / volume;
 	const Mat3 central = second - volume * centre * centre.transpose();
 	return { volume, origin + centre, central.trace() * Mat3::Identity() - central };
@@ -163,22 +202,21 @@ RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 	RoundedPolyhedron body;
 	body.serial = ++count;
 	body.radius = radius > 0 ? radius : radiusShare * sharp.shortestEdge();
-	std::string reason;
 	bool isDistinct = false; // corners of the core
 	for (double share = planarShare; !isDistinct && share < 2 * warpShare; share *= 10)
 		try {
 			Polyhedron planar = share > planarShare ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices)) : sharp,
-			           core = coreOf(planar, body.radius);
+			           core = Polyhedron::fromHalfSpaces(innerPlanes(planar, body.radius));
 			isDistinct = core.shortestEdge() > 2 * flushTolerance;
 			if (!isDistinct && !body.core.vertices.empty()) continue;
 			body.sharp = std::move(planar);
 			body.core = std::move(core);
-		} catch (const PolyhedronError& error) {
-			if (reason.empty()) reason = error.what();
+		} catch (const PolyhedronError&) { // the next tolerance, or closedCore()
 		}
-	if (body.core.vertices.empty())
-		throw PolyhedronError("rounding radius " + std::to_string(body.radius) + " m leaves no core (" + reason
-		        + "): it must be below the radius of the inscribed sphere, at most " + std::to_string(sharp.thickness() / 2) + " m");
+	if (body.core.vertices.empty()) {
+		body.core = closedCore(sharp, body.radius);
+		body.sharp = std::move(sharp);
+	}
 	for (const Vec3& v : body.core.vertices) {
 		body.halfExtents = body.halfExtents.cwiseMax(v.cwiseAbs());
 		body.boundingRadius = std::max(body.boundingRadius, v.norm());

@@ -101,7 +101,7 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     Raises
     ------
     ValueError
-        When the vertices are no corners of a convex polyhedron, or the radius leaves no core.
+        When the vertices are no corners of a convex polyhedron, or the radius is not below that of the inscribed sphere.
     TypeError
         For a material of another kind.
     """
