@@ -28,6 +28,11 @@ constexpr double planarShare = 1e-6;
 /// Larger: more warped input is accepted and the core deviates more from it; smaller: it is refused.
 constexpr double warpShare = 1e-3;
 
+/// Corners closer to their face's plane than this fraction of the polyhedron's size are in it but for rounding. [-] Mass properties of bodies with
+/// other faces are those of the convex hull.
+/// Larger: mass properties of warped faces depend on their diagonals; smaller: those of rotated boxes change in their last digits.
+constexpr double roundingShare = 1e-11;
+
 // --- contact points ---
 
 /// Two positions closer than this coincide: a vertex above the border of a face, a crossing at the end of an edge, two vertices. [m]
@@ -109,6 +114,10 @@ constexpr double impactLoadShare = 1;
 /// Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single point; 0: their impulses move from one point to
 /// another by 1e-4 a sweep.
 constexpr double reboundSoftness = 0.02;
+
+/// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff joints and contacts converge
+/// slowly; smaller: longer sweeps.
+constexpr int jointInterval = 4;
 
 /// Rounding error of Coulomb's limit. [-] A point within it slides: its work is friction's.
 constexpr double slidingRounding = 1e-9;

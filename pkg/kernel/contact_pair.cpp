@@ -139,10 +139,10 @@ namespace {
 		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
 		p.energy = max(Number(0.), Number(record.get(&PointRecord::normalStored)));
 		p.shearEnergy = max(Number(0.), Number(record.get(&PointRecord::shearStored)));
+		p.overlap = record.get(&PointRecord::overlap);
 		if (pair.power == 1) return p;
 		// K n - F = (q - 1) c n^q for F = k n + c n^q
 		p.power = pair.power;
-		p.overlap = record.get(&PointRecord::overlap);
 		p.room = max(Number(0.), Number(Number(pair.overlapLimit) - p.overlap));
 		const Number excess = p.normalStiffness * p.overlap - p.elasticNormal;
 		p.hardening = select(p.overlap > Number(roundingOverlap), max(Number(0.), Number(excess * Number(1 / (pair.power - 1)))), Number(0.));
@@ -156,7 +156,8 @@ namespace {
 			PointRecord& r = points.points[i];
 			if (r.overlap == 0) r.impact = {};
 			else if (r.impact.isPending() && r.step.before[0] < 0)
-				r.impact = startImpact({ r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio, pair.mass, r.step.response(), -r.step.before[0], h);
+				r.impact = startImpact(
+				        { r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio, pair.mass, r.step.response(), -r.step.before[0], h);
 			r.step.rebound = r.impact.rebound;
 		}
 	}
@@ -189,13 +190,14 @@ namespace {
 
 	/// Energy of the normal spring after a closing displacement `way` from the placement, F = k n + c n^q. [J]
 	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left until the force is constant [m].
-	template <class Number>
-	[[gnu::always_inline]] inline Number energyAfter(Number U, Number F, Number K, Number n, Number room, Number way, double q)
+	template <class Number> [[gnu::always_inline]] inline Number energyAfter(Number U, Number F, Number K, Number n, Number room, Number way, double q)
 	{
-		const Number none = 0., g = min(max(way, Number(-n)), room), rest = max(none, Number(way - room)); // of the way, with and without change of the force
+		const Number none = 0., g = min(max(way, Number(-n)), room),
+		             rest = max(none, Number(way - room)); // of the way, with and without change of the force
 		Number change = F * g + K * g * g / Number(2.), force = F + K * g;
 		if (q > 1) {
-			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor, hard = (K * n - F) / Number(q - 1), ratio = g / floor, power = powerOf<Number>(s, q);
+			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor, hard = (K * n - F) / Number(q - 1), ratio = g / floor,
+			             power = powerOf<Number>(s, q);
 			// c ((n + g)^(q+1) - n^(q+1)) / (q+1), less the linear and square terms of the above
 			change += hard * floor * ((s * power - Number(1.)) / Number(q + 1) - ratio - Number(q / 2) * ratio * ratio);
 			force += hard * (power - Number(1.) - Number(q) * ratio);
@@ -296,8 +298,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip; // spring in the middle of the step
 		const auto sliding = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
 		const Vec spring = select(sliding, shear, ahead);
-		const Account<Number> tangential(
-		        record.get(&PointRecord::shearStored), p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]), shearEnergy<Number>(spring, shearStiffness));
+		const Account<Number> tangential(record.get(&PointRecord::shearStored), p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
+		        shearEnergy<Number>(spring, shearStiffness));
 		record.set(&PointRecord::normalStored, normal.stored);
 		record.set(&PointRecord::shearStored, tangential.stored);
 		const Number friction = select(sliding, tangential.dissipated, none), dashpot = tangential.dissipated - friction;

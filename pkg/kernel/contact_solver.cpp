@@ -16,8 +16,8 @@ namespace {
 	{
 		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
 		        && isFinite(p.elasticShear) && isFinite(p.impulse) && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping)
-		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isNonNegative(p.energy) && isNonNegative(p.shearEnergy)
-		        && isNonNegative(p.hardening) && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
+		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isNonNegative(p.energy)
+		        && isNonNegative(p.shearEnergy) && isNonNegative(p.hardening) && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
 	}
 
 } // namespace
@@ -164,7 +164,7 @@ template <class Connection> bool ContactSolver::activateNeighbours(const Connect
 	return true;
 }
 
-/// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with those of contacts.
+/// A sweep over the active pairs, and over all joints once no pair changes, and at an interval: impulses of dashpots vary little with those of contacts.
 /// Returns whether another sweep is needed.
 bool ContactSolver::sweepOnce(double threshold, bool forwards)
 {
@@ -175,7 +175,8 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards)
 		solvePair(pair, forwards);
 		changed = activateNeighbours(pair, threshold) || changed;
 	}
-	return changed || sweepDashpots(threshold);
+	if (changed && sweepCount % jointInterval != 0) return true;
+	return sweepDashpots(threshold) || changed;
 }
 
 /// Returns whether another sweep over the pairs is needed.
@@ -201,6 +202,28 @@ double ContactSolver::largestChange() const
 	std::for_each(pairs.begin(), pairs.end(), add);
 	std::for_each(dashpots.begin(), dashpots.end(), add);
 	return largest;
+}
+
+/// Velocity of separation w of an impact whose single point leaves its overlap within the step, or has no force any more.
+void ContactSolver::applyRestitution(const SolverPair& pair)
+{
+	PointStep* alone = nullptr;
+	for (size_t k = 0; k < pair.count; ++k) {
+		PointStep& c = pair.points[k].step;
+		if (c.impulse[0] == 0 && c.rebound == noRebound) continue;
+		if (alone) return;
+		alone = &c;
+	}
+	if (!alone || alone->rebound == noRebound) return;
+	PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	const double p = alone->impulse[0], un = alone->velocity[0] + velocity.dots(alone->rows)[0], a = alone->response();
+	const bool separates = un > 0 && (p == 0 || un * h > alone->overlap);
+	if (!separates || un >= alone->rebound) return;
+	const double more = std::min(p + (alone->rebound - un) / a, energyImpulse(*alone, un - a * p)) - p;
+	if (more <= 0) return;
+	alone->impulse[0] += more;
+	velocity.add(alone->rows[0], more);
+	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 }
 
 /// All sweeps of a step: the first one over all joints and pairs.
@@ -237,6 +260,7 @@ Convergence ContactSolver::solve(double tolerance)
 	else
 		for (DashpotConstraint& joint : dashpots)
 			applyExplicitDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
+	if (maxSweeps > 0) std::for_each(pairs.begin(), pairs.end(), [this](const SolverPair& pair) { applyRestitution(pair); });
 	for (DashpotConstraint& joint : dashpots)
 		finishDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	finishBodies();

@@ -25,6 +25,8 @@
 /// the velocity w,
 ///     impact      p_w = (w - b + s (w - u_n0)) / (a (1 + s))                                    (6)
 /// with the small softness s: exact for a point alone, b = u_n0; several points of a pair, whose bounds contradict each other, share the impulse.
+/// After the sweeps, a point that acts alone in its pair and separates more slowly than w gets the velocity w, as far as (5) admits: the step has not
+/// resolved its spring. With several points w is a bound only: their dashpots add up, and dissipate more than (2) of impact.hpp.
 /// A spring that hardens has the force F(n) = F_1(n) + c n^q with a linear F_1, and the dashpot C(n) ~ n^((q-1)/2). A point that closes by
 /// d = -h v' - 0.1 n_0, v' = b + a p, adds the difference between the force at the next placement and its linear extrapolation, and that of the
 /// dashpot for the part of d that the velocity v before the step does not explain. Otherwise a light member that is struck would move through its
@@ -70,12 +72,13 @@
 ///     x          -              a h C: decay rate of the dashpot times h [-]
 ///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
-/// Dashpots of joints (joint_dashpot.hpp) are visited before the first sweep over the pairs, and whenever no pair changes any more.
+/// Dashpots of joints (joint_dashpot.hpp) are visited before the first sweep over the pairs, in every fourth sweep (jointInterval), and whenever no pair
+/// changes any more.
 ///
 /// Phases of a step, for each island (islands.hpp):
 ///     1. begin(), addPair() and addDashpot() list the pairs and the damped joints;
 ///     2. prepareContacts() (contact_pair.hpp) prepares the points of each pair, prepareDashpot() each joint;
-///     3. solve(): warm start with the impulses of the last step, then sweeps over the pairs and joints;
+///     3. solve(): warm start with the impulses of the last step, sweeps over the pairs and joints, restitution of points that act alone;
 ///     4. storeForces() (contact_pair.hpp) stores forces, history and energies of the points; dashpotImpulse() gives the impulse of a joint.
 #pragma once
 #include "contact_step.hpp"
@@ -167,6 +170,7 @@ private:
 	bool sweepOnce(double threshold, bool forwards);
 	bool sweepDashpots(double threshold);
 	double largestChange() const;
+	void applyRestitution(const SolverPair& pair);
 	Convergence sweepToConvergence(double tolerance);
 };
 

@@ -18,7 +18,7 @@ template <class Number> struct StepInput {
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 	Number energy = unlimitedEnergy, shearEnergy = unlimitedEnergy; ///< A_n, A_s [J]
 	Number hardening = 0.; ///< c n_0^q: part of the normal force that hardens; 0: linear spring [N]
-	Number overlap = 0., room = 0.; ///< n_0, and how much it may grow until the force is constant; only read where the spring hardens [m]
+	Number overlap = 0., room = 0.; ///< n_0, and how much it may grow until the force is constant [m]
 	double power = 1; ///< q [-]
 
 	/// A_n and A_s of a point without rule (5). [J]

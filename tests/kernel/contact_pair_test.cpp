@@ -112,8 +112,7 @@ TEST(ReleasedEnergy, IsThatOfBothAccounts)
 	const Vec3 shear(300, 400, 0);
 	for (const double speed : { 0., 0.3, -0.3 }) { // [m/s], of a heavy body: its velocity is constant
 		Separation s(1e9, speed, h, 0, shear);
-		const double way = -speed * h / 2, normal = law.energy(overlap + way),
-		             tangential = shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap));
+		const double way = -speed * h / 2, normal = law.energy(overlap + way), tangential = shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap));
 		EXPECT_LE(s.records[0].normalStored, normal * (1 + 1e-6));
 		EXPECT_NEAR(s.records[0].shearStored, tangential, 1e-9 * tangential);
 		const double both = s.records[0].normalStored + s.records[0].shearStored;

@@ -427,7 +427,8 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			std::vector<Vec3> anchors = j.points;
 			for (Vec3& point : anchors)
 				point -= all.bodies[j.a].position;
-			modes.push_back(jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
+			modes.push_back(
+			        jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 		}
 		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix(); // the bodies have turned since then
 		for (size_t k = 0; k < all.joints.size(); ++k)

@@ -174,8 +174,8 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			EXPECT_LE(s.shearForce.norm(), properties.friction * f.dot(normal) * (1 + rounding) + rounding);
 			EXPECT_EQ(s.dashpotForce, Vec3(f - s.normalForce * normal - s.shearForce));
 			const Vec3 mean = (after
-			                          + relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity,
-			                                  p.bodies[1].spin))
+			                          + relativeVelocity<double>(
+			                                  c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin))
 			        / 2;
 			const double pn = impulse.dot(normal), way = -p.h / 2 * after.dot(normal), ks = properties.shearRatio * s.stiffness;
 			const double law = way > -s.overlap ? s.energy + p.law.energy(s.overlap + way) - p.law.energy(s.overlap) : 0;
@@ -197,7 +197,8 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		EXPECT_EQ(force.torqueB, Vec3(torqueB / p.h));
 		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear, &PairEnergies::friction, &PairEnergies::elasticNormal,
 		             &PairEnergies::elasticShear })
-			EXPECT_NEAR(energies.*member, sums.*member, 1e-11 * (1 + std::abs(energies.elasticNormal) + std::abs(energies.*member))); // other orders of some products
+			EXPECT_NEAR(energies.*member, sums.*member,
+			        1e-11 * (1 + std::abs(energies.elasticNormal) + std::abs(energies.*member))); // other orders of some products
 	}
 }
 

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inner_core.hpp"
+#include "convex_hull.hpp"
+#include "triangle_hull.hpp"
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace timber {
+namespace {
+
+	constexpr int maxSteps = 1000; ///< of the search for the inscribed sphere; some twenty suffice
+
+	using Vec4 = Eigen::Vector4d;
+	using Mat4 = Eigen::Matrix4d;
+
+	/// Joins elements in groups; each group has a representative.
+	class Groups {
+	public:
+		explicit Groups(size_t count)
+		        : parent(count)
+		{
+			std::iota(parent.begin(), parent.end(), 0);
+		}
+		int of(int k) const { return parent[k] == k ? k : of(parent[k]); }
+		void join(int k, int l) { parent[of(k)] = of(l); }
+
+	private:
+		std::vector<int> parent;
+	};
+
+	/// Common point of three planes.
+	LongVec3 commonPoint(const std::vector<HalfSpace>& planes, const Triangle& t)
+	{
+		const LongVec3 a = planes[t[0]].normal.cast<long double>(), b = planes[t[1]].normal.cast<long double>(),
+		               c = planes[t[2]].normal.cast<long double>();
+		const LongVec3 bc = b.cross(c);
+		return (planes[t[0]].offset * bc + planes[t[1]].offset * c.cross(a) + planes[t[2]].offset * a.cross(b)) / a.dot(bc);
+	}
+
+	/// The triangles around each point, counter-clockwise seen from outside.
+	std::vector<std::vector<int>> trianglesAround(const std::vector<Triangle>& triangles, size_t pointCount)
+	{
+		std::vector<std::map<int, std::pair<int, int>>> turns(pointCount); // of a point: from an edge to the triangle left of it and its next edge
+		for (size_t t = 0; t < triangles.size(); ++t)
+			for (int k = 0; k < 3; ++k)
+				turns[triangles[t][k]][triangles[t][(k + 1) % 3]] = { int(t), triangles[t][(k + 2) % 3] };
+		std::vector<std::vector<int>> around(pointCount);
+		for (size_t p = 0; p < pointCount; ++p) {
+			if (turns[p].empty()) continue;
+			const int first = turns[p].begin()->first;
+			int edge = first;
+			do {
+				const auto& [triangle, next] = turns[p].at(edge);
+				around[p].push_back(triangle);
+				edge = next;
+			} while (edge != first);
+		}
+		return around;
+	}
+
+	/// Removes repeated neighbours from cycles of corners; cycles of less than three corners become empty.
+	void tidy(std::vector<int>& cycle)
+	{
+		cycle.erase(std::unique(cycle.begin(), cycle.end()), cycle.end());
+		while (cycle.size() > 1 && cycle.front() == cycle.back())
+			cycle.pop_back();
+		if (cycle.size() < 3) cycle.clear();
+	}
+
+	/// Removes corners of less than three faces, and faces of less than three corners, until there are none. Both lie on an edge of two other faces.
+	void removeIncomplete(std::vector<std::vector<int>>& cycles, size_t cornerCount)
+	{
+		bool isComplete = false;
+		while (!isComplete) {
+			isComplete = true;
+			std::vector<int> degree(cornerCount, 0);
+			for (const auto& cycle : cycles)
+				for (const int k : cycle)
+					++degree[k];
+			for (auto& cycle : cycles) {
+				const auto rest = std::remove_if(cycle.begin(), cycle.end(), [&](int k) { return degree[k] < 3; });
+				if (rest == cycle.end()) continue;
+				isComplete = false;
+				cycle.erase(rest, cycle.end());
+				tidy(cycle);
+			}
+		}
+	}
+
+	/// Corners of the primal body by group of triangles, renumbered to those that faces have.
+	Polyhedron bodyOf(
+	        const std::vector<LongVec3>& corners, const std::vector<std::vector<int>>& cycles, const std::vector<HalfSpace>& planes, const Vec3& centre)
+	{
+		std::map<int, int> number;
+		std::vector<Vec3> vertices;
+		std::vector<Face> faces;
+		for (size_t f = 0; f < cycles.size(); ++f) {
+			if (cycles[f].empty()) continue;
+			Face face;
+			face.plane = { planes[f].normal, planes[f].offset + planes[f].normal.dot(centre) };
+			for (const int k : cycles[f]) {
+				if (number.emplace(k, int(vertices.size())).second) vertices.push_back(centre + corners[k].cast<double>());
+				face.corners.push_back(number[k]);
+			}
+			faces.push_back(std::move(face));
+		}
+		return closedBody(std::move(vertices), std::move(faces));
+	}
+
+} // namespace
+
+/// The dual simplex method: of four planes, the sphere that touches them; a plane that cuts it replaces one of them. It starts at a large tetrahedron.
+/// Bland's rule (least index) excludes cycles.
+Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle, double size)
+{
+	assert(size > 0);
+	std::vector<Vec4> rows; // (n, 1) . (x, r) <= offset, lengths in units of the size about the middle
+	std::vector<double> offsets;
+	for (const Vec3& n : { Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) }) {
+		rows.push_back((Vec4() << n.normalized(), 1).finished());
+		offsets.push_back(10);
+	}
+	for (const HalfSpace& h : planes) {
+		rows.push_back((Vec4() << h.normal, 1).finished());
+		offsets.push_back((h.offset - h.normal.dot(middle)) / size);
+	}
+	const auto distance = [&](size_t k, const Vec3& x) { return offsets[k] - rows[k].head<3>().dot(x); };
+	std::array<int, 4> basis { 0, 1, 2, 3 };
+	Vec4 sphere;
+	for (int step = 0; step < maxSteps; ++step) {
+		Mat4 touching;
+		Vec4 offset;
+		for (int k = 0; k < 4; ++k) {
+			touching.row(k) = rows[basis[k]];
+			offset[k] = offsets[basis[k]];
+		}
+		const Eigen::FullPivLU<Mat4> solver(touching), transposed(touching.transpose());
+		sphere = solver.solve(offset);
+		const Vec4 weights = transposed.solve(Vec4(0, 0, 0, 1));
+		size_t cutting = 0;
+		while (cutting < rows.size() && rows[cutting].dot(sphere) <= offsets[cutting] + 1e-13)
+			++cutting;
+		if (cutting == rows.size()) break;
+		const Vec4 share = transposed.solve(rows[cutting]);
+		int leaving = -1;
+		for (int k = 0; k < 4; ++k) {
+			if (!(share[k] > 1e-12)) continue;
+			const double excess = leaving < 0 ? -1 : weights[k] * share[leaving] - weights[leaving] * share[k];
+			if (excess < 0 || (excess == 0 && basis[k] < basis[leaving])) leaving = k;
+		}
+		if (leaving < 0) break;
+		basis[leaving] = int(cutting);
+	}
+	double radius = distance(0, sphere.head<3>());
+	for (size_t k = 1; k < rows.size(); ++k)
+		radius = std::min(radius, distance(k, sphere.head<3>()));
+	return { middle + size * sphere.head<3>(), size * radius };
+}
+
+Polyhedron intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance)
+{
+	std::vector<HalfSpace> about; // the centre
+	std::vector<LongVec3> duals;
+	for (const HalfSpace& h : planes) {
+		about.push_back({ h.normal, h.offset - h.normal.dot(centre) });
+		assert(about.back().offset > 0);
+		duals.push_back(h.normal.cast<long double>() / (long double)(about.back().offset));
+	}
+	const std::vector<Triangle> triangles = hullTriangles(duals);
+	std::vector<LongVec3> corners;
+	for (const Triangle& t : triangles)
+		corners.push_back(commonPoint(about, t));
+	std::vector<std::vector<int>> cycles = trianglesAround(triangles, planes.size());
+	Groups groups(corners.size());
+	for (const auto& cycle : cycles)
+		for (size_t k = 0; k < cycle.size(); ++k) {
+			const int here = cycle[k], next = cycle[(k + 1) % cycle.size()];
+			if ((corners[here] - corners[next]).norm() <= tolerance) groups.join(here, next);
+		}
+	for (auto& cycle : cycles) {
+		for (int& k : cycle)
+			k = groups.of(k);
+		tidy(cycle);
+	}
+	removeIncomplete(cycles, corners.size());
+	return bodyOf(corners, cycles, about, centre);
+}
+
+} // namespace timber
