@@ -52,8 +52,7 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& foun
 		if (!I->isReal() || I->geom->getClassIndex() != manifoldIndex) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
-			found.push_back(
-			        { I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy,
+			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy,
 			        phys.placedEnergy });
 	}
 }

@@ -15,33 +15,128 @@ void HealthCheck::validate() const
 	require(turnLimit > 0, "HealthCheck.turnLimit", turnLimit, "> 0");
 }
 
+HealthCheck::CheckedBody::CheckedBody(const Body& b)
+        : shape(b.shape)
+        , material(b.material)
+        , state(b.state)
+        , rounded(dynamic_cast<const RoundedPolyhedron*>(b.shape.get()))
+        , geometry(rounded ? rounded->geometry : nullptr)
+        , id(b.id)
+        , clumpId(b.clumpId)
+        , flags(b.flags)
+        , mask(b.groupMask)
+        , blockedDOFs(b.state->blockedDOFs)
+        , mass(b.state->mass)
+        , inertia(b.state->inertia)
+{
+}
+
+namespace {
+	template <class Part> bool areSame(const boost::weak_ptr<Part>& checked, const shared_ptr<Part>& now)
+	{
+		return !checked.owner_before(now) && !now.owner_before(checked);
+	}
+}
+
+bool HealthCheck::CheckedBody::hasPartsOf(const Body& b) const { return areSame(shape, b.shape) && areSame(material, b.material); }
+
+bool HealthCheck::CheckedBody::isCurrent(const Body& b) const
+{
+	return hasPartsOf(b) && areSame(state, b.state) && id == b.id && clumpId == b.clumpId && flags == b.flags && mask == b.groupMask
+	        && (!rounded || rounded->geometry == geometry) && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass
+	        && inertia == b.state->inertia;
+}
+
+bool HealthCheck::haveBodiesChanged() const
+{
+	const auto isCurrent = [](const boost::optional<CheckedBody>& checked, const shared_ptr<Body>& now) {
+		return bool(checked) == bool(now) && (!now || checked->isCurrent(*now));
+	};
+	for (size_t id = 0; id < checkedBodies.size(); ++id)
+		if (!isCurrent(checkedBodies[id], (*scene->bodies)[id])) return true;
+	return false;
+}
+
 /// doSort: bodies were added or replaced since the collider ran.
 bool HealthCheck::hasSceneChanged() const
 {
-	const auto isSame = [](const CheckedEngine& checked, const shared_ptr<Engine>& now) { return checked == CheckedEngine(now.get(), now->dead); };
-	return scene->doSort || checkedEngines.size() != scene->engines.size()
-	        || !std::equal(checkedEngines.begin(), checkedEngines.end(), scene->engines.begin(), isSame);
+	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size() || checkedParts != partsOf(*scene)
+	        || haveBodiesChanged();
+}
+
+/// Boxes, contacts and mass of a body would remain those of its old geometry.
+void HealthCheck::checkGeometry(const Body& b) const
+{
+	const size_t id = b.getId();
+	if (id >= checkedBodies.size() || !checkedBodies[id] || !checkedBodies[id]->hasPartsOf(b)) return;
+	const CheckedBody& before = *checkedBodies[id];
+	if (before.rounded && before.rounded->geometry != before.geometry)
+		throw std::runtime_error(
+		        "body " + std::to_string(id) + ": vertices or radius of its shape were changed in the scene. Assign another shape to the body");
 }
 
 void HealthCheck::checkBodies() const
 {
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) checkBody(*b);
+	for (size_t id = 0; id < scene->bodies->size(); ++id) {
+		const Body* b = (*scene->bodies)[id].get();
+		if (!b) continue;
+		if (size_t(b->getId()) != id)
+			throw std::runtime_error(
+			        "O.bodies[" + std::to_string(id) + "]: its id is " + std::to_string(b->getId()) + ": it must be its place in O.bodies");
+		checkBody(*b);
+		checkGeometry(*b);
+	}
+}
+
+/// Removes the contacts of bodies whose shape or material was replaced, and those of an earlier list of bodies. The collider finds the
+/// present ones.
+void HealthCheck::forgetContacts()
+{
+	InteractionContainer& contacts = *scene->interactions;
+	const auto isOfEarlierList = [&](const shared_ptr<Interaction>& I) {
+		const Body *b1 = bodyAt(*scene, I->getId1()), *b2 = bodyAt(*scene, I->getId2());
+		const bool beyondEnd = size_t(math::max(I->getId1(), I->getId2())) >= scene->bodies->size();
+		return beyondEnd || (b1 && b2 && contacts.find(I->getId1(), I->getId2()) != I);
+	};
+	if (std::any_of(contacts.begin(), contacts.end(), isOfEarlierList)) contacts.clear();
+	for (size_t id = 0; id < math::min(checkedBodies.size(), scene->bodies->size()); ++id) {
+		const Body* b = bodyAt(*scene, Body::id_t(id));
+		if (!b || !checkedBodies[id] || checkedBodies[id]->hasPartsOf(*b)) continue;
+		const auto ofBody = b->intrs; // a copy: `erase` changes it
+		for (const auto& contact : ofBody)
+			contacts.erase(contact.second->getId1(), contact.second->getId2(), contact.second->linIx);
+		contacts.dirty = true; // the collider looks at all pairs again
+	}
+	scene->doSort = true;
+}
+
+/// The integrator computes angular velocities from angular momenta: without one the velocity was set by hand.
+void HealthCheck::takeOverRotations()
+{
+	for (const shared_ptr<Body>& b : *scene->bodies) {
+		if (!b || !isFree(*b->state)) continue;
+		State& s = *b->state;
+		if (s.angMom.isZero(0) && !s.angVel.isZero(0)) s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
+	}
 }
 
 /// Engines store data of the bodies that is wrong in another scene.
 void HealthCheck::checkScene()
 {
 	const shared_ptr<Scene>& current = Omega::instance().getScene();
-	if (!checkedEngines.empty() && checkedScene.lock() != current)
+	if (!checkedParts.empty() && checkedScene.lock() != current)
 		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = yade_timber.engines(...) again");
 	checkBodies();
 	checkEngines(*scene);
 	checkContacts(*scene);
+	checkStep(*scene);
+	forgetContacts();
 	checkedScene = current;
-	checkedEngines.clear();
-	for (const shared_ptr<Engine>& e : scene->engines)
-		checkedEngines.emplace_back(e.get(), e->dead);
+	checkedParts = partsOf(*scene);
+	checkedStep = scene->dt;
+	checkedBodies.clear();
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		checkedBodies.emplace_back(b ? boost::make_optional(CheckedBody(*b)) : boost::none);
 }
 
 /// Parts of a body are replaced between checks of the scene only; numbers of its state may change at any time.
@@ -54,7 +149,8 @@ void HealthCheck::checkState(const Body& b) const
 	checkBodies(); // another cause than the time step
 	std::ostringstream message;
 	message << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
-	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step " << scene->dt << " s is probably too large";
+	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step "
+	        << scene->dt << " s is probably too large";
 	throw std::runtime_error(message.str());
 }
 
@@ -63,9 +159,9 @@ void HealthCheck::action()
 	if (!(scene->dt > 0 && std::isfinite(scene->dt))) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
 	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
 	const bool changed = hasSceneChanged();
-	if (!changed && scene->iter % every != 0) return;
 	if (changed) checkScene();
-	check();
+	takeOverRotations();
+	if (changed || scene->iter % every == 0) check();
 }
 
 void HealthCheck::check() const

@@ -1,18 +1,42 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Stops a run whose scene cannot be computed or whose numbers are no longer physical.
 #pragma once
-#include <pch.hpp>
+#include <Shape.hpp>
+#include <boost/optional.hpp>
 
 namespace yade {
 
 class HealthCheck : public GlobalEngine {
-	using CheckedEngine = std::pair<const Engine*, bool>; ///< engine, whether it is dead
-	std::vector<CheckedEngine> checkedEngines; ///< at the last check of the scene
+	/// Parts and mass of a body at the last check of the scene.
+	struct CheckedBody {
+		// weak: the last owner of an object of Python must not be released in a step, without Python's lock
+		boost::weak_ptr<Shape> shape;
+		boost::weak_ptr<Material> material;
+		boost::weak_ptr<State> state;
+		const RoundedPolyhedron* rounded; ///< the shape; null for another one
+		shared_ptr<const timber::RoundedPolyhedron> geometry; ///< its geometry
+		Body::id_t id, clumpId;
+		int flags, mask;
+		unsigned blockedDOFs;
+		Real mass;
+		Vector3r inertia;
+
+		explicit CheckedBody(const Body&);
+		bool hasPartsOf(const Body&) const;
+		bool isCurrent(const Body&) const;
+	};
+	std::vector<boost::optional<CheckedBody>> checkedBodies; ///< by id, as those of the scene at the last check
+	std::vector<const void*> checkedParts; ///< of the engines at the last check of the scene
+	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
 
 	bool hasSceneChanged() const;
+	bool haveBodiesChanged() const;
 	void checkScene();
 	void checkBodies() const;
+	void checkGeometry(const Body&) const;
+	void forgetContacts();
+	void takeOverRotations();
 	void checkState(const Body&) const;
 
 public:
@@ -24,7 +48,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HealthCheck, GlobalEngine,
 		"Stops a run with an error before a step that cannot be computed. Must come before the collider. "
-		"When bodies were added or the list of engines was changed it checks that the list is complete, in order and of this scene, that all pairs of shapes and materials have functors, and that materials and masses are valid. "
+		"When bodies, their parts and masses, engines, functors or the time step were changed it checks that the list of engines is complete, in order, without a second integrator and of this scene, that all pairs of shapes and materials have functors, that materials and masses are valid, and that the step is small enough for the joints. "
+		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
 		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations plausible.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]"))

@@ -65,8 +65,8 @@ namespace {
 		const GroundMotionEngine* g = findEngine<GroundMotionEngine>(scene);
 		const Real half = scene.dt / 2;
 		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear - c->placed : 0,
-			(j ? j->elastic + half * j->elasticPower(scene) : 0) + (c ? c->newmark : 0), g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
-			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0, j ? j->yielded : 0 };
+			(j ? j->elastic + half * j->elasticPower(scene) : 0) + (c ? c->newmark : 0), g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0,
+			c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0, j ? j->yielded : 0 };
 	}
 }
 

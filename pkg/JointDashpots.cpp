@@ -12,8 +12,8 @@ namespace {
 	{
 		const timber::SpringGroup springs = joint.springGroup();
 		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori, &qB = bodyAt(scene, joint.id2)->state->ori;
-		const timber::JointState now { springs.count(), springs.stiffness, timber::pairInverseMass(a, b), a.inverseInertia.trace() + b.inverseInertia.trace(),
-			qA.conjugate() * qB };
+		const timber::JointState now { springs.count(), springs.stiffness, timber::pairInverseMass(a, b),
+			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
 		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, axesOf(scene, joint.id1), springs, now);
 	}
 }

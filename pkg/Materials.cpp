@@ -8,16 +8,19 @@ YADE_PLUGIN((ElementMat)(TimberMat)(SnowMat));
 
 void ElementMat::validate() const
 {
-	requirePositive((getClassName() + ".density").c_str(), density);
-	requireNonNegative((getClassName() + ".friction").c_str(), friction);
+	require(density >= 1e-3 && density <= 25e3, (getClassName() + ".density").c_str(), density, "from 0.001 to 25000 kg/m3");
+	require(friction >= 0 && friction <= 1e6, (getClassName() + ".friction").c_str(), friction, "from 0 to 1e6");
 }
 
 void TimberMat::validate() const
 {
-	requirePositive("TimberMat.young", young);
+	require(young >= 1e5 && young <= 1e15, "TimberMat.young", young, "from 1e5 to 1e15 Pa (timber: about 1e10)");
 	require(poisson > -1 && poisson <= 0.5, "TimberMat.poisson", poisson, "in (-1, 0.5]");
 }
 
-void SnowMat::validate() const { requirePositive("SnowMat.stiffnessPerMass", stiffnessPerMass); }
+void SnowMat::validate() const
+{
+	require(stiffnessPerMass >= 1 && stiffnessPerMass <= 1e9, "SnowMat.stiffnessPerMass", stiffnessPerMass, "from 1 to 1e9 N/m/kg");
+}
 
 } // namespace yade

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <CollisionTrigger.hpp>
+#include <ContactForces.hpp>
 #include <ContactLoop.hpp>
+#include <Joints.hpp>
 #include <Materials.hpp>
 #include <SceneCheck.hpp>
 #include <Shape.hpp>
 #include <bodies.hpp>
 #include <core/InteractionLoop.hpp>
 #include <pkg/common/Collider.hpp>
+#include <pkg/common/ParallelEngine.hpp>
+#include <iomanip>
 #include <set>
 
 namespace yade {
@@ -49,9 +53,51 @@ namespace {
 		return found == roles.end() ? nullptr : &*found;
 	}
 
+	/// Classes of YADE that must not run beside the package's engines, also inside a ParallelEngine.
+	struct ForeignEngine {
+		const char *base, *remedy;
+	};
+	const std::vector<ForeignEngine> foreignEngines {
+		{ "NewtonIntegrator", "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
+		{ "Integrator", "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
+		{ "TimeStepper", "would change the time step, and finds no stiffness in these contacts. Remove it and set O.dt" },
+	};
+
 	[[noreturn]] void refuseEngines(const string& fault) { throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list"); }
 
 	[[noreturn]] void refuseBody(const Body& b, const string& fault) { throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault); }
+
+	/// Appends an engine, and those inside it, unless it is dead.
+	void appendLive(const shared_ptr<Engine>& engine, std::vector<const Engine*>& live)
+	{
+		if (!engine || engine->dead) return;
+		live.push_back(engine.get());
+		const auto* parallel = dynamic_cast<const ParallelEngine*>(engine.get());
+		if (!parallel) return;
+		for (const auto& group : parallel->slaves)
+			for (const shared_ptr<Engine>& slave : group)
+				appendLive(slave, live);
+	}
+
+	std::vector<const Engine*> liveEngines(const Scene& scene)
+	{
+		std::vector<const Engine*> live;
+		for (const shared_ptr<Engine>& engine : scene.engines)
+			appendLive(engine, live);
+		return live;
+	}
+
+	/// Whether an engine stands in the list itself, not inside another engine.
+	bool isListed(const Scene& scene, const Engine* engine)
+	{
+		return std::any_of(scene.engines.begin(), scene.engines.end(), [=](const auto& e) { return e.get() == engine; });
+	}
+
+	void refuseForeign(const Engine& engine)
+	{
+		for (const ForeignEngine& foreign : foreignEngines)
+			if (isKindOf(engine.getClassName(), foreign.base)) refuseEngines(engine.getClassName() + " " + foreign.remedy);
+	}
 
 	bool isRounded(const Body& b) { return dynamic_cast<const RoundedPolyhedron*>(b.shape.get()); }
 
@@ -61,6 +107,8 @@ namespace {
 		const auto* wrapper = findEngine<ContactLoop>(scene);
 		const auto* loop = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get()) : findEngine<InteractionLoop>(scene);
 		if (!loop) refuseEngines("ContactLoop.loop is no InteractionLoop");
+		if (!loop->geomDispatcher || !loop->physDispatcher || !loop->lawDispatcher)
+			refuseEngines("the InteractionLoop has no geomDispatcher, physDispatcher or lawDispatcher");
 		return *loop;
 	}
 
@@ -70,6 +118,7 @@ namespace {
 		const auto* wrapper = findEngine<CollisionTrigger>(scene);
 		const auto* collider = wrapper ? dynamic_cast<Collider*>(wrapper->collider.get()) : findEngine<Collider>(scene);
 		if (!collider) refuseEngines("CollisionTrigger.collider is no collider");
+		if (!collider->boundDispatcher) refuseEngines("the collider has no boundDispatcher");
 		return *collider;
 	}
 
@@ -147,21 +196,26 @@ void checkEngines(const Scene& scene)
 	std::map<const Role*, int> count;
 	const Role* last = nullptr;
 	const Engine* late = nullptr; // behind ContactForces, without a role
-	for (const shared_ptr<Engine>& engine : scene.engines) {
-		if (engine->dead) continue;
+	const std::vector<const Engine*> live = liveEngines(scene);
+	for (const Engine* engine : live) {
 		const Role* role = roleOf(*engine);
-		if (!role && last && last->name == string("ContactForces")) late = engine.get();
+		if (!role && last && last->name == string("ContactForces")) late = engine;
 		if (!role) continue;
-		if (late && role->name == integrator)
+		if (!isListed(scene, engine)) refuseEngines(engine->getClassName() + " stands in a ParallelEngine. Put it into the list itself");
+		if (late && role->name == integrator) {
+			refuseForeign(*late);
 			refuseEngines(late->getClassName()
 			        + " stands between ContactForces and the integrator, so that contacts would not know its forces. Move it before ContactForces "
 			          "or to the end");
+		}
 		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor")) refuseEngines(string(role->name) + " is there twice");
 		if (last && role->rank < last->rank) refuseEngines(string(role->name) + " must come before " + last->name);
 		last = role;
 	}
 	for (const Role& role : roles)
 		if (role.isRequired && count[&role] == 0) refuseEngines(string(role.name) + " is missing");
+	for (const Engine* engine : live)
+		refuseForeign(*engine);
 }
 
 void checkContacts(const Scene& scene)
@@ -178,10 +232,76 @@ void checkContacts(const Scene& scene)
 				checkPair(loop, *kinds[i], *kinds[k]);
 }
 
+std::vector<const void*> partsOf(const Scene& scene)
+{
+	std::vector<const void*> parts;
+	const auto append = [&](const auto& dispatcher) {
+		parts.push_back(dispatcher.get());
+		if (!dispatcher) return;
+		for (const auto& functor : dispatcher->functors)
+			parts.push_back(functor.get());
+	};
+	const auto appendInner = [&](const Engine* engine) {
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine)) {
+			append(loop->geomDispatcher);
+			append(loop->physDispatcher);
+			append(loop->lawDispatcher);
+		} else if (const auto* collider = dynamic_cast<const Collider*>(engine)) append(collider->boundDispatcher);
+	};
+	for (const Engine* engine : liveEngines(scene)) {
+		parts.push_back(engine);
+		appendInner(engine);
+		const auto* contactLoop = dynamic_cast<const ContactLoop*>(engine);
+		const auto* trigger = dynamic_cast<const CollisionTrigger*>(engine);
+		const Engine* inner = contactLoop ? contactLoop->loop.get() : trigger ? trigger->collider.get() : nullptr;
+		parts.push_back(inner);
+		appendInner(inner);
+	}
+	return parts;
+}
+
+constexpr Real explicitLimits = 20; ///< largest step for joints, over that of explicit springs: as for house runs [-]
+constexpr Real largestStep = 2e-3; ///< [s]
+/// Largest step over the least half thickness of a free body. Dropped cubes gain energy from twice this value on. [s/m]
+constexpr Real stepPerHalfThickness = 0.1;
+
+namespace {
+	void refuseStep(const Scene& scene, const string& cause, Real limit)
+	{
+		std::ostringstream message;
+		message << "O.dt = " << scene.dt << " s: too large for " << cause << ": it must be at most " << std::setprecision(2) << limit << " s";
+		throw std::runtime_error(message.str());
+	}
+
+	/// Largest step for the joints. [s]
+	Real jointStep(const Scene& scene)
+	{
+		std::vector<timber::PointSpring> springs;
+		if (const auto* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
+		const Real squared = springs.empty() ? 0 : timber::largestEigenvalue(ContactForces::placements(scene), springs);
+		return squared > 0 ? explicitLimits * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
+	}
+}
+
+void checkStep(const Scene& scene)
+{
+	if (!(scene.dt <= largestStep)) refuseStep(scene, "contacts", largestStep);
+	for (const shared_ptr<Body>& b : *scene.bodies) {
+		const auto* shape = b && isFree(*b->state) ? dynamic_cast<const RoundedPolyhedron*>(b->shape.get()) : nullptr;
+		if (!shape) continue;
+		const Real limit = stepPerHalfThickness * (shape->geometry->halfExtents.minCoeff() + shape->radius);
+		if (scene.dt > limit) refuseStep(scene, "the contacts of body " + std::to_string(b->getId()) + ", which is thin", limit);
+	}
+	const Real limit = jointStep(scene);
+	if (scene.dt > limit) refuseStep(scene, "the joints between the lightest bodies (or take less stiff joints)", limit);
+}
+
 void checkBody(const Body& b)
 {
 	if (b.isClump()) refuseBody(b, "a clump is not supported: make one convex polyhedron of it, or join its parts");
 	if (!b.state) refuseBody(b, "it has no state");
+	if (b.flags & ~(Body::FLAG_BOUNDED | Body::FLAG_ASPHERICAL))
+		refuseBody(b, "flags = " + std::to_string(b.flags) + ": they must be bounded and aspherical only");
 	const State& s = *b.state;
 	if (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL)
 		refuseBody(b, "some degrees of freedom are blocked: contacts allow for free and fixed bodies only");

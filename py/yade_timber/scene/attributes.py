@@ -2,7 +2,8 @@
 """Assignment to attributes of the package's classes.
 
 YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both for
-the classes that it is given: unknown names are refused, and after a refused value the object is as before.
+the classes that it is given: unknown names are refused, and after a refused value the object is as before. `updateAttrs` of
+all classes sets what the attributes themselves would set.
 """
 import difflib
 import re
@@ -35,6 +36,9 @@ GEOMETRY = ("vertices", "radius")
 VALIDATED_OF_YADE = ("density",)
 """Attributes of YADE's base classes on which the package's classes depend."""
 
+RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel")}
+"""Attributes of YADE's classes whose assignment `background` guards."""
+
 _guarded = set()
 _update_attributes = yw.Serializable.updateAttrs
 
@@ -45,7 +49,7 @@ def guard(classes):
     for cls in classes:
         cls.__init__ = _initialiser(cls.__init__)
         cls.__setattr__ = _set_attribute
-        cls.updateAttrs = _update
+    yw.Serializable.updateAttrs = _update
 
 
 def _set_attribute(self, name, value):
@@ -83,8 +87,26 @@ def _assign(self, attribute, name, value):
 
 def _update(self, attributes):
     """Update object attributes from given dictionary"""
-    with _restored(self), _named_errors(type(self), attributes):
+    cls = type(self)
+    if not isinstance(self, tuple(_guarded)):
+        return _update_of_yade(self, attributes)
+    for name in attributes:
+        if isinstance(getattr(cls, name, None), property) and getattr(cls, name).fset is None:
+            raise AttributeError(f"{cls.__name__}.{name} is read-only")
+        if name in GEOMETRY and isinstance(self, yw.RoundedPolyhedron):
+            _refuse_shape_in_scene(self, name)
+    with _restored(self), _named_errors(cls, attributes):
         _update_attributes(self, attributes)
+
+
+def _update_of_yade(self, attributes):
+    """Update an object of a class of YADE's own: bodies and states have rules for some attributes (`background`)."""
+    ruled = {name: value for name, value in attributes.items() if (type(self), name) in RULED}
+    if isinstance(self, yw.Body) and "id" in attributes:
+        raise AttributeError("Body.id is read-only")
+    _update_attributes(self, {name: value for name, value in attributes.items() if name not in ruled})
+    for name, value in ruled.items():
+        setattr(self, name, value)
 
 
 class _restored:

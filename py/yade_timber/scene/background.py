@@ -9,6 +9,7 @@ import threading
 from contextlib import contextmanager
 
 import yade.wrapper as yw
+from yade.minieigenHP import Vector3
 
 BODY_METHODS = (
     "append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember",
@@ -56,6 +57,7 @@ def guard(plugin):
     yw.Omega.run = _until_started(yw.Omega.run)
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
+    yw.State.angVel = _with_momentum(yw.State.angVel)
 
 
 def _deferred(method):
@@ -122,6 +124,18 @@ def _checked(name, part):
                     raise ValueError(str(error)) from None
 
     return property(part.fget, set_part, doc=part.__doc__)
+
+
+def _with_momentum(part):
+    """Property angVel of a state whose angular momentum follows when it is set: the integrator computes velocities from momenta."""
+
+    def set_velocity(state, value):
+        with between_steps():
+            part.fset(state, value)
+            local = state.ori.conjugate() * state.angVel
+            state.angMom = state.ori * Vector3(*(v * i for v, i in zip(local, state.inertia)))
+
+    return property(part.fget, set_velocity, doc=part.__doc__)
 
 
 def _check(body, name):

@@ -94,6 +94,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
+    require_near(springs.points, id1, id2)
     if slip is not None:
         springs = yielding(springs, slip)
     engine = find_engine(yw.JointEngine) or add_joint_engine()
@@ -121,6 +122,17 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
     if not 0 <= damping_ratio <= 1:
         arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
     return JointValues(points, normal, kn, ks, strength, per, kind, name, damping_ratio=damping_ratio)
+
+
+def require_near(points, *ids):
+    """Raise ValueError for a point that is farther than a body's diagonal from each of the bodies: a slip of units or of frames."""
+    elements = [b for b in (O.bodies[k] for k in ids) if isinstance(b.shape, yw.RoundedPolyhedron)]
+    reach = {b.id: max(v.norm() for v in b.shape.vertices) for b in elements}  # of the corners, from the centre
+    for point in points if len(elements) == len(ids) else ():
+        gaps = [(b.state.pos - _vector(point)).norm() - reach[b.id] for b in elements]
+        if all(gap > 2 * reach[b.id] for gap, b in zip(gaps, elements)):
+            form = f"in the world frame [m] and near one of the bodies: it is {min(gaps):.3g} m away from both"
+            arguments.refuse(ValueError, "connect: points", tuple(float(x) for x in point), form)
 
 
 def yielding(springs, slip):

@@ -4,12 +4,16 @@
 K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point and joint spring, and
 the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A negative omega^2 is an instability.
 Contacts that do not touch have no stiffness: the scene should have settled. Yielding joints have the stiffness with which they unload.
+
+Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
+Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
 """
 from dataclasses import dataclass
 
 import numpy as np
 import yade.wrapper as yw
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import ArpackError, eigsh
 
 from .. import _plugin
@@ -17,7 +21,12 @@ from .. import _plugin
 SHIFT = -1.0
 """Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
 SEARCHED = 40
-"""Number of modes that are computed. [-]"""
+"""Number of modes that are looked at. [-]"""
+SLOWEST = 60.0
+"""Longest period of a mode, and longest 2 pi / sqrt(-omega^2) of an unstable one [s]; slower motions are free.
+Observed: unbraced frames up to 4 s, rounding of free motions 1e8 s."""
+EQUAL = 1e-6
+"""Difference of omega^2 over omega^2 below which modes count as equal [-]; rounding turns the shapes of closer ones."""
 O = yw.Omega()
 
 
@@ -71,19 +80,67 @@ def natural_modes(share=0.05):
 
 def _lowest(found, free):
     """Modes of the lowest omega^2. free: bodies that are not fixed."""
+    free = _held(found, free)
+    if not free:
+        return []
     rows = {b.id: k for k, b in enumerate(free)}
     K, M = stiffness_matrix(found, rows, len(free)), mass_matrix(free)
-    count = min(SEARCHED, 6 * len(free) - 1)
-    try:
-        omega2, vectors = eigsh(K, k=count, M=M, sigma=SHIFT, which="LM")
-    except (ArpackError, RuntimeError):  # no convergence, or a singular factor
-        return
+    omega2, vectors = _vibrations(K, M)
     ground = np.tile(np.eye(6)[:, :3], (len(free), 1))  # unit translations
-    ids = [b.id for b in free]
-    for value, vector in zip(omega2, vectors.T):  # vectors are normalised: x' M x = 1
-        shape = np.zeros((len(O.bodies), 6))
-        shape[ids] = vector.reshape(-1, 6)
-        yield Mode(float(value), shape, (vector @ (M @ ground)) ** 2)
+    modes = []
+    for group in _equal(omega2):
+        vectors[:, group] = _by_convention(vectors[:, group], M @ ground)
+        for vector in vectors[:, group].T:  # vectors are normalised: x' M x = 1
+            shape = np.zeros((len(O.bodies), 6))
+            shape[list(rows)] = vector.reshape(-1, 6)
+            modes.append(Mode(float(omega2[group].mean()), shape, (vector @ (M @ ground)) ** 2))
+    return modes
+
+
+def _held(found, free):
+    """Those of the free bodies that springs join to a fixed one, directly or through others."""
+    rows = {b.id: k for k, b in enumerate(free)}
+    ground = len(free)  # stands for all fixed bodies
+    one, two = np.array([[rows.get(body, ground) for body in pair] for pair in found.body.tolist()]).T
+    links = sparse.coo_matrix((np.ones(len(one)), (one, two)), shape=(ground + 1, ground + 1))
+    _, part = connected_components(links, directed=False)
+    return [b for b, of in zip(free, part) if of == part[ground]]
+
+
+def _vibrations(K, M):
+    """(omega2 (k,), vectors (n, k)) of the lowest modes, ascending; SEARCHED or more, none without convergence."""
+    order, slowest = K.shape[0], (2 * np.pi / SLOWEST) ** 2
+    start = np.random.default_rng(0).normal(size=order)  # ARPACK's own depends on earlier calls
+    omega2, vectors, searched = np.empty(0), np.empty((order, 0)), 0
+    while len(omega2) < SEARCHED and searched < order - 1:
+        searched = min(max(SEARCHED, searched + SEARCHED - len(omega2)), order - 1)
+        try:
+            omega2, vectors = eigsh(K, k=searched, M=M, sigma=SHIFT, which="LM", v0=start)
+        except (ArpackError, RuntimeError):  # no convergence, or a singular factor
+            return np.empty(0), np.empty((order, 0))
+        chosen = np.argsort(omega2, kind="stable")
+        chosen = chosen[abs(omega2[chosen]) > slowest]
+        omega2, vectors = omega2[chosen], vectors[:, chosen]
+    return omega2, vectors
+
+
+def _equal(omega2):
+    """Slices of ascending omega2 whose neighbours are equal. [1/s2]"""
+    ends = np.flatnonzero(np.diff(omega2) > EQUAL * abs(omega2[1:])) + 1
+    bounds = [0, *ends.tolist(), len(omega2)]
+    return [slice(a, b) for a, b in zip(bounds, bounds[1:])]
+
+
+def _by_convention(vectors, momentum):
+    """Shapes (n, k) of modes of one omega^2, of which any rotation is a solution.
+
+    The first has all of the effective mass in the direction where that is largest, the second all that is left in the
+    next direction, and so on. vectors (n, k); momentum (n, 3): of unit velocities of the ground
+    """
+    shares = vectors.T @ momentum
+    size = np.linalg.norm(shares, axis=0)
+    directions = np.argsort(-np.round(size / max(size.max(), 1e-300), 6), kind="stable")
+    return vectors @ np.linalg.qr(shares[:, directions], mode="complete")[0]
 
 
 def mass_matrix(free):
