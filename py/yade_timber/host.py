@@ -177,6 +177,12 @@ def load(package: str, directory):
     return plugin, names
 
 
+def has_prompt() -> bool:
+    """Whether a user gets YADE's prompt: there is a terminal, and the session does not end with its script (`-x`)."""
+    runtime = importlib.import_module("yade.runtime")
+    return sys.stdin is not None and sys.stdin.isatty() and not runtime.opts.exitAfter
+
+
 def close_servers():
     """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads that do it.
 

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from yade_timber.base.errors import RunError
+from yade_timber.run import checkpoint
 from yade_timber.run import identity as identities
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion
@@ -120,3 +122,27 @@ def test_files_that_decide_results(package, name, decides):
     with open(package / name, "a") as file:
         file.write("\n# changed\n")
     assert (identities.of_files(identities.decisive_files(package)) != before) is decides
+
+
+def test_another_users_checkpoint_is_not_loaded(tmp_path, monkeypatch):
+    """It can run code."""
+    checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {"wall_s": 1.0})
+    assert checkpoint.load(tmp_path / "a.yade", {"name": "x"}) == {"wall_s": 1.0}
+    owner = (tmp_path / "a.yade").stat().st_uid
+    monkeypatch.setattr(checkpoint.os, "geteuid", lambda: owner + 1)
+    with pytest.raises(RunError, match="another user.*run any code"):
+        checkpoint.load(tmp_path / "a.yade", {"name": "x"})
+
+
+def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch):
+    """As on a full disk."""
+    checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
+    before = (tmp_path / "a.yade").read_bytes()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("yade_timber.base.atomic_write.shutil.copyfileobj", full)
+    with pytest.raises(OSError, match="No space"):
+        checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
+    assert [path.name for path in tmp_path.iterdir()] == ["a.yade"] and (tmp_path / "a.yade").read_bytes() == before

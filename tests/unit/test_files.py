@@ -2,9 +2,14 @@
 # runner: python
 """Complete files, locks, tables. Needs no YADE."""
 import os
+import socket
+import stat
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
-from yade_timber.base.atomic_write import remove_parts, write_text, written_whole
+from yade_timber.base.atomic_write import remove, remove_parts, write_text, written_from_memory, written_whole
 from yade_timber.base.errors import RunError
 from yade_timber.base.lock import is_locked, locked
 from yade_timber.base.input_file import require_regular
@@ -33,11 +38,81 @@ def test_umask(tmp_path, mask, mode):
     assert (tmp_path / "a.txt").stat().st_mode & 0o777 == mode
 
 
-def test_links_are_replaced_not_followed(tmp_path):
-    (tmp_path / "mine").write_text("mine")
-    (tmp_path / "a.txt").symlink_to(tmp_path / "mine")
+@pytest.mark.parametrize("target", ["there", "new"])
+def test_links_stay(tmp_path, target):
+    """To a file, or to one that does not exist yet; the content comes to where it leads."""
+    (tmp_path / "there").write_text("old")
+    (tmp_path / "a.txt").symlink_to(target)
     write_text(tmp_path / "a.txt", "x")
-    assert (tmp_path / "mine").read_text() == "mine" and not (tmp_path / "a.txt").is_symlink()
+    assert (tmp_path / "a.txt").is_symlink() and (tmp_path / target).read_text() == "x"
+    remove(tmp_path / "a.txt")
+    assert (tmp_path / "a.txt").is_symlink() and not (tmp_path / target).exists()
+
+
+def test_a_link_to_nowhere(tmp_path):
+    (tmp_path / "a.txt").symlink_to(tmp_path / "no" / "folder")
+    with pytest.raises(OSError):
+        write_text(tmp_path / "a.txt", "x")
+    (tmp_path / "round").symlink_to("round")
+    with pytest.raises(OSError):
+        write_text(tmp_path / "round", "x")
+    assert names(tmp_path) == ["a.txt", "round"]
+
+
+@pytest.mark.parametrize("link", [False, True])
+def test_a_device_stays(tmp_path, link):
+    """A terminal of our own: in its folder no file can be made, so a fault cannot replace it."""
+    master, slave = os.openpty()
+    device = Path(os.ttyname(slave))
+    if link:
+        (tmp_path / "a.txt").symlink_to(device)
+        device = tmp_path / "a.txt"
+    write_text(device, "x")
+    assert os.read(master, 9) == b"x"
+    remove(device)
+    assert stat.S_ISCHR(device.stat().st_mode) and device.is_symlink() == link
+    os.close(master)
+    os.close(slave)
+
+
+@pytest.mark.parametrize("writer", [written_whole, written_from_memory])
+def test_a_pipe_with_a_reader(tmp_path, writer):
+    """The reader gets the whole content, or nothing when the writer fails."""
+    os.mkfifo(tmp_path / "a.txt")
+    with open(os.open(tmp_path / "a.txt", os.O_RDONLY | os.O_NONBLOCK), "rb") as reader:
+        with writer(tmp_path / "a.txt") as part:
+            part.write_text("whole")
+        assert reader.read() == b"whole"
+        with pytest.raises(ZeroDivisionError), writer(tmp_path / "a.txt") as part:
+            part.write_text("half")
+            1 / 0
+        assert reader.read() == b"" and names(tmp_path) == ["a.txt"]
+
+
+def test_a_pipe_without_a_reader_does_not_wait(tmp_path):
+    os.mkfifo(tmp_path / "a.txt")
+    with pytest.raises(OSError, match="nothing reads"):
+        write_text(tmp_path / "a.txt", "x")
+    assert (tmp_path / "a.txt").is_fifo()
+
+
+def test_what_cannot_be_written(tmp_path):
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(str(tmp_path / "socket"))
+        for path in (tmp_path, tmp_path / "socket", Path("/"), tmp_path / "no" / "folder"):
+            with pytest.raises(OSError):
+                write_text(path, "x")
+    assert names(tmp_path) == ["socket"] and (tmp_path / "socket").is_socket()
+
+
+@pytest.mark.parametrize("path", ["/dev/stdout", "{file}"])
+def test_standard_output(tmp_path, path):
+    """What it holds already, and what follows, stays."""
+    script = f"print('before'); from yade_timber.base.atomic_write import write_text; write_text({path.format(file=tmp_path / 'log')!r}, 'x\\n'); print('after')"
+    with open(tmp_path / "log", "w") as log:
+        subprocess.run([sys.executable, "-c", script], stdout=log, check=True)
+    assert (tmp_path / "log").read_text() == "before\nx\nafter\n"
+    assert subprocess.run([sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")], stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
 
 
 def test_temporary_names_differ_and_keep_the_suffix(tmp_path):
@@ -57,6 +132,23 @@ def test_one_process_a_folder(tmp_path):
     with locked(tmp_path) as first, locked(tmp_path) as second:
         assert first and not second and is_locked(tmp_path)
     assert not is_locked(tmp_path)
+
+
+def test_a_copy_of_the_process_does_not_hold_the_lock(tmp_path):
+    """A drawer that outlives its killed process does not keep others out."""
+    ready, end = os.pipe(), os.pipe()
+    with locked(tmp_path) as free:
+        copy = os.fork()
+        if not copy:
+            os.write(ready[1], b"x")
+            os.read(end[0], 1)
+            os._exit(0)
+        os.read(ready[0], 1)
+    try:
+        assert free and not is_locked(tmp_path)
+    finally:
+        os.write(end[1], b"x")
+        os.waitpid(copy, 0)
 
 
 @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: None])

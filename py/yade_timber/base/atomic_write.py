@@ -1,7 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files that are either complete or absent: written under a temporary name, then renamed. Needs no YADE."""
+"""Files that are either complete or absent: written under a temporary name, then renamed. Needs no YADE.
+
+Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a terminal, a pipe with a reader,
+a character device) gets the content of the complete file; folders, sockets and disks are refused.
+"""
+import errno
 import os
 import secrets
+import shutil
+import stat
+import sys
+import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -11,11 +20,51 @@ PART = ".part-"
 
 @contextmanager
 def written_whole(path):
-    """Give a temporary file beside `path`, with its suffixes, to write to; rename it to `path` at the end, remove it on an error.
+    """Give a temporary file with the suffixes of `path` to write to. At the end it becomes `path`; on an error it is removed.
 
     The file is created exclusively (no link of that name is followed), with the permissions of the user's umask. Raises OSError.
     """
     path = Path(path)
+    with _written_to(path) if _is_stream(path) else _replaced(Path(os.path.realpath(path))) as part:
+        yield part
+
+
+@contextmanager
+def written_from_memory(path):
+    """`written_whole` for writers that end the process on a full disk (YADE, HDF5): they write to a file in memory, which is copied to the disk."""
+    descriptor = os.memfd_create(Path(path).name)
+    with open(descriptor, "rb") as memory:
+        yield Path(f"/proc/self/fd/{descriptor}")
+        with written_whole(path) as part, open(part, "wb") as file:
+            shutil.copyfileobj(memory, file)
+
+
+def _is_stream(path):
+    """Whether content is written to what is at `path` instead of replacing it. Raises OSError for what can be neither written to nor replaced."""
+    try:
+        status = path.stat()
+    except FileNotFoundError:
+        return False
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, "is a folder", str(path))
+    if stat.S_ISBLK(status.st_mode) or stat.S_ISSOCK(status.st_mode):
+        raise OSError(errno.EINVAL, "is a disk or a socket; give a file", str(path))
+    return not stat.S_ISREG(status.st_mode) or _output_of(status) is not None
+
+
+def _output_of(status):
+    """Standard output or error (1, 2) that goes to the file of that status, None when neither does."""
+    for descriptor in (1, 2):
+        try:
+            if os.path.samestat(status, os.fstat(descriptor)):
+                return descriptor
+        except OSError:  # closed
+            pass
+    return None
+
+
+@contextmanager
+def _replaced(path):
     part = path.with_name(f"{PART}{secrets.token_hex(4)}-{path.name}")
     os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     try:
@@ -28,6 +77,32 @@ def written_whole(path):
         raise
 
 
+@contextmanager
+def _written_to(path):
+    with tempfile.TemporaryDirectory() as folder, _opened(path) as stream:
+        part = Path(folder) / path.name
+        part.touch()
+        yield part
+        with open(part, "rb") as content:
+            shutil.copyfileobj(content, stream)
+
+
+def _opened(path):
+    """Stream to what is at `path`, before anything is computed for it. A pipe without a reader is refused: it would wait for ever."""
+    output = _output_of(path.stat())
+    if output is not None:
+        (sys.stdout if output == 1 else sys.stderr).flush()
+        return open(os.dup(output), "wb")
+    try:
+        descriptor = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
+    except OSError as problem:
+        if problem.errno != errno.ENXIO:
+            raise
+        raise OSError(errno.ENXIO, "nothing reads from it; start the reader first", str(path)) from None
+    os.set_blocking(descriptor, True)
+    return open(descriptor, "wb")
+
+
 def _sync(path):
     """Flush a file, or the names in a folder, to the disk, so that a power cut keeps the order of changes."""
     descriptor = os.open(path, os.O_RDONLY)
@@ -35,6 +110,12 @@ def _sync(path):
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def remove(path):
+    """Remove the regular file that a path or its links lead to, if there is one. Links and what can be written to stay. Raises OSError for all else."""
+    if not _is_stream(Path(path)):
+        Path(os.path.realpath(path)).unlink(missing_ok=True)
 
 
 def remove_parts(folder):

@@ -7,25 +7,41 @@ from contextlib import contextmanager
 from .errors import RunError
 
 LOCK = ".lock"
+_descriptors = set()
+"""Open lock files of this process."""
 
 
 @contextmanager
 def locked(folder):
-    """True while this process alone has the folder, False when another process has it. Raises RunError."""
+    """True while this process alone has the folder, False when another process has it. Copies of the process (fork) do not have it. Raises RunError."""
     try:
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
     except OSError as problem:
         raise RunError(f"{folder / LOCK}: cannot be opened: {problem.strerror}") from None
+    _descriptors.add(descriptor)
+    try:
+        yield _acquired(descriptor)
+    finally:
+        _descriptors.discard(descriptor)
+        os.close(descriptor)
+
+
+def _acquired(descriptor):
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
+        return False
+    return True
+
+
+def _close_in_copy():
+    """In a copy of the process, which would hold the lock for as long as it lives."""
+    for descriptor in _descriptors:
         os.close(descriptor)
-        yield False
-        return
-    try:
-        yield True
-    finally:
-        os.close(descriptor)
+    _descriptors.clear()
+
+
+os.register_at_fork(after_in_child=_close_in_copy)
 
 
 def is_locked(folder):

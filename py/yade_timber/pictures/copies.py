@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Copies of this process (fork), which draw while it does something else. What it has loaded, they have: frames need not be sent. Needs no YADE."""
+import ctypes
 import gc
 import multiprocessing
 import os
 import signal
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from ..base.errors import RunError
 
 fork = multiprocessing.get_context("fork")
+PR_SET_PDEATHSIG = 1
+"""Of prctl(2): the signal that a process gets when the one that made it ends."""
 WAITING = "IPythonHistorySavingThread"
 """Thread that YADE has from IPython; it waits until a user types a line."""
 
@@ -32,25 +35,29 @@ def ahead(make):
         yield make()
         return
     receiver, sender = fork.Pipe(duplex=False)
-    fork.Process(target=_send_all, args=(make, sender, receiver), daemon=True).start()
+    fork.Process(target=_send_all, args=(make, sender, receiver, os.getpid()), daemon=True).start()
     sender.close()
     with receiver:  # when it is closed, a copy that is not at its end stops
         yield _received(receiver)
 
 
-def _send_all(make, sender, receiver):
-    """In the copy: send all items. Ctrl-C ends it with the other process only."""
+def _send_all(make, sender, receiver, original):
+    """In the copy: send all items. Ctrl-C ends it with the process `original` only, a kill of that one ends it at once."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != original:  # killed before
+        return
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.freeze()  # leaves the other process's objects out of garbage collections, which take a tenth of the time
     receiver.close()
-    try:
-        for item in make():
-            sender.send(item)
-        sender.send(StopIteration())
-    except BrokenPipeError:
-        pass
-    except Exception as problem:
-        sender.send(problem)
+    with suppress(BrokenPipeError):  # the other process does not want more
+        try:
+            for item in make():
+                sender.send(item)
+            sender.send(StopIteration())
+        except BrokenPipeError:
+            raise
+        except Exception as problem:
+            sender.send(problem)
 
 
 def _received(receiver):

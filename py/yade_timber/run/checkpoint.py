@@ -3,14 +3,18 @@
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that line. YADE's loader
 stops before it, so the file also opens with `O.load`. The binary format keeps every bit of every number.
+
+A checkpoint is code: YADE creates whatever engines the file names, a PyRunner too, and no part of its format can be checked before. `sha256` finds
+damage, not forgery.
 """
 import hashlib
 import json
+import os
 from pathlib import Path
 
 import yade.wrapper as yw
 
-from ..base.atomic_write import written_whole
+from ..base.atomic_write import written_from_memory
 from ..base.encoding import encodable
 from ..base.errors import RunError
 from ..base.input_file import require_regular
@@ -25,11 +29,10 @@ def save(path, identity, progress):
 
     A kill at any moment leaves a complete file, the earlier or the new one.
     """
-    with written_whole(path) as part:
-        with encodable(part) as name:
-            O.save(name, quiet=True)
-        seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(part.read_bytes()).hexdigest()}
-        with open(part, "ab") as file:
+    with written_from_memory(path) as memory:
+        O.save(str(memory), quiet=True)
+        seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
+        with open(memory, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
 
 
@@ -37,6 +40,7 @@ def load(path, identity):
     """Load the saved scene into YADE; returns `progress` as saved. Raises RunError when the file is damaged or has another identity."""
     path = Path(path)
     require_regular(path)
+    _require_own(path)
     try:
         body, _, line = path.read_bytes().rpartition(b"\n")
         seal = json.loads(line)
@@ -54,6 +58,12 @@ def load(path, identity):
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
     return seal["progress"]
+
+
+def _require_own(path):
+    """Raise RunError for a file of another user: to load it is to run their code."""
+    if path.stat().st_uid != os.geteuid():
+        raise RunError(f"{path}: belongs to another user, and a checkpoint can run any code; copy it if you trust its origin, or {REMEDY}")
 
 
 def _require_same(path, saved, wanted):

@@ -42,13 +42,12 @@ def launch(read, ensemble, argv=None):
 
 def _run(session, scenario, output):
     """Run to the end, or start a live run; returns the Run."""
-    import yade.runtime
-
+    from ..host import has_prompt
     from .cli import TownPlan
 
     if isinstance(scenario, TownPlan):
         return session.complete_town(scenario, output)
-    if yade.runtime.opts.exitAfter or not sys.stdin.isatty():
+    if not has_prompt():
         return session.complete(scenario, output)
     started = session.start(scenario, output)
     print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {output.folder} at the end")

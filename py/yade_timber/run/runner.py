@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import yade.wrapper as yw
 
-from ..base.atomic_write import remove_parts
+from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..pictures import REPORT, all_pictures
 from ..recording import ensemble, frames
@@ -218,9 +218,10 @@ class Run:
                 if self.recorder:
                     self.recorder.save(self.frames_path)
                 checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, **self.observer.progress()})
-            except (OSError, RuntimeError) as problem:  # of YADE's writer
-                fault = f"cannot be written ({problem}); the run stops at {O.time:.2f} s, the previous checkpoint is intact"
-                raise RunError(f"{self.checkpoint_path}: {fault}") from None
+            except OSError as problem:
+                remedy = "the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists() else "there is no earlier one"
+                fault = f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
+                raise RunError(f"{self.output.folder}: {fault}") from None
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
@@ -279,8 +280,7 @@ def clear(folder, *more):
     """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises RunError."""
     try:
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
-            (folder / name).unlink(missing_ok=True)
-        remove_parts(folder)
+            remove(folder / name)
     except OSError as problem:
         raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
 

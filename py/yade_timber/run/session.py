@@ -6,7 +6,8 @@ from contextlib import ExitStack, contextmanager
 import yade.runtime
 import yade.wrapper as yw
 
-from .. import _plugin, host
+from .. import _plugin
+from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
 from ..base.interrupt import deferred_interrupt
 from ..base.lock import locked
@@ -55,10 +56,9 @@ def _built(kind, scenario, output, stack):
 @contextmanager
 def reserved(folder):
     """Make the folder of the results, which this process alone has until the end of the block. Raises RunError."""
-    if yade.runtime.opts.exitAfter:
-        host.close_servers()
     prepare_folder(folder)
     with locked(folder) as free:
         if not free:
             raise RunError(f"{folder}: another process computes a run there; wait for it, or choose another folder with --out")
+        remove_parts(folder)
         yield

@@ -87,8 +87,8 @@ def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
         "versions": versions(),
     }
     found["cut_off"] = cut_off or created_too_much(found["energy"])
-    found["diagnosis"]["disagreement"] = comparison(found["diagnosis"], found["collapsed"])
     found["structures"] = structures(found, observed, state)
+    found["diagnosis"]["disagreement"] = comparison(found["diagnosis"], found)
     found["quantities"] = quantities.summarised(tables, observed)
     return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 import yade.wrapper as yw
 
 from .. import _plugin
-from ..base.atomic_write import write_text
+from ..base.atomic_write import remove, remove_parts, write_text
 from ..base.errors import InputError, RunError
 from ..base.table import csv_text
 from ..house.town import check_places
@@ -48,7 +48,9 @@ class TownRun:
         self.idle = O._sceneObj
         try:
             for name in NAMES:
-                (output.folder / name).unlink(missing_ok=True)
+                remove(output.folder / name)
+            for _, lot_output in plans:
+                remove_parts(lot_output.folder)
         except OSError as problem:
             raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
 
