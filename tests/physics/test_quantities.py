@@ -7,7 +7,7 @@ import yade_timber as yt
 from yade_timber.motion import GroundMotion
 from yade_timber.recording.frames import Motion
 from yade_timber.recording.quantities import storeys
-from yade_timber.scene.modes import natural_modes
+from yade_timber.scene.modes import SLOWEST, natural_modes
 
 O = yw.Omega()
 KN, KS = 58800.0, 40000.0
@@ -46,6 +46,32 @@ def test_period_of_a_one_mass_frame():
     sway = [mode for mode in natural_modes() if max(mode.mass[:2]) > 0.5 * mass][:2]
     assert [mode.period for mode in sway] == pytest.approx([2 * np.pi * np.sqrt(mass / stiffness)] * 2, rel=5e-4)
     assert sum(mode.mass for mode in natural_modes(0.0))[:2] == pytest.approx([mass, mass], rel=1e-3)  # of all modes: the whole mass
+
+
+def test_free_motions_are_no_modes():
+    """A heavy block in the air, and one on a single spring point, about which it turns freely.
+
+    The frame's modes are those without them, but for the shares of the mass; the second block vibrates on its point.
+    """
+    frame()
+    expected = [mode.period for mode in natural_modes(0.0)]
+    O.bodies.append(yt.box((1, 1, 1), (20, 0, 5)))
+    hung = O.bodies.append(yt.box((1, 1, 1), (0, 20, 5)))
+    yt.connect(0, hung, [(0, 20, 5.5)], (0, 0, 1), (KN, KN), 1e9)
+    periods = [mode.period for mode in natural_modes(0.0)]
+    assert max(periods) < SLOWEST and min(period for period in periods if period > 0) > 0
+    of_frame = [period for period in periods if min(abs(period / own - 1) for own in expected) < 1e-6]
+    assert of_frame == pytest.approx(expected, rel=1e-6) and len(periods) == len(expected) + 3
+
+
+def test_equal_modes_have_one_set_of_shapes():
+    """The two sways of a square frame are along the axes and the same in every call; ARPACK alone gives others in each."""
+    frame()
+    one, other = ([(mode.omega2, mode.shape.tolist()) for mode in natural_modes()] for _ in range(2))
+    assert one == other
+    one = natural_modes()
+    assert one[0].omega2 == one[1].omega2
+    assert np.array([mode.mass[:2] / max(mode.mass) for mode in one[:2]]) == pytest.approx(np.eye(2), abs=1e-9)
 
 
 def pendulum(mass_density):

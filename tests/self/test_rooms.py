@@ -27,13 +27,15 @@ FORBIDDEN = {
     "study": {"api"},
 }
 """Room: what its modules must not import. api may import everything."""
-STUDY = {"options", "driver", "batch", "ensemble", "retrofit"}
+STUDY = {"options", "driver", "batch", "ensemble", "retrofit", "own_weight", "other_walls"}
 FORBIDDEN_IN_STUDY = {
     "options": STUDY - {"options"},
     "driver": STUDY - {"driver"},
     "batch": {"options", "ensemble", "retrofit"},
     "ensemble": {"options", "batch", "retrofit"},
     "retrofit": {"options", "ensemble"},
+    "own_weight": STUDY - {"own_weight", "driver"},
+    "other_walls": STUDY - {"other_walls", "driver"},
 }
 """Part of study, a module or a folder: the parts that it must not import."""
 

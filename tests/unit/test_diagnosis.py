@@ -45,11 +45,17 @@ def test_tiled_house():
 def test_house_that_is_not_symmetric():
     """Side wing: both N-S braces on its east line, 2.275 m from its middle; four E-W ones on lines 3.64 m apart.
 
-    Torsion: E-W 3.64 m x 1.82^2 m2; radius^2 = torsion / 3.64 m of N-S quantity = 1.82^2; Re = 2.275 / 1.82 = 1.25.
+    Torsion: E-W 3.64 m x 1.82^2 m2; radius^2 = torsion / 3.64 m of N-S quantity = 1.82^2.
+    Mass: floor, beams, roof and columns lie symmetric to the middle; the four braces of storey 2, 45 x 90 x 2878 mm, lie 2.275 m (two) and
+    1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter than the diagonal, 2e-4 of Re, and Re is rounded to 5e-4.
     """
     one = side("l_house", "side", "1", "ns")
     assert one["wall_quantity_m"] == pytest.approx(2 * 2 * 0.91, abs=1e-3)
-    assert one["eccentricity"] == pytest.approx(1.25, abs=0.02)  # the floor is not quite symmetric: it ends flush with the main wing
+    floor, roof = 4.67 * 3.76 * 0.20, 4.67 * 3.76 * 0.12 * 1.16**0.5
+    beams, columns = 2 * 0.12**2 * (2 * 3.76 + 2 * 4.43), 18 * 0.12**2 * 2.73
+    brace = 0.045 * 0.09 * 2.878
+    shift = brace * 2 * (2.275 + 1.82) / (floor + roof + beams + columns + 4 * brace)
+    assert one["eccentricity"] == pytest.approx((2.275 - shift) / 1.82, abs=7e-4)
     assert one["quarters"][0] == 0 and not one["balanced"] and one["ekfl"] == 0.5
     area = 4.55 * 3.64
     assert one["iw"] == pytest.approx(0.5 * (1.96 * 3.64 + 0.25 * 0.83 * area) / (0.83 * area), abs=1e-3)
@@ -75,6 +81,30 @@ def test_rules():
     assert [judgement(iw)[:5] for iw in (1.5, 1.0, 0.7, 0.69)] == ["will ", "unlik", "may c", "likel"]
 
 
+def test_headline_is_the_weakest_of_all_structures():
+    known = diagnosis("l_house")
+    assert (known["iw"], known["iw_at"]) == (side("l_house", "side", "1", "ns")["iw"], "side, storey 1, N-S")
+    assert "0.38 (side, storey 1, N-S)" in known["sentence"]
+
+
+def run_of(collapsed, peak_gal=None, snow=0.0):
+    record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
+    return {"structures": {"main": {"collapsed": collapsed}}, "earthquake": bool(peak_gal), "record": record, "snow_depth_m": snow}
+
+
+def known_index(iw, broken=0):
+    return {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken}
+
+
 def test_disagreement():
-    assert [bool(comparison({"iw": iw}, fell)) for iw, fell in ((1.2, True), (1.2, False), (0.5, True), (0.5, False), (None, True))] \
-        == [True, False, False, True, False]
+    cases = ((1.2, True, 900), (1.2, False, 900), (0.5, True, 900), (0.5, False, 300), (None, True, 900), (0.5, False, None), (1.2, True, None))
+    assert [bool(comparison(known_index(iw), run_of(fell, peak))) for iw, fell, peak in cases] == [True, False, False, True, False, False, True]
+
+
+def test_disagreement_names_this_run():
+    assert comparison(known_index(0.5), run_of(False, 300)) == ("Main stands although its Iw is 0.50; this run: peak acceleration 3.0 m/s2, "
+                                                                "weaker than the 4 m/s2 of the index's earthquake.")
+    assert comparison(known_index(1.2, 8), run_of(True, 910, 1.0)) == (
+        "Main collapsed although its Iw is 1.20; this run: peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; "
+        "snow 1 m; 8 joints broken from the start.")
+    assert comparison(known_index(1.2), run_of(True, snow=2.0)).endswith("this run: no earthquake; snow 2 m.")

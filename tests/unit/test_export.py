@@ -138,7 +138,7 @@ def test_yielding_joint(tmp_path):
     plate = body("plate", timber(OAK, "oak"), fixed=True)
     O.dt, O.engines = 1e-4, yt.engines()
     joint = yt.connect(post, plate, POINTS[:2], stiffness=(1e5, 1e5), strength=600.0, slip=yt.SlipLaw(0.01, 0.03, 0.25))
-    joint.updateAttrs({"plasticStretches": [(0.001, 0, 0.002), (0, 0, 0)], "largestStretches": [0.008, 0.001]})
+    yt.scene.attributes._update_attributes(joint, {"plasticStretches": [(0.001, 0, 0.002), (0, 0, 0)], "largestStretches": [0.008, 0.001]})
     O.bodies[post].state.ori = quaternion(LEAN)
     slip = written(tmp_path)["joints"][0]["slip"]
     assert (slip["friction_share"], slip["softening_stretch"], slip["ultimate_stretch"]) == (0.25, 0.01, 0.03)

@@ -57,6 +57,10 @@ def test_brace_layout_of_c():
     assert north_south == 13 > len(first) - north_south
 
 
+GABLED = ("l_house", "storehouse")
+"""Houses whose roofs have two slabs that share a ridge."""
+
+
 @pytest.mark.parametrize("name", HOUSES + EXAMPLES)
 def test_no_overlap_and_every_joint_on_both_surfaces(name):
     model = house(name)
@@ -66,7 +70,10 @@ def test_no_overlap_and_every_joint_on_both_surfaces(name):
         for end, sign in ((joint.a, 1), (joint.b, -1)):
             solid = model.element(end).solid
             normals, offsets = np.array([f.normal for f in solid.faces]), np.array([f.offset for f in solid.faces])
-            height = (joint.points @ normals.T - offsets).max(1)
+            tied = joint.kind == "roof_roof" and name in GABLED  # two springs at the tie beams, at the level of the wall plates
+            points = joint.points[joint.points[:, 2] > solid.vertices[:, 2].min() + 1e-9] if tied else joint.points
+            assert len(points) == (2 if tied else 4), joint.name
+            height = (points @ normals.T - offsets).max(1)
             assert np.abs(height).max() < 1e-9, (joint.name, height)
             assert sign * joint.normal @ (joint.points[0] - solid.centroid) > 0
         spacing = np.linalg.norm(joint.points[:, None] - joint.points[None], axis=2)[np.triu_indices(4, 1)]

@@ -221,6 +221,44 @@ def test_two_threads_do_what_one_does(tmp_path, shove, straight):
     assert_same_results(straight, tmp_path)
 
 
+SHED = """extends: base
+name: shed
+snow: {depth: 0.5}
+structures:
+  shed:
+    place: {origin: [0, 0]}
+    grid: {x: {module: 1.2, count: 2}, y: {module: 1.2, count: 2}}
+    margin: 0.06
+    lines: [{along: y, at: [0, 2], from: 0, to: 2}, {along: x, at: [0, 2], from: 0, to: 2, cut: true}]
+    stack:
+      - {layer: sill, height: 0.12, width: 0.12}
+      - {layer: columns, height: 2.2}
+      - {layer: beams, height: 0.12, width: 0.12}
+      - {layer: roof, type: gable, pitch: 1.0, thickness: 0.1, material: roofing}
+    columns: [{section: 0.12, grid: {x: [0, 2], y: [0, 2]}}]
+    braces: {lines: [{along: y, at: [0, 2], runs: [[0, 2]]}, {along: x, at: [0, 2], runs: [[2, 0]]}]}
+"""
+"""House file of a frame whose steep roof loses its snow: loose members, and equal periods of equal parts."""
+
+
+def test_summary_is_the_same_to_the_last_digit(tmp_path):
+    """Natural modes included: with one and two threads, and after a resume. Free motions are none of them."""
+    house = tmp_path / "shed.yaml"
+    house.write_text(SHED)
+    options = [house, "--quake", "--scale", 0.05, "--start", 18, "--no-views", "--quiet", "--checkpoint", 0.5]
+    straight, two, resumed = (tmp_path / name for name in ("straight", "two", "resumed"))
+    runs = ((straight, 1.6, 1), (two, 1.6, 2), (resumed, 1.2, 1), (resumed, 1.6, 1))
+    for folder, duration, threads in runs:
+        again = ["--resume"] if folder.exists() else []
+        done = run("house", *options, "--duration", duration, "--out", folder, *again, threads=threads)
+        assert done.returncode == 0, done.stderr
+    assert_same_results(straight, two)
+    assert_same_results(straight, resumed)
+    modes = summary(straight)["quantities"]["modes"]
+    assert all(mode["period_s"] is None or mode["period_s"] < 60 for when in modes.values() for mode in when["modes"])
+    assert [mode["direction"] for mode in modes["before"]["modes"]] == ["ew", "ns"] and len(modes["after"]["modes"]) > 2
+
+
 def test_killed_and_resumed(tmp_path, shove, straight):
     """SIGKILL right after a checkpoint and again later: the end is the same to the last bit."""
 

@@ -14,7 +14,7 @@ import graded_houses as graded  # noqa: E402
 import kobe_like  # noqa: E402
 import shear_model as shear  # noqa: E402
 import wall_grades as grades  # noqa: E402
-from house_storeys import AXES, column_ends, wall_joints  # noqa: E402
+from house_storeys import AXES, column_ends, wall_joints, wall_springs  # noqa: E402
 
 HEIGHT = 2.73
 """[m]"""
@@ -104,20 +104,29 @@ def test_factors_meet_the_required_quantity():
     assert factors[2, "ns"] == pytest.approx(1.25 * 0.21 * 7.28 * 6.37 / (0.91 * 48.8))
 
 
-@pytest.mark.parametrize("level", grades.STRENGTH_RATIOS)
+@pytest.mark.parametrize("level", graded.LEVELS)
 def test_a_graded_house_has_its_walls(level, tmp_path):
-    """All bays of tiled_house with the factor; only boards without a softening drift of their own have the mean."""
-    plain = grades.build_house(grades.load_house(grades.HOUSE))
+    """All bays of tiled_house, each sheet with the factor, at every drift."""
+    plain = grades.build_house(grades.load_house(grades.HOUSE), wall_level=level)
     factors = grades.factors(plain, grades.changed_house(grades.HOUSE)["wall_types"], 1.5)
     model = grades.build_house(grades.load_house(grades.house_file(tmp_path, 1.5, level)))
     for (storey, direction), factor in factors.items():
         before, after = (wall_joints(m, storey, direction) for m in (plain, model))
-        stronger = grades.STRENGTH_RATIOS[level] / 1.5
         assert len(after) == len(before)
         assert sum(j.kn for j in after) == pytest.approx(factor * sum(j.kn for j in before))
-        boards = [j for j in after if j.type.startswith("plywood")]
-        rated = sum(j.strength for j in before if j.type == "plywood")
-        assert sum(j.strength for j in boards) == pytest.approx(factor * stronger * rated)
+        assert sum(j.strength for j in after) == pytest.approx(factor * sum(j.strength for j in before))
+
+
+@pytest.mark.parametrize("level", graded.LEVELS)
+def test_springs_have_the_envelopes_of_their_walls(level):
+    """Both halves of a wall at the same drift: twice the sum of the springs between the beams."""
+    model = grades.build_house(grades.load_house(grades.HOUSE), wall_level=level)
+    low, high = model.storey_levels["main"][1]
+    springs = wall_springs(model, 1, "ew", high - low)
+    for drift in (0.005, 0.02, 0.06):
+        joints = wall_joints(model, 1, "ew")
+        shears = [np.interp(drift * (high - low), *np.transpose([(0, 0), *j.envelope])) for j in joints]
+        assert sum(spring.shear(drift) for spring in springs) == pytest.approx(2 * sum(shears), rel=1e-6)
 
 
 def test_column_ends_by_hand():

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Short forms of tests/stress/test_collapses.py (label `stress`): a frame of light members, a house under snow, a heap."""
+import pathlib
+import sys
+from dataclasses import replace
+from math import nan
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
+
+import pytest  # noqa: E402
+from collapses import Case, Heap, expect_sound, frames, outcome  # noqa: E402
+
+CASES = [
+    replace(frames()[3], duration=4.0),
+    Case("tiled house", "tiled_house", 2.0, 1, start=20.0, duration=3.0, snow=1.0),
+    Heap("heap", 0, duration=3.0),
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
+def test_sound(case):
+    """No error, finite energies, no energy created, no step that ends before its sweeps have converged."""
+    expect_sound([outcome(case)])
+
+
+def test_a_fault_is_seen():
+    """Of a sound outcome with one number changed."""
+    sound = outcome(Heap("heap", 0, duration=0.1))
+    expect_sound([sound])
+    for name, value in {"error": "body 3 left", "created": 2e-4, "negative": 1e-8, "change": nan, "residual": nan}.items():
+        with pytest.raises(AssertionError, match="heap: "):
+            expect_sound([replace(sound, **{name: value})])
