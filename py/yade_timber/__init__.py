@@ -29,6 +29,8 @@ IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual",
 if _host.running():
     import yade.wrapper as _wrapper
 
+    if not _host.has_prompt():
+        _host.close_servers()
     _plugin, _class_names = _host.load(__name__, __path__[0])
     _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
     globals().update(_classes)

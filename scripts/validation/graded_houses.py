@@ -9,9 +9,9 @@ The tests to compare with: three houses on the shaking table of Tsukuba under JM
 storey 1 collapses; 1.25: stands with loosened joints; 1.5: stands, 1/26 on the open south face. Their plans are not
 public; the plan here is that of tiled_house (wall_grades.py).
 
-Levels. design: walls that just pass the test of their multiplier, largest over allowable shear 1.5; mean: boards as
-tested, 2.8. The runs take half a minute of computing each and can be stopped; the same command continues. Table and
-figure have the name of the folder of the runs. Peaks compare best where no storey is lost, at half of the motion:
+Levels: those of walls of a rated multiplier (docs/house_files.md).
+The runs take half a minute of computing each and can be stopped; the same command continues. Table and figure have the
+name of the folder of the runs. Peaks compare best where no storey is lost, at half of the motion:
 
     scripts/validation/graded_houses.py --record PREFIX --start 6 --end 18 --scale 0.5 --seeds 1 --out results/half_kobe
 """
@@ -30,13 +30,13 @@ from matplotlib import pyplot  # noqa: E402
 from house_storeys import AXES, shear_storeys  # noqa: E402
 from kobe_like import kobe_like  # noqa: E402
 from shear_model import LIMIT, first_period, response  # noqa: E402
-from wall_grades import STRENGTH_RATIOS, STRUCTURE, house_file  # noqa: E402
+from wall_grades import STRUCTURE, house_file  # noqa: E402
 
 from yade_timber.api.result import load_run  # noqa: E402
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.house import build_house, load_house  # noqa: E402
+from yade_timber.house import LEVELS, build_house, load_house  # noqa: E402
 from yade_timber.motion import processing, read_motion, write_csv  # noqa: E402
 from yade_timber.study.driver import Task, run_missing  # noqa: E402
 from yade_timber.study.options import (  # noqa: E402
@@ -157,7 +157,7 @@ def main():
     for folder in (given.out, to):
         folder.mkdir(parents=True, exist_ok=True)
     motion, words = motion_of(given, given.out)
-    levels = selected(given.levels, STRENGTH_RATIOS, "--levels")
+    levels = selected(given.levels, LEVELS, "--levels")
     files = {(grade, level): house_file(given.out, grade, level) for level in levels for grade in GRADES}
     runs = tasks(files, words, given.seeds, given.out)
     run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)

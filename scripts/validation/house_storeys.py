@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Storeys of the lumped-mass model (shear_model.py) from a house of the package. Needs no YADE."""
 import numpy as np
-from shear_model import Storey, slip_spring
+from shear_model import SlipSpring, Storey, slip_spring
 
 from yade_timber.base.gravity import mass_of
 from yade_timber.base.joint_kinds import WALL_BEAM
@@ -34,12 +34,14 @@ def wall_joints(model, storey, direction):
 
 
 def wall_springs(model, storey, direction, height):
-    """A SlipSpring for each type of the walls of a storey: both halves, whose stretch is the drift times the height."""
+    """A SlipSpring for each form of envelope in a storey: both halves of walls, whose stretch is the drift times the height."""
     sums = {}
     for j in wall_joints(model, storey, direction):
-        shape = j.friction_share, j.softening_stretch / height, j.ultimate_stretch / height
-        sums[shape] = sums.get(shape, 0.0) + np.array([j.kn * height, j.strength]) / SHARE
-    return [slip_spring(*values, *shape) for shape, values in sums.items()]
+        stretches, forces = np.transpose(j.envelope)
+        form = j.friction_share, tuple(np.round(stretches / height, 9))
+        sums[form] = sums.get(form, 0.0) + np.array([j.kn * height, *forces]) / SHARE
+    return [SlipSpring(stiffness, share, list(zip(drifts, forces)))
+            for (share, drifts), (stiffness, *forces) in sums.items()]
 
 
 def column_ends(data, columns, width, height):

@@ -9,14 +9,10 @@ from house_storeys import AXES, wall_joints
 from yade_timber.base.atomic_write import write_text
 from yade_timber.house import build_house, changed_house, load_house
 from yade_timber.house.parser import house_text
-from yade_timber.house.walls import ALLOWABLE, STIFFNESS_RATIO
 from yade_timber.house.weight import floor_area
 
 HOUSE, STRUCTURE, MODULE = "tiled_house", "main", 0.91
 """The plan, its structure, and its module [m]."""
-STRENGTH_RATIOS = {"design": 1.5, "mean": 2.8}
-"""Largest over allowable shear [-]: least by which a test gives a multiplier, and mean of tested boards and mud walls
-(six boards 2.6 to 3.3, mud 2.8 to 3.3)."""
 REQUIRED = {"light": (0.29, 0.15), "heavy": (0.33, 0.21)}
 """Length of wall of multiplier 1 per floor area, storeys 1 and 2 of a house of two storeys, light and heavy roof [m/m2]
 (Enforcement Order of the Building Standard Law, Article 46, paragraph 4, table 2, as in force until March 2025)."""
@@ -59,14 +55,6 @@ def required_quantity(model, storey, roof):
     return REQUIRED[roof][storey - 1] * floor_area(model, STRUCTURE, storey)
 
 
-def strength_ratio(table, level):
-    """Of a wall type, largest over allowable shear [-].
-
-    Sheets with a softening drift of their own, mortar and gypsum, keep the least one: the mean is that of other boards.
-    """
-    return STRENGTH_RATIOS["design" if "softening_drift" in table else level]
-
-
 def listed(value):
     """A list, or one value alone, as a house file may have it."""
     return value if isinstance(value, (list, tuple)) else [value]
@@ -79,17 +67,13 @@ def graded_house(grade, level):
     walls, types = [], {}
     for (storey, direction), factor in factors(model, data["wall_types"], grade).items():
         for name, table in data["wall_types"].items():
-            allowable = ALLOWABLE * factor * table["multiplier"]
-            types[f"{name}{storey}{direction}"] = {
-                **{key: value for key, value in table.items() if key != "multiplier"},
-                "strength": strength_ratio(table, level) * allowable,
-                "stiffness": STIFFNESS_RATIO * allowable,
-            }
+            types[f"{name}{storey}{direction}"] = {**table, "multiplier": factor * table["multiplier"]}
         for line in data["structures"][STRUCTURE]["walls"]:
             if line["along"] == "xy"[AXES[direction]] and storey in listed(line.get("storeys", (1, 2))):
                 names = [f"{name}{storey}{direction}" for name in listed(line["type"])]
                 walls.append({**line, "storeys": [storey], "type": names})
     data["structures"][STRUCTURE]["walls"], data["wall_types"] = walls, types
+    data["law"]["wall_level"] = level
     data["name"] = f"graded_{grade:g}_{level}"
     return data
 

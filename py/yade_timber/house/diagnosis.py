@@ -47,21 +47,23 @@ class RatedBay:
 
 
 def diagnose(model):
-    """The part `diagnosis` of summaries: least iw and wall quantity of the first structure, as its verdict, and the numbers of each structure.
+    """The part `diagnosis` of summaries: the least iw and wall quantity ratio of all structures, where they are, and the numbers of each one.
 
     None for numbers that the rules do not give: more than three storeys, a structure without floor area.
     """
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
-    sides = list(_sides(next(iter(structures.values()))))
-    indices = [side["iw"] for side in sides if side["iw"] is not None]
-    quantities = [side["wall_quantity_ratio"] for side in sides if side["wall_quantity_ratio"] is not None]
-    weakest = min(indices, default=None)
-    found = {"iw": weakest, "judgement": judgement(weakest), "wall_quantity_ratio": min(quantities, default=None), "structures": structures}
-    return {**found, "sentence": sentence(found)}
+    iw, iw_at = _least(structures, "iw")
+    ratio, ratio_at = _least(structures, "wall_quantity_ratio")
+    known = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio, "wall_quantity_at": ratio_at,
+             "broken_from_start": sum(joint.broken for joint in model.joints), "structures": structures}
+    return {**known, "sentence": sentence(known)}
 
 
-def _sides(structure):
-    return (side for storey in structure["storeys"].values() for side in storey["directions"].values())
+def _least(structures, key):
+    """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without any."""
+    values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}") for group, structure in structures.items()
+              for storey, known in structure["storeys"].items() for name, side in known["directions"].items() if side[key] is not None]
+    return min(values, key=lambda value: value[0], default=(None, None))
 
 
 def judgement(iw):
@@ -70,23 +72,40 @@ def judgement(iw):
 
 
 def sentence(diagnosis):
-    """'seismic index Iw 0.54: likely to collapse under a very rare earthquake; wall quantity 61 % of the required one', for people."""
+    """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...', for people."""
     if diagnosis["iw"] is None:
         return "no seismic index: the rules are for one to three storeys with a floor area"
-    return (f"seismic index Iw {diagnosis['iw']:.2f}: {diagnosis['judgement']} under a very rare earthquake; "
-            f"least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one")
+    return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare earthquake; "
+            f"least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one ({diagnosis['wall_quantity_at']})")
 
 
-def comparison(diagnosis, collapsed):
-    """One sentence where the index and the outcome of a run disagree, and why; '' where they agree."""
-    iw = diagnosis["iw"]
-    if iw is None or collapsed == (iw < 1.0):
-        return ""
-    if collapsed:
-        return (f"The house collapsed although Iw is {iw:.2f}: the index counts walls against a standard earthquake and assumes sound joints; "
-                "the run has this motion, this snow and these joints.")
-    return (f"The house stands although Iw is {iw:.2f}: the index is for a very rare earthquake and standard weights; "
-            "the run has this motion and the weight of this house.")
+def comparison(diagnosis, found):
+    """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run; '' if none does.
+
+    found: summary. Without an earthquake a structure that stands agrees with every index.
+    """
+    for name, facts in found["structures"].items():
+        iw = _least({name: diagnosis["structures"].get(name, {"storeys": {}})}, "iw")[0]
+        stands_untested = not facts["collapsed"] and not found["earthquake"]
+        if iw is None or facts["collapsed"] == (iw < 1.0) or stands_untested:
+            continue
+        outcome = "collapsed" if facts["collapsed"] else "stands"
+        return f"{name.capitalize()} {outcome} although its Iw is {iw:.2f}; this run: {_circumstances(diagnosis, found)}."
+    return ""
+
+
+def _circumstances(diagnosis, found):
+    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from the start'."""
+    parts = ["no earthquake"]
+    if found["earthquake"]:
+        peak = max(found["record"]["pga_gal"][axis] for axis in DIRECTIONS) / 100
+        than = "stronger" if peak > rules.VERY_RARE_PEAK else "weaker"
+        parts = [f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's earthquake"]
+    if found["snow_depth_m"]:
+        parts.append(f"snow {found['snow_depth_m']:g} m")
+    if diagnosis["broken_from_start"]:
+        parts.append(f"{diagnosis['broken_from_start']} joints broken from the start")
+    return "; ".join(parts)
 
 
 def _structure(model, group):

@@ -153,12 +153,15 @@ def envelope(table, level):
 
 
 def multiplier(table):
-    """Wall multiplier of a type: its own, else from its envelope the lesser of the shear at 1/120 and two thirds of the largest. [-]
+    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
 
-    The other two loads by which a test is evaluated, at yield and from the ductility, are left out. (Evaluation of walls with pinned feet)
+    Allowable shear of nails: nails.py; of other envelopes: the lesser of the shear at 1/120 and two thirds of the largest one. The two other
+    loads by which tests with pinned feet are evaluated, at yield and from the ductility, are left out.
     """
     if table["multiplier"] is not None:
         return table["multiplier"]
+    if table["nails"] is not None:
+        return nailed_wall(table["nails"]).allowable / table["nails"]["board"]["width"] / ALLOWABLE
     drifts, shears = np.transpose([(0.0, 0.0), *envelope(table, "design")])
     return float(min(np.interp(RATED_DRIFT, drifts, shears), 2 / 3 * shears.max())) / ALLOWABLE
 

@@ -32,7 +32,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from ..base.atomic_write import written_whole
+from ..base.atomic_write import written_from_memory
 from ..base.errors import RunError
 from ..base.input_file import require_regular
 from .history import History
@@ -202,7 +202,7 @@ def placed(vertices, position, orientation):
 
 def save(path, frames):
     """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
-    with written_whole(path) as part, h5py.File(part, "w") as file:
+    with written_from_memory(path) as memory, open(memory, "w+b") as stream, h5py.File(stream, "w") as file:
         _save_attributes(file, frames)
         _save_elements(file.create_group("elements"), frames.elements)
         _save_group(file.create_group("joints"), vars(frames.joints))
