@@ -44,6 +44,13 @@ namespace {
 		return isNew || isKnown ? &phys : nullptr;
 	}
 
+	/// Bodies may be fixed, freed or get another mass in a session.
+	void updateMass(Interaction& I, const Body& b1, const Body& b2)
+	{
+		const Real mass = timber::reduced(massOf(b1), massOf(b2));
+		if (math::isfinite(mass)) static_cast<ManifoldPhys*>(I.phys.get())->mass = mass; // else both are fixed: no contact force acts
+	}
+
 	bool boundsOverlap(const Body& b1, const Body& b2)
 	{
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
@@ -113,9 +120,10 @@ boost::python::list ManifoldPhys::pyPoints() const
 void Ip2_TimberMat_TimberMat_TimberPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
 	TimberPhys* phys = physToUpdate<TimberPhys>(*I, *m1, *m2);
-	if (!phys) return;
 	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	updateMass(*I, b1, b2);
+	if (!phys) return;
 	const Real poisson = (t1.poisson + t2.poisson) / 2;
 	setProperties(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
@@ -126,6 +134,7 @@ void Ip2_ElementMat_ElementMat_SnowPhys::go(const shared_ptr<Material>& m1, cons
 {
 	SnowPhys* phys = physToUpdate<SnowPhys>(*I, *m1, *m2);
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
+	updateMass(*I, b1, b2);
 	static_cast<SnowPhys*>(I->phys.get())->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // with the masses of now
 	if (phys) setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction, static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
 }
