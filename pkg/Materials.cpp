@@ -8,7 +8,7 @@ YADE_PLUGIN((ElementMat)(TimberMat)(SnowMat));
 
 void ElementMat::validate() const
 {
-	require(density >= 1e-3 && density <= 25e3, (getClassName() + ".density").c_str(), density, "from 0.001 to 25000 kg/m3");
+	require(density >= 1e-3 && std::isfinite(density), (getClassName() + ".density").c_str(), density, ">= 0.001 kg/m3");
 	require(friction >= 0 && friction <= 1e6, (getClassName() + ".friction").c_str(), friction, "from 0 to 1e6");
 }
 

@@ -164,7 +164,7 @@ template <class Connection> bool ContactSolver::activateNeighbours(const Connect
 	return true;
 }
 
-/// A sweep over the active pairs, and over all joints once no pair changes, and at an interval: impulses of dashpots vary little with those of contacts.
+/// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with those of contacts.
 /// Returns whether another sweep is needed.
 bool ContactSolver::sweepOnce(double threshold, bool forwards)
 {
@@ -175,8 +175,7 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards)
 		solvePair(pair, forwards);
 		changed = activateNeighbours(pair, threshold) || changed;
 	}
-	if (changed && sweepCount % jointInterval != 0) return true;
-	return sweepDashpots(threshold) || changed;
+	return changed || sweepDashpots(threshold);
 }
 
 /// Returns whether another sweep over the pairs is needed.
@@ -241,8 +240,10 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 		changed = activateNeighbours(pair, firstSweepShare * firstSweepShare * threshold) || changed;
 	changed = changed || sweepDashpots(threshold);
 	Convergence result { 1, true, 0 };
-	for (; changed && result.sweeps < maxSweeps; ++result.sweeps)
+	for (; changed && result.sweeps < maxSweeps; ++result.sweeps) {
 		changed = sweepOnce(threshold, result.sweeps % 2 == 0);
+		if (changed && result.sweeps % jointInterval == 0) sweepDashpots(threshold);
+	}
 	if (changed) {
 		result.converged = false;
 		result.change = largestChange();

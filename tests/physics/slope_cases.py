@@ -48,9 +48,16 @@ def slope(energy, direction):
 
 
 def contact_energy():
-    """Energy of the normal and tangential springs. [J]"""
-    solver = find_engine(yw.ContactForces)
-    return solver.elasticNormal + solver.elasticShear
+    """Energy of the normal and tangential springs, from their forces: 2/5 e_n n and e_s^2 / (2 K_s). [J]"""
+    total = 0.0
+    for contact in O.interactions:
+        law = contact.phys
+        for _, normal, shear, _ in law.points:
+            overlap = (normal / (4 / 3 * law.modulus * np.sqrt(law.radius))) ** (2 / 3)
+            total += 0.4 * normal * overlap
+            if normal > 0:
+                total += shear.squaredNorm() / (2 * law.shearRatio * 1.5 * normal / overlap)
+    return total
 
 
 def block_on_plate(friction, depth=5e-6):
