@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -15,8 +16,31 @@ namespace {
 
 	constexpr int maxSteps = 1000; ///< of the search for the inscribed sphere; some twenty suffice
 
-	using Vec4 = Eigen::Vector4d;
-	using Mat4 = Eigen::Matrix4d;
+	constexpr long double sphereRounding = 1e-15L; ///< of the radius of the inscribed sphere, as a share of the size
+
+	using LongVec4 = Eigen::Matrix<long double, 4, 1>;
+	using LongMat4 = Eigen::Matrix<long double, 4, 4>;
+
+	/// A sphere inside has row . (centre, radius) <= offset.
+	struct TouchingPlane {
+		LongVec4 row;
+		long double offset;
+	};
+	TouchingPlane touchingPlane(const Vec3& normal, double offset) { return { LongVec4(normal.x(), normal.y(), normal.z(), 1), offset }; }
+
+	/// The plane of the basis whose weight is the first to become zero as that of the new plane grows; of several the one with the largest share, for
+	/// accuracy. -1: none.
+	int leavingPlane(const LongVec4& weights, const LongVec4& shares)
+	{
+		constexpr long double rounding = 1e-15L;
+		int leaving = -1;
+		for (int k = 0; k < 4; ++k) {
+			if (shares[k] <= rounding) continue;
+			const long double later = leaving < 0 ? -1 : weights[k] / shares[k] - weights[leaving] / shares[leaving];
+			if (later < -rounding || (later <= rounding && shares[k] > shares[leaving])) leaving = k;
+		}
+		return leaving;
+	}
 
 	/// Joins elements in groups; each group has a representative.
 	class Groups {
@@ -114,52 +138,38 @@ namespace {
 
 } // namespace
 
-/// The dual simplex method: of four planes, the sphere that touches them; a plane that cuts it replaces one of them. It starts at a large tetrahedron.
-/// Bland's rule (least index) excludes cycles.
+/// The dual simplex method: of four planes, the sphere that touches them; the plane that cuts it most replaces one of them. It starts at a large
+/// tetrahedron. Nearly parallel planes may end it early or make it repeat itself: the best centre counts.
 Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle, double size)
 {
 	assert(size > 0);
-	std::vector<Vec4> rows; // (n, 1) . (x, r) <= offset, lengths in units of the size about the middle
-	std::vector<double> offsets;
-	for (const Vec3& n : { Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) }) {
-		rows.push_back((Vec4() << n.normalized(), 1).finished());
-		offsets.push_back(10);
-	}
-	for (const HalfSpace& h : planes) {
-		rows.push_back((Vec4() << h.normal, 1).finished());
-		offsets.push_back((h.offset - h.normal.dot(middle)) / size);
-	}
-	const auto distance = [&](size_t k, const Vec3& x) { return offsets[k] - rows[k].head<3>().dot(x); };
-	std::array<int, 4> basis { 0, 1, 2, 3 };
-	Vec4 sphere;
+	std::vector<TouchingPlane> all; // lengths in units of the size about the middle
+	for (const Vec3& n : { Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) })
+		all.push_back(touchingPlane(n.normalized(), 10));
+	for (const HalfSpace& h : planes)
+		all.push_back(touchingPlane(h.normal, (h.offset - h.normal.dot(middle)) / size));
+	std::array<size_t, 4> basis { 0, 1, 2, 3 };
+	Sphere best { middle, -std::numeric_limits<double>::infinity() };
 	for (int step = 0; step < maxSteps; ++step) {
-		Mat4 touching;
-		Vec4 offset;
+		LongMat4 rows;
+		LongVec4 offsets;
 		for (int k = 0; k < 4; ++k) {
-			touching.row(k) = rows[basis[k]];
-			offset[k] = offsets[basis[k]];
+			rows.row(k) = all[basis[k]].row;
+			offsets[k] = all[basis[k]].offset;
 		}
-		const Eigen::FullPivLU<Mat4> solver(touching), transposed(touching.transpose());
-		sphere = solver.solve(offset);
-		const Vec4 weights = transposed.solve(Vec4(0, 0, 0, 1));
-		size_t cutting = 0;
-		while (cutting < rows.size() && rows[cutting].dot(sphere) <= offsets[cutting] + 1e-13)
-			++cutting;
-		if (cutting == rows.size()) break;
-		const Vec4 share = transposed.solve(rows[cutting]);
-		int leaving = -1;
-		for (int k = 0; k < 4; ++k) {
-			if (!(share[k] > 1e-12)) continue;
-			const double excess = leaving < 0 ? -1 : weights[k] * share[leaving] - weights[leaving] * share[k];
-			if (excess < 0 || (excess == 0 && basis[k] < basis[leaving])) leaving = k;
-		}
+		const Eigen::FullPivLU<LongMat4> solver(rows), transposed(rows.transpose());
+		const LongVec4 sphere = solver.solve(offsets);
+		const auto excess = [&](const TouchingPlane& p) { return p.row.dot(sphere) - p.offset; };
+		const auto cutting
+		        = std::max_element(all.begin(), all.end(), [&](const TouchingPlane& p, const TouchingPlane& q) { return excess(p) < excess(q); });
+		const double radius = size * double(sphere[3] - excess(*cutting)); // inside all planes
+		if (radius > best.radius) best = { middle + size * sphere.head<3>().cast<double>(), radius };
+		if (excess(*cutting) <= sphereRounding) break;
+		const int leaving = leavingPlane(transposed.solve(LongVec4(0, 0, 0, 1)), transposed.solve(cutting->row));
 		if (leaving < 0) break;
-		basis[leaving] = int(cutting);
+		basis[leaving] = size_t(cutting - all.begin());
 	}
-	double radius = distance(0, sphere.head<3>());
-	for (size_t k = 1; k < rows.size(); ++k)
-		radius = std::min(radius, distance(k, sphere.head<3>()));
-	return { middle + size * sphere.head<3>(), size * radius };
+	return best;
 }
 
 Polyhedron intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance)
