@@ -44,6 +44,9 @@ namespace {
 		return isNew || isKnown ? &phys : nullptr;
 	}
 
+	/// Relative speed below which a new pair in contact was placed there, and has not flown there. [m/s]
+	constexpr Real restSpeed = 0.1;
+
 	/// Bodies may be fixed, freed or get another mass in a session.
 	void updateMass(Interaction& I, const Body& b1, const Body& b2)
 	{
@@ -74,9 +77,10 @@ namespace {
 		phys.releasedEnergy = timber::elasticPair(
 		        law, { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, isPlaced }, geom.contactPoints, phys.records);
 		phys.placedEnergy = phys.placedOverlap = 0;
+		const bool isAtRest = (b1.state->vel - b2.state->vel).norm() < restSpeed;
 		for (size_t k = 0; isPlaced && k < phys.records.size(); ++k) {
 			phys.placedEnergy += phys.records[k].normalStored;
-			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
+			if (isAtRest) phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
 		return true;
 	}

@@ -43,8 +43,7 @@ bool HealthCheck::CheckedBody::hasPartsOf(const Body& b) const { return areSame(
 bool HealthCheck::CheckedBody::isCurrent(const Body& b) const
 {
 	return hasPartsOf(b) && areSame(state, b.state) && id == b.id && clumpId == b.clumpId && flags == b.flags && mask == b.groupMask
-	        && (!rounded || rounded->geometry == geometry) && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass
-	        && inertia == b.state->inertia;
+	        && (!rounded || rounded->geometry == geometry) && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass && inertia == b.state->inertia;
 }
 
 bool HealthCheck::haveBodiesChanged() const

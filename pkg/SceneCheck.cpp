@@ -261,7 +261,7 @@ std::vector<const void*> partsOf(const Scene& scene)
 }
 
 constexpr Real explicitLimits = 20; ///< largest step for joints, over that of explicit springs: as for house runs [-]
-constexpr Real largestStep = 2e-3; ///< [s]
+constexpr Real largestStep = 1e-2; ///< [s]
 /// Largest step over the least half thickness of a free body. Dropped cubes gain energy from twice this value on. [s/m]
 constexpr Real stepPerHalfThickness = 0.1;
 

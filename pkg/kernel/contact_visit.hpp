@@ -69,7 +69,7 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	const double a = c.response(), base = un - a * c.impulse[0];
 	const double way = -c.length * (base + a * linear) - hardeningShare * c.overlap;
 	double p = std::max(0., c.hardening > 0 && way > 0 ? hardenedImpulse(c, linear, way) : linear);
-	if (p * (c.before[0] + base + a * p) > 2 * c.energy) p = std::min(p, energyImpulse(c, base)); // (5)
+	if (a > 0 && p * (c.before[0] + base + a * p) > 2 * c.energy) p = std::min(p, energyImpulse(c, base)); // (5)
 	c.bounded = false;
 	if (c.rebound < noRebound) { // (6)
 		const double bound = reboundImpulse(c, base);
@@ -88,7 +88,7 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	const auto responseTo = [&](double t, double s) { return PointStep::Quad { 0, a[0] * t + a[1] * s, a[1] * t + a[2] * s, 0 }; };
 	const PointStep::Quad own = responseTo(p[1], p[2]), sum = c.before + u - responseTo(before[1], before[2]); // v + velocity without the impulse
 	const double square2 = p[1] * own[1] + p[2] * own[2], linear = p[1] * sum[1] + p[2] * sum[2]; // 2 work = share (linear + share square2)
-	if (share * (linear + share * square2) > 2 * c.shearEnergy) {
+	if (square2 > 0 && share * (linear + share * square2) > 2 * c.shearEnergy) {
 		const double root = std::sqrt(linear * linear + 8 * square2 * c.shearEnergy);
 		share = linear > 0 ? 4 * c.shearEnergy / (linear + root) : (root - linear) / (2 * square2);
 	}

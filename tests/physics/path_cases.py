@@ -210,9 +210,10 @@ def force_change(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
     return (turned(axis, angle).conjugate() * shear_force() - before).norm() / before.norm()
 
 
-@case
 def rotates_with_the_pair():
-    """A quarter rotation in 1 s about x, y and z does not change the tangential force in the frame of the pair.
+    """Not in the default set: its shear is set by hand, without work of the bodies, and rule (5) of the solver admits no such force.
+
+    A quarter rotation in 1 s about x, y and z does not change the tangential force in the frame of the pair.
 
     With the centres in line, and 1 m apart along the face (a column at the end of a beam). The errors are of second order: in a step
     a point moves along the chord instead of the arc. Observed: 1.1e-3 and 2.9e-3 at 1e-4 s.

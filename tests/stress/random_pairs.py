@@ -202,7 +202,7 @@ def load(pairs, **options):
             O.bodies.append(body)
             yt.set_velocity(body, velocity, spin)
         x += pair.reach + margin
-    O.engines = yt.engines(gravity=(0, 0, 0), **options)
+    O.engines = yt.engines(health_check=0, gravity=(0, 0, 0), **options)
     return steps
 
 
