@@ -217,7 +217,7 @@ def test_angular_velocity_changed_in_a_run():
 
 @pytest.mark.parametrize("make, words", [
     (lambda: yt.timber(young=8), ["TimberMat.young = 8", "1e5"]),
-    (lambda: yt.timber(density=1e6), ["TimberMat.density"]),
+    (lambda: yt.timber(density=1e-9), ["TimberMat.density"]),
     (lambda: yt.timber(friction=1e9), ["TimberMat.friction"]),
     (lambda: yt.snow(density=1e-9), ["SnowMat.density"]),
     (lambda: yt.snow(stiffness_per_kg=1e-3), ["SnowMat.stiffnessPerMass"]),
