@@ -155,7 +155,7 @@ namespace {
 		for (size_t i = 0; i < points.count; ++i) {
 			PointRecord& r = points.points[i];
 			if (r.overlap == 0) r.impact = {};
-			else if (r.impact.isPending() && r.step.before[0] < 0)
+			else if (r.impact.isPending() && r.normalForce > 0 && r.step.before[0] < 0)
 				r.impact = startImpact(
 				        { r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio, pair.mass, r.step.response(), -r.step.before[0], h);
 			r.step.rebound = r.impact.rebound;
