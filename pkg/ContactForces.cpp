@@ -108,14 +108,6 @@ void ContactForces::findIslands()
 	islands.find(bodies.size(), links);
 }
 
-timber::PairProperties ContactForces::propertiesOf(const ContactPair& p) const
-{
-	timber::PairProperties properties = p.phys->properties();
-	const Real inverseMass = timber::pairInverseMass(bodies[p.id1], bodies[p.id2]);
-	if (inverseMass > 0) properties.mass = 1 / inverseMass; // that of now: bodies may be fixed, freed or get another mass in a session
-	return properties;
-}
-
 void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
 {
 	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
@@ -136,7 +128,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = pairCount; k < count; ++k)
 		solver.addDashpot(joint(k).id1, joint(k).id2);
 	timber::forAll(count, [&](int k) {
-		if (k < pairCount) timber::prepareContacts(solver, k, propertiesOf(pair(k)), pair(k).geom->contactPoints);
+		if (k < pairCount) timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);

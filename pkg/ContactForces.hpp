@@ -43,7 +43,6 @@ class ContactForces : public GlobalEngine {
 	void collectBodies();
 	void checkPlacements() const;
 	void findIslands();
-	timber::PairProperties propertiesOf(const ContactPair&) const;
 	void addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();

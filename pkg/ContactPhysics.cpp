@@ -44,7 +44,7 @@ namespace {
 		return isNew || isKnown ? &phys : nullptr;
 	}
 
-	/// Relative speed below which a new pair in contact was placed there, and has not flown there. [m/s]
+	/// Relative speed below which a new pair in contact was placed there, and has not flown there: it would get the energy of its overlap. [m/s]
 	constexpr Real restSpeed = 0.1;
 
 	/// Bodies may be fixed, freed or get another mass in a session.
@@ -73,14 +73,13 @@ namespace {
 		}
 		phys.power = Law::power;
 		const timber::PairProperties pair = phys.properties();
-		const bool isPlaced = I->isFresh(scene);
+		const bool isPlaced = I->isFresh(scene) && (b1.state->vel - b2.state->vel).norm() < restSpeed;
 		phys.releasedEnergy = timber::elasticPair(
 		        law, { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, isPlaced }, geom.contactPoints, phys.records);
 		phys.placedEnergy = phys.placedOverlap = 0;
-		const bool isAtRest = (b1.state->vel - b2.state->vel).norm() < restSpeed;
 		for (size_t k = 0; isPlaced && k < phys.records.size(); ++k) {
 			phys.placedEnergy += phys.records[k].normalStored;
-			if (isAtRest) phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
+			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
 		return true;
 	}

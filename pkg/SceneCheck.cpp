@@ -261,9 +261,7 @@ std::vector<const void*> partsOf(const Scene& scene)
 }
 
 constexpr Real explicitLimits = 20; ///< largest step for joints, over that of explicit springs: as for house runs [-]
-constexpr Real largestStep = 1e-2; ///< [s]
-/// Largest step over the least half thickness of a free body. Dropped cubes gain energy from twice this value on. [s/m]
-constexpr Real stepPerHalfThickness = 0.1;
+constexpr Real largestStep = 1e-2; ///< twenty times the default step: a wrong unit, or a time stepper [s]
 
 namespace {
 	void refuseStep(const Scene& scene, const string& cause, Real limit)
@@ -286,12 +284,6 @@ namespace {
 void checkStep(const Scene& scene)
 {
 	if (!(scene.dt <= largestStep)) refuseStep(scene, "contacts", largestStep);
-	for (const shared_ptr<Body>& b : *scene.bodies) {
-		const auto* shape = b && isFree(*b->state) ? dynamic_cast<const RoundedPolyhedron*>(b->shape.get()) : nullptr;
-		if (!shape) continue;
-		const Real limit = stepPerHalfThickness * (shape->geometry->halfExtents.minCoeff() + shape->radius);
-		if (scene.dt > limit) refuseStep(scene, "the contacts of body " + std::to_string(b->getId()) + ", which is thin", limit);
-	}
 	const Real limit = jointStep(scene);
 	if (scene.dt > limit) refuseStep(scene, "the joints between the lightest bodies (or take less stiff joints)", limit);
 }

@@ -96,6 +96,10 @@ constexpr double restTolerance = 1e-6;
 /// sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger: error of the impulses of soft contacts.
 constexpr double roundingTolerance = 1e-8;
 
+/// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-] Where a warm start of 1 N s ends as
+/// 1e-4 N s, the threshold of the first sweep is larger than the impulses. 1: sweeps for the last per cent; 0: light members that are struck gain energy.
+constexpr double thresholdDrop = 0.25;
+
 /// Duration of the longest impact whose velocity of separation is bounded, in steps. [-] Longer ones are resolved by the steps: the restitution is
 /// right to 10 % at 20 steps for a critical dashpot.
 /// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.

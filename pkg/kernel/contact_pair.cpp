@@ -39,6 +39,7 @@ namespace {
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
+		if (input.form == NormalForm::Increment) record.impact = ImpactState::over(); // its force is no function of the overlap
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
 		return record.normalStored;
 	}

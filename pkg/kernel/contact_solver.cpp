@@ -130,10 +130,21 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 	velocity.store(changeA, changeB);
 }
 
-/// Convergence threshold of SolverPair::squaredChange per point, after the first sweep. [J]
-double ContactSolver::squaredThreshold(double tolerance) const
+/// Squared changes of all pairs and joints in their last visits. [J]
+double ContactSolver::sumOfChanges() const
 {
-	double size = 0, changes = 0;
+	double sum = 0;
+	for (const SolverPair& pair : pairs)
+		sum += pair.squaredChange;
+	for (const DashpotConstraint& joint : dashpots)
+		sum += joint.squaredChange;
+	return sum;
+}
+
+/// Convergence threshold of SolverPair::squaredChange per point for the present impulses. firstChanges: sumOfChanges() of the first sweep. [J]
+double ContactSolver::squaredThreshold(double tolerance, double firstChanges) const
+{
+	double size = 0;
 	size_t count = 0;
 	for (const SolverPair& pair : pairs) {
 		double squares = 0;
@@ -142,16 +153,14 @@ double ContactSolver::squaredThreshold(double tolerance) const
 			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1] + c.impulse[2] * c.impulse[2];
 		}
 		size += squares * inverseMass(pair);
-		changes += pair.squaredChange;
 		count += pair.count;
 	}
 	for (const DashpotConstraint& joint : dashpots) {
 		size += joint.impulse.squaredNorm();
-		changes += joint.squaredChange;
 		count += joint.count;
 	}
 	const double least = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
-	const double bySize = std::max(std::min(tolerance * tolerance * size, changes), least * least * size);
+	const double bySize = std::max(std::min(tolerance * tolerance * size, firstChanges), least * least * size);
 	return std::max(bySize, rounding * rounding * momentum) / std::max(1., double(count));
 }
 
@@ -162,6 +171,15 @@ template <class Connection> bool ContactSolver::activateNeighbours(const Connect
 	for (const int body : { c.bodyA, c.bodyB })
 		if ((*bodies)[body].inverseMass > 0) activeUntil[body] = sweepCount + 1;
 	return true;
+}
+
+/// Activates the neighbours of all pairs that changed by more than the threshold in their last visits. Returns whether there is one.
+bool ContactSolver::activateChanged(double threshold)
+{
+	bool changed = false;
+	for (const SolverPair& pair : pairs)
+		changed = activateNeighbours(pair, threshold) || changed;
+	return changed;
 }
 
 /// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with those of contacts.
@@ -234,15 +252,21 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 		solveDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
 	for (SolverPair& pair : pairs)
 		solvePair(pair, true);
-	const double threshold = squaredThreshold(tolerance);
-	bool changed = false;
-	for (const SolverPair& pair : pairs)
-		changed = activateNeighbours(pair, firstSweepShare * firstSweepShare * threshold) || changed;
+	const double firstChanges = sumOfChanges();
+	double threshold = squaredThreshold(tolerance, firstChanges);
+	bool changed = activateChanged(firstSweepShare * firstSweepShare * threshold);
 	changed = changed || sweepDashpots(threshold);
 	Convergence result { 1, true, 0 };
-	for (; changed && result.sweeps < maxSweeps; ++result.sweeps) {
+	while (changed && result.sweeps < maxSweeps) {
 		changed = sweepOnce(threshold, result.sweeps % 2 == 0);
 		if (changed && result.sweeps % jointInterval == 0) sweepDashpots(threshold);
+		++result.sweeps;
+		if (changed) continue;
+		const double next = squaredThreshold(tolerance, firstChanges); // the impulses of the warm start may have been much larger
+		if (next < thresholdDrop * threshold) {
+			threshold = next;
+			changed = activateChanged(threshold);
+		}
 	}
 	if (changed) {
 		result.converged = false;

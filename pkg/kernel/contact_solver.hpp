@@ -164,7 +164,9 @@ private:
 	BodyMotion motionOf(int k) { return { (*bodies)[k], weighted[k] }; }
 	double inverseMass(const SolverPair& pair) const { return pairInverseMass((*bodies)[pair.bodyA], (*bodies)[pair.bodyB]); }
 	void solvePair(SolverPair& pair, bool forwards);
-	double squaredThreshold(double tolerance) const;
+	double sumOfChanges() const;
+	double squaredThreshold(double tolerance, double firstChanges) const;
+	bool activateChanged(double threshold);
 	/// Connection: SolverPair or DashpotConstraint.
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards);

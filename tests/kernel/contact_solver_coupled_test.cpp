@@ -300,6 +300,25 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
 
+/// The warm start of a contact that has just become stiff may be 1e4 times the impulse of the step. The threshold of the sweeps follows the impulses; that of
+/// the first sweep alone would end them with errors of this size.
+TEST(Coupled, ALargeWarmStartDoesNotEndTheSweeps)
+{
+	for (unsigned seed = 0; seed < 40; ++seed) {
+		Heap heap(seed, 5, 12, 1e3, 0.5, 500), pushed = heap;
+		for (HeapPoint& p : pushed.points)
+			p.impulse = 1e4 * 1e-4 * p.elasticNormal * p.normal;
+		solveContacts(heap.bodies, heap.points, 1e-4, 20000, 1e-9);
+		solveContacts(pushed.bodies, pushed.points, 1e-4, 20000, 1e-3);
+		double largest = 0, error = 0;
+		for (size_t k = 0; k < heap.points.size(); ++k) {
+			largest = std::max(largest, heap.points[k].impulse.norm());
+			error = std::max(error, (heap.points[k].impulse - pushed.points[k].impulse).norm());
+		}
+		EXPECT_LT(error, 0.05 * largest) << seed; // tolerance 1e-3 of the rms, times the number of coupled points
+	}
+}
+
 /// A reused solver against a new one: points begin and end, pairs lose all points, bodies are fixed and freed.
 TEST(Islands, DependOnThePresentStepOnly)
 {

@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import yade.wrapper as yw
 
 from .. import _plugin
@@ -41,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
-    history = History(monitor.columns(), monitor.rows)
+    history = recorded_history(monitor)
     tilt, collapse = _time(monitor.tiltTime), _time(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
@@ -82,7 +83,7 @@ def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
         "final_amplitude": drift.by_storey(amplitude),
         "still_moving": drift.still_moving(amplitude),
         "events": observed.log.records(),
-        "energy": energy_balance(queries.energy()),
+        "energy": energy_balance(queries.energy() if cut_off is None else last_energies(history)),
         "solver": solver(),
         "versions": versions(),
     }
@@ -132,6 +133,17 @@ def part_of_record(part, scale):
     """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
     pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
     return {"source": part.source, "start_s": round(part.start, 6), "duration_s": round(part.duration, 6), "scale": scale * part.scale, "pga_gal": pga}
+
+
+def recorded_history(monitor):
+    """History of a HouseMonitor, without samples of a scene whose numbers have failed."""
+    history = History(monitor.columns(), monitor.rows)
+    return History(history.columns, history.rows[np.isfinite(history.rows).all(1)])
+
+
+def last_energies(history):
+    """Terms of `queries.energy` in the last sample of a History; zero without one."""
+    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in queries.energy()}
 
 
 def energy_balance(terms):
@@ -201,7 +213,7 @@ def write(folder, found, tables, model):
     """
     monitor, paths = find_engine(yw.HouseMonitor), tables.write(folder)
     contents = {
-        HISTORY: History(monitor.columns(), monitor.rows).text(),
+        HISTORY: recorded_history(monitor).text(),
         BREAKS: breaks_text(model),
         SUMMARY: json.dumps(found, indent=1, allow_nan=False) + "\n",
     }

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs whose numbers fail: results until then are kept and named as cut off; energy from nothing is refused; convergence is counted."""
+import json
+import math
+
+import pytest
+import yade.wrapper as yw
+import yade_timber as yt
+from yade import O
+from yade_timber.base.errors import RunError
+from yade_timber.recording import frames
+from yade_timber.recording.sentences import sentence
+from yade_timber.run import runner, summary
+from yade_timber.run.cli import Output
+from yade_timber.scene.engines import find_engine
+from yade_timber.scene.scenario import Scenario
+
+
+def run_with(folder, change):
+    """Folder of a run of house A for 0.3 s, in which change() is called at 0.15 s. The run must fail."""
+    run = runner.Run(Scenario("cut", "A", duration=0.3), Output(folder, views=False, quiet=True))
+    after = run.after_chunk
+
+    def changed():
+        if O.time >= 0.15 - 1e-9 and change:
+            change()
+        after()
+
+    run.after_chunk = changed
+    with pytest.raises(RunError) as error:
+        run.complete()
+    return str(error.value)
+
+
+def read(folder):
+    return json.loads((folder / "summary.json").read_text(), parse_constant=lambda name: pytest.fail(f"{name} in summary.json"))
+
+
+def column():
+    return next(body for body in O.bodies if body.shape.kind == "column")
+
+
+def too_fast():
+    yt.set_velocity(column(), (900, 0, 0))
+
+
+def too_fast_a_spin():
+    yt.set_velocity(column(), (0, 0, 0), (0, 0, 1e5))
+
+
+def not_a_number():
+    column().state.vel = (math.nan, 0, 0)
+
+
+@pytest.mark.parametrize("change", [too_fast, too_fast_a_spin, not_a_number])
+def test_results_until_the_failure_are_kept(tmp_path, change):
+    error = run_with(tmp_path, change)
+    assert "physical range" in error and "\n" not in error
+    found = read(tmp_path)
+    assert found["cut_off"] == error and found["duration_s"] == pytest.approx(0.15, abs=0.01)
+    assert sentence(found).startswith("Cut off at 0.1") and abs(found["energy"]["residual_fraction"]) < 1e-3
+    recorded = frames.load(tmp_path / frames.NAME)
+    assert recorded.time[-1] <= 0.15 and (tmp_path / "history.csv").read_text().count("nan") == 0
+
+
+def test_energy_from_nothing_is_refused(tmp_path):
+    """More than 1e-4 of the input, once the run is complete."""
+
+    def create():
+        find_engine(yw.ContactForces).created = 1e6
+
+    assert "created 1e+06 J" in run_with(tmp_path, create)
+    assert read(tmp_path)["cut_off"].startswith("contacts and joints have created")
+    small = {"created": 0.9e-4, "input": 1.0}
+    assert summary.created_too_much({**small, "created": 0.9e-4 * 100, "input": 100}) is None
+    assert summary.created_too_much({**small, "created": 1.1e-4 * 100, "input": 100})
+
+
+def test_steps_that_do_not_converge_are_counted():
+    """A stack of three blocks that settles: three sweeps are not enough, 500 are."""
+    for sweeps, expected in ((3, True), (500, False)):
+        O.reset()
+        O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
+        for k in range(3):
+            O.bodies.append(yt.box((0.3, 0.3, 0.1), (0, 0, 0.05 + 0.1 * k)))
+        O.dt, O.engines = 5e-4, yt.engines(sweeps=sweeps)
+        O.run(20, True)
+        forces = find_engine(yw.ContactForces)
+        assert (forces.unconverged > 0) == expected == (forces.worstChange > 0), sweeps
+        assert forces.sweepsMax <= sweeps
+
+
+def test_sentence_names_steps_that_matter():
+    found = {"solver": {"unconverged_steps": 3, "worst_change_j": 1.0}, "energy": {"input": 1e5}}
+    from yade_timber.recording.sentences import unconverged
+
+    assert unconverged(found) == "3 steps did not converge (largest change 1 J)"
+    assert unconverged({**found, "energy": {"input": 1e7}}) == ""
