@@ -112,10 +112,10 @@ def step_rows(folder):
     micro = {state: number(steps, "whole step [us]", state=state) for state in (SHAKING, REST, SKIPPED)}
     rest = next(float(row["speed-up"]) for row in skips if "RestSkipper" in row["skipped work"])
     return [
-        ("step of house C2 with 1 m of snow in strong shaking", f"{micro[SHAKING]:.0f} us", "`step.csv`"),
-        ("simulated over computing time in strong shaking", f"{STEP / micro[SHAKING] * 1e6:.1f}", "`step.csv`"),
-        ("step of the same house at rest", f"{micro[REST]:.0f} us", "`step.csv`"),
-        ("gain by steps at rest that are skipped, 10 s", f"{rest:.1f} times", "`skips.csv`"),
+        ("step of C2 with snow, strong shaking", f"{micro[SHAKING]:.0f} us", "`step.csv`"),
+        ("the same, simulated over computing time", f"{STEP / micro[SHAKING] * 1e6:.1f}", "`step.csv`"),
+        ("step of C2 with snow, at rest", f"{micro[REST]:.0f} us", "`step.csv`"),
+        ("gain by skipping rest, 10 s", f"{rest:.1f} times", "`skips.csv`"),
     ]
 
 
@@ -126,9 +126,9 @@ def town_rows(folder):
     gain = [number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most)]
     share = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
     return [
-        ("gain by a second thread, one house", f"{gain[0]:.2f} times", "`town.csv`"),
-        (f"gain by a second thread, {most} houses", f"{gain[1]:.2f} times", "`town.csv`"),
-        (f"time per element with {most} houses, over that of one", f"{share:.2f}", "`town.csv`"),
+        ("second thread, one house", f"{gain[0]:.2f} times", "`town.csv`"),
+        (f"second thread, {most} houses", f"{gain[1]:.2f} times", "`town.csv`"),
+        (f"time per element, {most} houses over one", f"{share:.2f}", "`town.csv`"),
         (f"memory per element, {most} houses", f"{number(rows, memory, houses=most, threads=1):.0f} kB", "`town.csv`"),
     ]
 
@@ -137,9 +137,9 @@ def pair_rows(folder):
     rows = table(folder, "peers")
     time = {row["program"]: float(row["time per pair and step [us]"]) for row in rows if row["pair"] == "face on face"}
     names = {"this package in YADE": "this package", "YADE Polyhedra": "YADE's Polyhedra"}
-    entries = [(f"contact of two faces, {label}: points, law and solver", f"{time[name]:.3g} us", "`peers.csv`") for name, label in names.items()]
+    entries = [(f"two faces, points and law: {label}", f"{time[name]:.3g} us", "`peers.csv`") for name, label in names.items()]
     points = {"timber points": "this package", "Bullet": "Bullet", "ODE": "ODE"}
-    return entries + [(f"contact of two faces, {label}: points alone", f"{time[name]:.2g} us", "`peers.csv`") for name, label in points.items()]
+    return entries + [(f"two faces, points alone: {label}", f"{time[name]:.2g} us", "`peers.csv`") for name, label in points.items()]
 
 
 def exact_rows(folder):
@@ -149,9 +149,9 @@ def exact_rows(folder):
         for variant, label in (("default", "implicit contacts"), ("explicit dashpots", "explicit dashpots")):
             exact = largest_exact_step(rows, case, variant)
             text = f"{exact[0]:g} s, {exact[1]:.1f} s of computing" if exact else "none"
-            entries.append((f"largest step with errors below {100 * TOLERATED:g} %, {case}, {label}", text, "`precision.csv`"))
+            entries.append((f"largest step with errors below {100 * TOLERATED:g} %: {case}, {label}", text, "`precision.csv`"))
     gains = [float(row["CPU time of fixed steps over it at equal error [-]"]) for row in table(folder, "chosen_gain") if row["steps"] == "chosen" and "house" in row["case"]]
-    return entries + [("speed of steps chosen by the error over that of fixed steps, at equal error", f"{statistics.median(g for g in gains if math.isfinite(g)):.2f}", "`chosen_gain.csv`")]
+    return entries + [("speed of chosen over fixed steps, at equal error", f"{statistics.median(g for g in gains if math.isfinite(g)):.2f}", "`chosen_gain.csv`")]
 
 
 def stability_rows(folder):
@@ -160,15 +160,15 @@ def stability_rows(folder):
     for row in table(folder, "stable_dt"):
         limits.setdefault(row["contacts"], []).append(float(row["measured [s]"]) / float(row["predicted [s]"]))
     entries = [
-        (f"measured over predicted limit of the step, {contacts.replace('default', 'implicit contacts')}", f"{min(ratios):.2g} to {max(ratios):.2g}", "`stable_dt.csv`")
+        (f"stable over predicted step: {contacts.replace('default', 'implicit contacts')}", f"{min(ratios):.2g} to {max(ratios):.2g}", "`stable_dt.csv`")
         for contacts, ratios in limits.items()
     ]
     worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == STEP)
     changed = max(float(row["energy gained [-]"]) for row in table(folder, "changed_step"))
     return [
         *entries,
-        ("largest error of the energy balance, three houses in 6 s of strong shaking", f"{100 * worst:.1g} %", "`balance.csv`"),
-        ("energy gained by steps that change at random, up to 1e-3 s", f"{100 * changed:.2g} %", "`changed_step.csv`"),
+        ("energy balance of three houses in strong shaking, largest error", f"{100 * worst:.1g} %", "`balance.csv`"),
+        ("energy gained by steps that change at random", f"{100 * changed:.2g} %", "`changed_step.csv`"),
     ]
 
 
