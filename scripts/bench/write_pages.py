@@ -20,7 +20,7 @@ STEP = 5e-4
 """Default time step [s]"""
 TOLERATED = 0.01
 """Error up to which a time step is called exact [-]"""
-SHAKING, REST, SKIPPED = "strong shaking", "at rest", "at rest, as in runs (RestSkipper)"
+SHAKING, REST = "strong shaking", "at rest"
 SECTIONS = {
     "1": ("Contact", "Hertz's impact, Runge-Kutta solutions of the damped one"),
     "2": ("Friction", "incline, sliding block, closed paths of the tangential spring"),
@@ -107,69 +107,83 @@ def largest_exact_step(rows, case, variant):
     return exact
 
 
-def step_rows(folder):
-    steps, skips = table(folder, "step"), table(folder, "skips")
-    micro = {state: number(steps, "whole step [us]", state=state) for state in (SHAKING, REST, SKIPPED)}
-    rest = next(float(row["speed-up"]) for row in skips if "RestSkipper" in row["skipped work"])
-    return [
-        ("step of C2 with snow, strong shaking", f"{micro[SHAKING]:.0f} us", "`step.csv`"),
-        ("the same, simulated over computing time", f"{STEP / micro[SHAKING] * 1e6:.1f}", "`step.csv`"),
-        ("step of C2 with snow, at rest", f"{micro[REST]:.0f} us", "`step.csv`"),
-        ("gain by skipping rest, 10 s", f"{rest:.1f} times", "`skips.csv`"),
-    ]
+def step_text(folder):
+    rows = table(folder, "step")
+    micro = {state: number(rows, "whole step [us]", state=state) for state in (SHAKING, REST)}
+    fast = STEP / micro[SHAKING] * 1e6
+    return f"house C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time; {micro[REST]:.0f} us at rest"
 
 
-def town_rows(folder):
-    rows = table(folder, "town")
-    most = max(int(row["houses"]) for row in rows)
-    wall, element, memory = (next(name for name in rows[0] if name.startswith(begin)) for begin in ("wall time", "time per element", "memory per element"))
-    gain = [number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most)]
-    share = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
-    return [
-        ("second thread, one house", f"{gain[0]:.2f} times", "`town.csv`"),
-        (f"second thread, {most} houses", f"{gain[1]:.2f} times", "`town.csv`"),
-        (f"time per element, {most} houses over one", f"{share:.2f}", "`town.csv`"),
-        (f"memory per element, {most} houses", f"{number(rows, memory, houses=most, threads=1):.0f} kB", "`town.csv`"),
-    ]
+def skips_text(folder):
+    gain = next(float(row["speed-up"]) for row in table(folder, "skips") if "RestSkipper" in row["skipped work"])
+    return f"10 s of rest are computed {gain:.1f} times as fast by skipping steps"
 
 
-def pair_rows(folder):
-    rows = table(folder, "peers")
-    time = {row["program"]: float(row["time per pair and step [us]"]) for row in rows if row["pair"] == "face on face"}
-    names = {"this package in YADE": "this package", "YADE Polyhedra": "YADE's Polyhedra"}
-    entries = [(f"two faces, points and law: {label}", f"{time[name]:.3g} us", "`peers.csv`") for name, label in names.items()]
-    points = {"timber points": "this package", "Bullet": "Bullet", "ODE": "ODE"}
-    return entries + [(f"two faces, points alone: {label}", f"{time[name]:.2g} us", "`peers.csv`") for name, label in points.items()]
-
-
-def exact_rows(folder):
-    rows = table(folder, "precision")
-    entries = []
+def precision_text(folder):
+    """Largest exact steps of two houses."""
+    rows, texts = table(folder, "precision"), []
     for case in ("standing house C", "collapsing house A"):
         for variant, label in (("default", "implicit contacts"), ("explicit dashpots", "explicit dashpots")):
             exact = largest_exact_step(rows, case, variant)
-            text = f"{exact[0]:g} s, {exact[1]:.1f} s of computing" if exact else "none"
-            entries.append((f"largest step with errors below {100 * TOLERATED:g} %: {case}, {label}", text, "`precision.csv`"))
-    gains = [float(row["CPU time of fixed steps over it at equal error [-]"]) for row in table(folder, "chosen_gain") if row["steps"] == "chosen" and "house" in row["case"]]
-    return entries + [("speed of chosen over fixed steps, at equal error", f"{statistics.median(g for g in gains if math.isfinite(g)):.2f}", "`chosen_gain.csv`")]
+            texts.append(f"{case}, {label}: " + (f"{exact[0]:g} s in {exact[1]:.1f} s of computing" if exact else "none"))
+    return f"largest step with errors below {100 * TOLERATED:g} %: {'; '.join(texts)}"
 
 
-def stability_rows(folder):
-    """Limits of the step over their prediction; energy of shaken houses."""
+def stability_text(folder):
+    """Limits of the step over their prediction."""
     limits = {}
     for row in table(folder, "stable_dt"):
-        limits.setdefault(row["contacts"], []).append(float(row["measured [s]"]) / float(row["predicted [s]"]))
-    entries = [
-        (f"stable over predicted step: {contacts.replace('default', 'implicit contacts')}", f"{min(ratios):.2g} to {max(ratios):.2g}", "`stable_dt.csv`")
-        for contacts, ratios in limits.items()
-    ]
+        limits.setdefault(row["contacts"].replace("default", "implicit contacts"), []).append(float(row["measured [s]"]) / float(row["predicted [s]"]))
+    return "stable over predicted step: " + "; ".join(f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}" for contacts, ratios in limits.items())
+
+
+def balance_text(folder):
     worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == STEP)
-    changed = max(float(row["energy gained [-]"]) for row in table(folder, "changed_step"))
-    return [
-        *entries,
-        ("energy balance of three houses in strong shaking, largest error", f"{100 * worst:.1g} %", "`balance.csv`"),
-        ("energy gained by steps that change at random", f"{100 * changed:.2g} %", "`changed_step.csv`"),
-    ]
+    return f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
+
+
+def chosen_text(folder):
+    column = "CPU time of fixed steps over it at equal error [-]"
+    gains = [float(row[column]) for row in table(folder, "chosen_gain") if row["steps"] == "chosen" and "house" in row["case"]]
+    return f"steps chosen by the error are {statistics.median(g for g in gains if math.isfinite(g)):.2f} times as fast as fixed ones at equal error"
+
+
+def changed_text(folder):
+    return f"steps that change at random gain up to {100 * max(float(row['energy gained [-]']) for row in table(folder, 'changed_step')):.2g} % of the input"
+
+
+def town_text(folder):
+    rows = table(folder, "town")
+    most = max(int(row["houses"]) for row in rows)
+    wall, element, memory = (next(name for name in rows[0] if name.startswith(begin)) for begin in ("wall time", "time per element", "memory per element"))
+    one, many = (number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most))
+    ratio = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
+    return (
+        f"a second thread: {one:.2f} times as fast with one house, {many:.2f} times with {most}; "
+        f"time per element with {most} houses over one: {ratio:.2f}; memory per element {number(rows, memory, houses=most, threads=1):.0f} kB"
+    )
+
+
+def pair_text(folder):
+    time = {row["program"]: float(row["time per pair and step [us]"]) for row in table(folder, "peers") if row["pair"] == "face on face"}
+    return (
+        f"two faces, points and law: this package {time['this package in YADE']:.2g} us, YADE's Polyhedra {time['YADE Polyhedra']:.2g} us; "
+        f"points alone: this package {time['timber points']:.2g} us, Bullet {time['Bullet']:.2g} us, ODE {time['ODE']:.2g} us"
+    )
+
+
+TEXTS = {
+    "step": step_text,
+    "skips": skips_text,
+    "peers": pair_text,
+    "precision": precision_text,
+    "stable_dt": stability_text,
+    "balance": balance_text,
+    "chosen_gain": chosen_text,
+    "changed_step": changed_text,
+    "town": town_text,
+}
+"""{CSV file: function that words its numbers}"""
 
 
 def run_table(folder):
@@ -227,8 +241,7 @@ def write_performance(folder):
         draw_errors(axis, table(folder, "precision"), case)
     save(figure, folder / "precision.png")
     page = folder / "performance.md"
-    numbers = [row for part in (step_rows, exact_rows, stability_rows, town_rows, pair_rows) for row in part(folder)]
-    fill(page, "numbers", markdown_table(("quantity", "value", "source"), numbers))
+    fill(page, "numbers", markdown_table(("file", "result"), [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]))
     fill(page, "runs", run_table(folder))
 
 
