@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shared by the benchmarks: options, timing of blocks of steps, description of the machine, results page and CSV files."""
+"""Shared by the benchmarks: options, timing of blocks of steps, description of the machine, CSV files."""
 import csv
 import os
 import platform
@@ -20,19 +20,17 @@ def resident_memory():
 BARE_MEMORY = resident_memory()
 """Resident memory before the package is imported, if this module imports it first: YADE alone [MB]."""
 
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
+from yade_timber.base.atomic_write import written_whole  # noqa: E402
 from yade_timber.study.options import Parser, count, house, results_folder  # noqa: E402
 
 O = yw.Omega()
 
-PAGE = "performance.md"
-HEAD = "# Performance\n\nEach section is written by a script `scripts/bench/benchmark_*.py`.\n"
+MACHINES = "machines.csv"
+"""Where each table of the folder was measured."""
 SETTLING = 1.0
 """Simulated time before the measurement in one of STATES [s]."""
 STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """{state: start of the run in the time of the ground motion [s]}."""
-SECTIONS = ("step", "profile", "skips", "peers", "street", "town", "precision", "chosen")
-"""Sections of the page, in order."""
 
 
 def parser(about, steps, blocks=None, house_name=None):
@@ -43,7 +41,7 @@ def parser(about, steps, blocks=None, house_name=None):
     if blocks:
         made.add_argument("--blocks", type=count, default=blocks, help="number of repeated measurements; their median counts (default %(default)s)")
     made.add_argument("--steps", type=count, default=steps, help="steps per block (default %(default)s)")
-    made.add_argument("--out", type=results_folder, help="folder whose performance.md and CSV file get the result (default: print only)")
+    made.add_argument("--out", type=results_folder, help="folder of the CSV file (default: print only)")
     return made
 
 
@@ -92,19 +90,18 @@ def write_csv(path, heads, rows):
         writer.writerows(rows)
 
 
-def write_section(folder, name, text):
-    """Replace one section of the results page in `folder`; the other sections stay."""
-    page = Path(folder) / PAGE
-    old = page.read_text(encoding="utf-8") if page.exists() else ""
-    kept = dict(re.findall(r"<!-- (\w+) -->\n(.*?)<!-- /\1 -->\n", old, re.S))
-    kept[name] = f"{text.strip()}\n"
-    write_text(page, HEAD + "".join(f"\n<!-- {key} -->\n{kept[key]}<!-- /{key} -->\n" for key in SECTIONS if key in kept))
+def write_table(folder, name, heads, rows):
+    """Write NAME.csv to a folder, and the machine of this process to its list of machines."""
+    folder.mkdir(parents=True, exist_ok=True)
+    write_csv(folder / f"{name}.csv", heads, rows)
+    path = folder / MACHINES
+    machines = dict(csv.reader(path.read_text(encoding="utf-8").splitlines())) if path.exists() else {}
+    machines.pop("table", None)
+    write_csv(path, ("table", "machine"), sorted({**machines, name: machine()}.items()))
 
 
 def publish(folder, name, text, heads, rows):
-    """Print a section; with a folder, write it to the results page there and its rows to NAME.csv."""
+    """Print a measurement; with a folder, write its rows to NAME.csv there."""
     print(text)
     if folder:
-        folder.mkdir(parents=True, exist_ok=True)
-        write_csv(folder / f"{name}.csv", heads, rows)
-        write_section(folder, name, text)
+        write_table(folder, name, heads, rows)

@@ -14,20 +14,15 @@ import sys
 import time
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-import yade.wrapper as yw  # noqa: E402
+import numpy as np
+import yade.wrapper as yw
 
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / "scripts/bench")]
 
 import yade_timber as yt  # noqa: E402
-from bench_tools import machine, markdown_table, write_csv, write_section  # noqa: E402
+from bench_tools import write_table  # noqa: E402
 from precision_cases import REFERENCE, SAMPLE, STEP_CASES, build_house, error, joint_forces  # noqa: E402
-from yade_timber.base.atomic_write import written_whole  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.scene import engines  # noqa: E402
 from yade_timber.study.options import Parser, count, results_folder, run_script  # noqa: E402
@@ -39,21 +34,10 @@ FIXED = (1e-4, 2.5e-4, 5e-4, 1e-3)
 TARGETS = (0.0003, 0.003, 0.03)
 """h^2 j of the chosen steps [m/s]."""
 HOUSES = ("standing house C", "collapsing house A", "falling house C")
-TOLERATED = 0.01
-"""Error that a user admits [-]."""
 CHANGES = ((5e-4,), (1e-3,), (2.5e-4, 5e-4), (1.25e-4, 2.5e-4, 5e-4, 1e-3))
 """Steps of which each millisecond takes one by chance [s]."""
 SHAKEN = 1.5
 """Duration of strong shaking for the energy balance [s]."""
-CONCLUSION = (
-    "The package keeps the fixed step: for houses, the chosen one is slower at equal error. "
-    "The runs of houses last 0.7 to 1.6 s; the reference of house A has an error of 0.24 % itself. "
-    "A longer step needs more sweeps: doubling the default step saves a part of the work only (factors above). "
-    "The stability of the joints' springs limits every step to 1e-3 s, and changes from and to such long steps gain energy (last table). "
-    "Before the shaking RestSkipper computes one of many steps anyway. "
-    "A block, a frame and a falling house gain from steps that shorten before the impact, but the estimate of the last millisecond shortens them after it."
-)
-COLORS = {"fixed": "tab:blue", "chosen": "tab:orange", "foreseen": "tab:green", "explicit": "tab:red"}
 HEADS = ("case", "steps", "dt [s] or target [m/s]", "CPU [s]", "steps computed", "sweeps", "error [-]")
 
 
@@ -61,7 +45,7 @@ def arguments():
     parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(STEP_CASES), default=list(STEP_CASES), help="default: all")
     parser.add_argument("--repeats", type=count, default=2, help="runs of which the median CPU time counts (default %(default)s)")
-    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of performance.md, chosen_step.csv, chosen_step.png")
+    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of chosen_step.csv, chosen_gain.csv, changed_step.csv")
     return parser.parse_args()
 
 
@@ -179,7 +163,7 @@ def balance(steps):
     return max(residuals) / (abs(terms["ground_motion"]) + max(0.0, -terms["gravity"]))
 
 
-# --- page --------------------------------------------------------------------------------------------------------------
+# --- gain --------------------------------------------------------------------------------------------------------------
 def curve(rows, case, kind):
     """[(CPU time [s], error, dt or target)] of runs that did not fail, in the order of the CPU time."""
     return sorted((cpu, e, dt) for c, k, dt, cpu, _, _, e in rows if (c, k) == (case, kind) and math.isfinite(e))
@@ -201,39 +185,6 @@ def gains(rows, kind):
     return [(c, dt, cost_of_fixed(rows, c, e) / cpu) for c, k, dt, cpu, _, _, e in rows if k == kind and math.isfinite(e)]
 
 
-def draw(rows, file):
-    """Error against CPU time, one panel per case."""
-    cases = list(dict.fromkeys(r[0] for r in rows))
-    figure, axes = plt.subplots(math.ceil(len(cases) / 2), 2, figsize=(11, 3.6 * math.ceil(len(cases) / 2)), squeeze=False, layout="constrained")
-    for axis, case in zip(axes.flat, cases):
-        for kind, mark in zip(COLORS, "os^x"):
-            points = curve(rows, case, kind)
-            axis.loglog([p[0] for p in points], [p[1] for p in points], color=COLORS[kind], marker=mark, ms=6, lw=1, label=kind)
-            for cpu, e, dt in points:
-                axis.annotate(f"{dt:g}", (cpu, e), textcoords="offset points", xytext=(5, 4), fontsize=7, color=COLORS[kind])
-        axis.axhline(TOLERATED, color="0.5", lw=0.8, ls="--")
-        axis.set(title=case, xlabel="CPU time of the steps [s]", ylabel="error [-]")
-        axis.grid(alpha=0.3)
-    for axis in axes.flat[len(cases) :]:
-        axis.remove()
-    axes.flat[0].legend(fontsize=8)
-    with written_whole(file) as part:
-        figure.savefig(part, dpi=110, format="png")
-    plt.close(figure)
-
-
-def cheapest(rows, case, kind):
-    """(CPU time [s], dt or target) of the fastest run with an error below TOLERATED; None without one."""
-    return next(((cpu, dt) for cpu, e, dt in curve(rows, case, kind) if e < TOLERATED), None)
-
-
-def cheapest_rows(rows):
-    """[(case, a text for each kind)]."""
-    cases = dict.fromkeys(r[0] for r in rows)
-    found = {case: [cheapest(rows, case, kind) for kind in COLORS] for case in cases}
-    return [(case, *("none" if run is None else f"{run[0]:.3f} ({run[1]:g})" for run in runs)) for case, runs in found.items()]
-
-
 def bound(rows, case):
     """CPU time at the default step over that at the largest one: about what a choice of the step can gain at most [-]."""
     cpu = {dt: spent for c, kind, dt, spent, *_ in rows if (c, kind) == (case, "fixed")}
@@ -253,33 +204,16 @@ def verdict(rows):
     return " ".join(text) + f" Steps of {FIXED[-1]:g} s throughout are faster than the default step by a factor of {bounds}: a choice between these two steps can gain little more."
 
 
-def section(rows, changes):
-    """Section of the results page."""
-    table = [(c, k, f"{dt:g}", f"{cpu:.3f}", n, sweeps, "failed" if math.isinf(e) else f"{e:.2g}") for c, k, dt, cpu, n, sweeps, e in rows]
-    shown = [(case, kind, f"{dt:g}", f"{gain:.2f}") for kind in ("chosen", "foreseen") for case, dt, gain in gains(rows, kind)]
-    method = __doc__.split("\n\n")[2].strip()
-    return (
-        f"## Steps chosen by the error\n\n![error against CPU time](chosen_step.png)\n\n{method} {machine()}.\n\n{verdict(rows)}\n\n{CONCLUSION}\n\n"
-        f"CPU time [s] of the fastest run with an error below {TOLERATED:g}, with its step [s] or target [m/s]:\n\n"
-        f"{markdown_table(('case', *COLORS), cheapest_rows(rows))}\n"
-        "CPU time of fixed steps over that of chosen ones at equal error; nan: no fixed step of the table reaches the error:\n\n"
-        f"{markdown_table(('case', 'steps', 'target [m/s]', 'gain'), shown)}\n"
-        f"Largest energy gain over the input, house C in {SHAKEN:g} s of strong shaking, each millisecond with one of the steps by chance:\n\n"
-        f"{markdown_table(('steps [s]', 'energy'), [(steps, f'{100 * gained:.2g} %') for steps, gained in changes])}\n"
-        f"### Runs with chosen steps\n\n{markdown_table(HEADS, table)}"
-    )
-
-
 def main():
     options = arguments()
     changes = [(" ".join(f"{dt:g}" for dt in steps), balance(steps)) for steps in CHANGES]
-    write_csv(options.out / "changed_step.csv", ("steps [s]", "energy gained [-]"), changes)
+    write_table(options.out, "changed_step", ("steps [s]", "energy gained [-]"), changes)
     rows = []
     for case in options.cases:
         rows += study(case, options.repeats)
-        write_csv(options.out / "chosen_step.csv", HEADS, rows)
-    draw(rows, options.out / "chosen_step.png")
-    write_section(options.out, "chosen", section(rows, changes))
+        write_table(options.out, "chosen_step", HEADS, rows)
+    gained = [(case, kind, target, gain) for kind in ("chosen", "foreseen") for case, target, gain in gains(rows, kind)]
+    write_table(options.out, "chosen_gain", ("case", "steps", "target [m/s]", "CPU time of fixed steps over it at equal error [-]"), gained)
     print(verdict(rows))
     print(f"written to {options.out}")
 

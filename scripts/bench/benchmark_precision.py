@@ -11,21 +11,16 @@ import sys
 import time
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-import yade.wrapper as yw  # noqa: E402
+import numpy as np
+import yade.wrapper as yw
 
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / folder) for folder in ("scripts/bench", "tests", "tests/stress")]
 
 import extreme_runs  # noqa: E402
 import stable_steps  # noqa: E402
-from bench_tools import machine, markdown_table, write_csv, write_section  # noqa: E402
+from bench_tools import write_table  # noqa: E402
 from precision_cases import CASES, REFERENCE, SAMPLE, error, joint_forces  # noqa: E402
-from yade_timber.base.atomic_write import written_whole  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import MAX_DT  # noqa: E402
 from yade_timber.house.errors import StepError  # noqa: E402
@@ -43,8 +38,6 @@ VARIANTS = {
     "increment form": {"increment": True},
     "vertex-edge contacts": {"vertex_edge": True},
 }
-TOLERATED = 0.01
-"""Largest admissible error of drifts and joint forces at the default time step [-]."""
 SHAKEN = 6.0
 """Duration of shaking for the energy balance [s]."""
 HEADS = ("case", "variant", "dt [s]", "run time [s]", "quantity", "error [-]")
@@ -56,7 +49,7 @@ def arguments():
     parser.add_argument("--steps", nargs="+", type=positive, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)")
     parser.add_argument("--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME", help="default: all")
     parser.add_argument("--no-limits", action="store_true", help="do not measure stable time steps and energy balance")
-    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of performance.md, precision.csv, precision.png")
+    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of precision.csv, stable_dt.csv, balance.csv")
     return parser.parse_args()
 
 
@@ -126,71 +119,6 @@ def energy_rows():
     return rows
 
 
-# --- page --------------------------------------------------------------------------------------------------------------
-def draw(rows, file):
-    """Error against run time, one panel per case: the largest error of each run."""
-    cases = list(dict.fromkeys(r[0] for r in rows))
-    figure, axes = plt.subplots(len(cases), 1, figsize=(9, 3.6 * len(cases)), squeeze=False, layout="constrained")
-    for axis, case in zip(axes[:, 0], cases):
-        for variant, mark in zip(VARIANTS, "osv^Dx"):
-            runs = worst_errors([r for r in rows if r[:2] == (case, variant)])
-            points = [(spent, e, dt) for dt, (spent, e) in runs.items() if 0 < e < math.inf]
-            if points:
-                axis.loglog(*zip(*[p[:2] for p in points]), marker=mark, ms=5, lw=1, label=variant)
-                if variant == "default":
-                    for k, (spent, e, dt) in enumerate(points):
-                        axis.annotate(f"{dt:g}", (spent, e), textcoords="offset points", xytext=((5, 4), (-12, -11))[k % 2], fontsize=7)
-        axis.axhline(TOLERATED, color="0.5", lw=0.8, ls="--")
-        axis.set(title=case, xlabel="run time [s]", ylabel="error [-]")
-        axis.grid(alpha=0.3)
-        axis.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
-    with written_whole(file) as part:
-        figure.savefig(part, dpi=110, format="png")
-    plt.close(figure)
-
-
-def worst_errors(rows):
-    """{dt: (run time, largest error of all quantities)}."""
-    found = {}
-    for _, _, dt, spent, _, e in rows:
-        found[dt] = (spent, max(e, found.get(dt, (0, 0))[1]))
-    return found
-
-
-def largest_step(rows, case):
-    """Largest time step of the default variant up to which all errors are below TOLERATED; None if there is none."""
-    good = None
-    for dt, (_, e) in sorted(worst_errors([r for r in rows if r[:2] == (case, "default")]).items()):
-        if not e < TOLERATED:
-            break
-        good = dt
-    return good
-
-
-def stable_section(stable, balance):
-    """Subsection on stability."""
-    limit = [(name, contacts, f"{p:.3g}", f"{m:.3g}", f"{m / p:.2f}") for name, contacts, p, m in stable]
-    energy = [(house, f"{dt:.3g}", f"{100 * share:.2g} %" if np.isfinite(share) else "failed") for house, dt, share in balance]
-    return (
-        "\n### Stable time step\n\n`yt.stable_dt(1)` predicts the limit of explicit springs without dashpots. Measured limits: bisection to 2 %, up to 16 times the prediction.\n\n"
-        f"{markdown_table(('scene', 'contacts', 'predicted [s]', 'measured [s]', 'ratio'), limit)}\n"
-        f"Energy gained (-: lost) in {SHAKEN:g} s of strong shaking under 1 m of snow, over the input:\n\n{markdown_table(('house', 'dt [s]', 'energy'), energy)}"
-    )
-
-
-def section(rows, stable, balance, options):
-    """Section of the results page."""
-    shown = [(c, v, f"{dt:g}", f"{t:.2f}", q, "failed" if math.isinf(e) else f"{e:.2g}") for c, v, dt, t, q, e in rows]
-    largest = [(case, f"{CASES[case][3]:g}", f"{largest_step(rows, case) or math.nan:g}") for case in options.cases]
-    table = "" if options.no_limits else stable_section(stable, balance)
-    return (
-        f"## Error against run time\n\n![error against run time](precision.png)\n\nErrors against the reference with the smallest time step: largest difference over largest value. {machine()}.\n\n"
-        f"{markdown_table(('case', 'step of the reference [s]', f'largest step with errors below {TOLERATED:g} [s]'), largest)}"
-        "\nIn the impact the corners of a cube touch one after the other: contacts of 1.5 to 1.8 ms, the second 0.09 ms after the first (at 1e-6 s).\n"
-        f"{table}\n### All runs\n\n{markdown_table(HEADS, shown)}"
-    )
-
-
 def main():
     options = arguments()
     for dt in options.steps:
@@ -198,11 +126,9 @@ def main():
             raise RunError(f"--steps {dt:g}: must divide {SAMPLE:g} s, the time between samples")
     rows = [row for case in options.cases for row in study(case, options)]
     stable, balance = ([], []) if options.no_limits else (limit_rows(), energy_rows())
-    draw(rows, options.out / "precision.png")
-    write_csv(options.out / "precision.csv", HEADS, rows)
-    write_csv(options.out / "stable_dt.csv", ("scene", "contacts", "predicted [s]", "measured [s]"), stable)
-    write_csv(options.out / "balance.csv", ("house", "dt [s]", "energy gained [-]"), balance)
-    write_section(options.out, "precision", section(rows, stable, balance, options))
+    write_table(options.out, "precision", HEADS, rows)
+    write_table(options.out, "stable_dt", ("scene", "contacts", "predicted [s]", "measured [s]"), stable)
+    write_table(options.out, "balance", ("house", "dt [s]", "energy gained [-]"), balance)
     print(f"written to {options.out}")
 
 
