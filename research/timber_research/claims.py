@@ -13,7 +13,7 @@ starts to tilt        last time before the tilt (drift 1/10) at which the drift 
 import math
 from dataclasses import dataclass
 
-from yade_timber.recording.sentences import direction_name, ratio
+from yade_timber.text.english import direction_name, ratio
 
 SWAY = 1 / 120
 """Smallest sway that counts: Japanese practice assumes damage of a timber house beyond this drift. [-]"""
@@ -46,23 +46,23 @@ class Result:
 
 def sway(run, direction):
     """Largest peak drift of the storeys in direction 'ns' or 'ew'. [-]"""
-    return max(storey[direction] or 0.0 for storey in run["peak_drift"].values())
+    return max(storey[direction] or 0.0 for storey in run.peak_drift.values())
 
 
 def leaning(run, storey=None):
     """Residual drift of a storey ('storey2'), or the largest of all storeys; resultant of both directions. [-]"""
-    storeys = [run["residual_drift"][storey]] if storey else run["residual_drift"].values()
+    storeys = [run.residual_drift[storey]] if storey else run.residual_drift.values()
     return max(math.hypot(s["ns"] or 0.0, s["ew"] or 0.0) for s in storeys)
 
 
 def damage(run):
     """Springs broken during the run."""
-    return run["broken"]["springs"]
+    return run.broken.springs
 
 
 def lost_columns(run):
     """Columns that have fallen or have no intact joint."""
-    return run["columns"]["fallen"] + run["columns"]["loose"]
+    return run.columns.fallen + run.columns.loose
 
 
 def sways_in(run, direction, at_least=SWAY):
@@ -73,7 +73,7 @@ def sways_in(run, direction, at_least=SWAY):
 
 def more_damaged(run, other):
     """Whether `run` is damaged more than `other`; a collapse exceeds any number of broken springs."""
-    return (run["collapsed"], damage(run)) > (other["collapsed"], damage(other))
+    return (run.collapsed, damage(run)) > (other.collapsed, damage(other))
 
 
 # --- the same numbers as text ---------------------------------------------------------------------------------------------
@@ -88,11 +88,11 @@ def sway_text(run):
 
 
 def lean_text(run):
-    return " ".join(f"{name[len('storey'):]}: {drift_text(leaning(run, name))}" for name in run["residual_drift"])
+    return " ".join(f"{name[len('storey'):]}: {drift_text(leaning(run, name))}" for name in run.residual_drift)
 
 
 def outcome_text(run):
-    return f"collapsed {time_text(run['collapse_time_s'])}" if run["collapsed"] else "stands"
+    return f"collapsed {time_text(run.collapse_time_s)}" if run.collapsed else "stands"
 
 
 def time_text(seconds):
@@ -100,13 +100,13 @@ def time_text(seconds):
 
 
 def damage_text(run):
-    broken = run["broken"]
-    return f"{damage(run)} springs, {broken['total']} joints ({broken['column_beam']} column-beam, {broken['brace_beam']} brace-beam)"
+    broken = run.broken
+    return f"{damage(run)} springs, {broken.total} joints ({broken.column_beam} column-beam, {broken.brace_beam} brace-beam)"
 
 
 def run_text(run):
     """All quantities of a run that claims compare."""
-    house = f"{run['model']}{' + snow' if run['snow'] else ''}"
+    house = f"{run.model}{' + snow' if run.snow else ''}"
     return f"{house}: {outcome_text(run)}, {sway_text(run)}, leans {lean_text(run)}, {damage_text(run)}, {lost_columns(run)} columns lost"
 
 
@@ -118,37 +118,37 @@ def runs_text(*runs):
 
 
 def tilts_and_collapses_when_shaken(a):
-    if not a["collapsed"] or a["leans_from_s"] is None:
+    if not a.collapsed or a.leans_from_s is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
-    onset = a["record"]["onset_s"]  # the direction depends on the record, which differs from the paper's: it is reported, not judged
-    tilt, fall = a["leans_from_s"] - onset, a["collapse_time_s"] - onset
+    onset = a.record.onset_s  # the direction depends on the record, which differs from the paper's: it is reported, not judged
+    tilt, fall = a.leans_from_s - onset, a.collapse_time_s - onset
     return within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET), (
-        f"strong shaking from {onset:.1f} s; leans {direction_name(a['tilt_direction'])} from {a['leans_from_s']:.1f} s ({tilt:+.1f} s), exceeds 1/10 at "
-        f"{a['tilt_time_s']:.1f} s, collapsed {a['collapse_time_s']:.1f} s ({fall:+.1f} s)"
+        f"strong shaking from {onset:.1f} s; leans {direction_name(a.tilt_direction)} from {a.leans_from_s:.1f} s ({tilt:+.1f} s), exceeds 1/10 at "
+        f"{a.tilt_time_s:.1f} s, collapsed {a.collapse_time_s:.1f} s ({fall:+.1f} s)"
     )
 
 
 def does_not_collapse(run):
-    return not run["collapsed"], run_text(run)
+    return not run.collapsed, run_text(run)
 
 
 def tilts_and_collapses_under_snow(a):
-    if not a["collapsed"] or a["leans_from_s"] is None:
+    if not a.collapsed or a.leans_from_s is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
-    holds = within(a["leans_from_s"], (0.0, SNOW_TILT_BY)) and within(a["collapse_time_s"], SNOW_COLLAPSE)
-    lean = f"leans {direction_name(a['tilt_direction'])} from {a['leans_from_s']:.1f} s"
-    return holds, f"{lean}, exceeds 1/10 at {a['tilt_time_s']:.1f} s, collapsed {a['collapse_time_s']:.1f} s"
+    holds = within(a.leans_from_s, (0.0, SNOW_TILT_BY)) and within(a.collapse_time_s, SNOW_COLLAPSE)
+    lean = f"leans {direction_name(a.tilt_direction)} from {a.leans_from_s:.1f} s"
+    return holds, f"{lean}, exceeds 1/10 at {a.tilt_time_s:.1f} s, collapsed {a.collapse_time_s:.1f} s"
 
 
 def stands_still(run):
-    still = max(sway(run, "ns"), sway(run, "ew")) < STILL and damage(run) == 0 and not run["collapsed"]
+    still = max(sway(run, "ns"), sway(run, "ew")) < STILL and damage(run) == 0 and not run.collapsed
     return still, run_text(run)
 
 
 def east_side_broken(b1):
-    west = b1["broken"]["by_place"]["1"]["west"]
-    holds = sways_in(b1, "ew", GREAT_SWAY) and west["column_beam"] > 0 and west["brace_beam"] == 0 and not b1["collapsed"]
-    return holds, f"{run_text(b1)}; storey 1 west: {west['column_beam']} column-beam, {west['brace_beam']} brace-beam joints broken"
+    west = b1.broken.by_place["1"]["west"]
+    holds = sways_in(b1, "ew", GREAT_SWAY) and west.column_beam > 0 and west.brace_beam == 0 and not b1.collapsed
+    return holds, f"{run_text(b1)}; storey 1 west: {west.column_beam} column-beam, {west.brace_beam} brace-beam joints broken"
 
 
 def south_side_broken(b2, b1):
@@ -162,11 +162,11 @@ def sways_less(c1, b1):
 
 
 def very_stable(c2):
-    return max(sway(c2, "ns"), sway(c2, "ew")) < GREAT_SWAY and not c2["collapsed"], run_text(c2)
+    return max(sway(c2, "ns"), sway(c2, "ew")) < GREAT_SWAY and not c2.collapsed, run_text(c2)
 
 
 def snow_increases_damage(b1_snow, b1):
-    holds = not b1_snow["collapsed"] and lost_columns(b1_snow) > lost_columns(b1) and leaning(b1_snow) > leaning(b1) and more_damaged(b1_snow, b1)
+    holds = not b1_snow.collapsed and lost_columns(b1_snow) > lost_columns(b1) and leaning(b1_snow) > leaning(b1) and more_damaged(b1_snow, b1)
     return holds, runs_text(b1_snow, b1)
 
 

@@ -47,7 +47,7 @@ def outcome(run):
     """'1/12, 1/10', or 'falls N-S, 6.2 s', of a summary; empty for a missing one."""
     if run is None:
         return ""
-    if run["collapsed"]:
-        direction = {"ns": " N-S", "ew": " E-W"}.get(run["tilt_direction"], "")
-        return f"falls{direction}, {time_text(run['collapse_time_s'] - run['record']['onset_s'])}"
+    if run.collapsed:
+        direction = {"ns": " N-S", "ew": " E-W"}.get(run.tilt_direction, "")
+        return f"falls{direction}, {time_text(run.collapse_time_s - run.record.onset_s)}"
     return f"{drift_text(sway(run, 'ns'))}, {drift_text(sway(run, 'ew'))}"

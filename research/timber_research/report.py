@@ -15,24 +15,24 @@ RUN_COLUMNS = ("run", "outcome", "leans from", "tilt (1/10)", "collapse", "peak 
 
 def run_row(name, run):
     """Values of RUN_COLUMNS for a summary."""
-    broken, columns = run["broken"], run["columns"]
-    peaks = [run["peak_drift"][storey][direction] or 0.0 for storey in ("storey1", "storey2") for direction in ("ns", "ew")]
+    broken, columns = run.broken, run.columns
+    peaks = [run.peak_drift[storey][direction] or 0.0 for storey in ("storey1", "storey2") for direction in ("ns", "ew")]
     leans = [leaning(run, storey) for storey in ("storey1", "storey2")]
-    times = [run["leans_from_s"], run["tilt_time_s"], run["collapse_time_s"]]
+    times = [run.leans_from_s, run.tilt_time_s, run.collapse_time_s]
     return [
         name,
-        "collapsed" if run["collapsed"] else "stands",
+        "collapsed" if run.collapsed else "stands",
         *map(time_text, times),
         *map(drift_text, peaks + leans),
         damage(run),
-        broken["total"],
-        broken["column_beam"],
-        broken["brace_beam"],
-        *(broken["by_storey"].get(storey, 0) for storey in "12"),
-        *(broken["by_side"][side] for side in ("north", "south", "east", "west")),
-        columns["fallen"],
-        columns["loose"],
-        round(run["wall_s"]),
+        broken.total,
+        broken.column_beam,
+        broken.brace_beam,
+        *(broken.by_storey.get(storey, 0) for storey in "12"),
+        *(broken.by_side[side] for side in ("north", "south", "east", "west")),
+        columns.fallen,
+        columns.loose,
+        round(run.wall_s),
     ]
 
 
@@ -43,7 +43,7 @@ def run_rows(summaries):
 def markdown(results, summaries):
     """Both tables as Markdown: claims, then runs."""
     holding = sum(r.holds is True for r in results)
-    wall = sum(run["wall_s"] for run in summaries.values())
+    wall = sum(run.wall_s for run in summaries.values())
     lines = [f"{holding} of {len(results)} claims hold. {len(summaries)} runs, {wall / 60:.1f} min of computing in total.", ""]
     lines += markdown_table(("name", "verdict", "claim", "numbers"), [(r.name, VERDICTS[r.holds], r.claim, r.numbers) for r in results])
     return "\n".join([*lines, "", *markdown_table(RUN_COLUMNS, run_rows(summaries))]) + "\n"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
-from yade_timber.recording.sentences import counted, span
+from yade_timber.text.english import counted, span
 from yade_timber.recording.verdict import STATES
 from yade_timber.study.retrofit.race import holm
 
@@ -39,18 +39,18 @@ def _all(_run):
 
 
 def _stands(run):
-    return not run["collapsed"]
+    return not run.collapsed
 
 
 def _falls(run):
-    return run["collapsed"]
+    return run.collapsed
 
 
 QUANTITIES = (
     Quantity("largest drift [-]", drift, _stands, "{:.3g}".format),
     Quantity("residual drift [-]", lean, _stands, "{:.3g}".format),
     Quantity("broken springs + 1 [-]", lambda run: 1 + damage(run), _all, "{:.0f}".format),
-    Quantity("collapse time [s]", lambda run: run["collapse_time_s"], _falls, "{:.2f}".format),
+    Quantity("collapse time [s]", lambda run: run.collapse_time_s, _falls, "{:.2f}".format),
 )
 """Positive numbers, whose logarithms are compared. Drifts are those of runs that stand; the collapses are compared as shares."""
 
@@ -106,9 +106,9 @@ def _range(quantity, values):
 
 def _shares(case, first, second):
     """Fisher's exact test for each verdict that not all runs have; of two verdicts the second repeats the first."""
-    occurring = [state for state in STATES if any(run["verdict"] == state for run in (*first, *second))]
+    occurring = [state for state in STATES if any(run.verdict == state for run in (*first, *second))]
     for state in occurring[-1:] if len(occurring) <= 2 else occurring:
-        counts = [sum(run["verdict"] == state for run in runs) for runs in (first, second)]
+        counts = [sum(run.verdict == state for run in runs) for runs in (first, second)]
         texts = [f"{count} of {len(runs)}" for count, runs in zip(counts, (first, second))]
         yield Comparison(case, state, "Fisher", *texts, None, fisher(counts, (len(first), len(second))) if len(occurring) > 1 else None)
 

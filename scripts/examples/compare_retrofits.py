@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 
 import yade_timber as yt
 from yade_timber.base.colors import BLUE, GREEN, ORANGE
-from yade_timber.recording.sentences import DRIFT_LINES, ratio
+from yade_timber.text.english import DRIFT_LINES, ratio
 
 SHAKING = {"motion": "shipped", "start": 17}  # strong shaking begins at 18.8 s
 OUTER_WALLS = ("NS.x0", "NS.x8", "EW.y0", "EW.y9")

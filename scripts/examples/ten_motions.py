@@ -14,7 +14,7 @@ import numpy as np
 import yade_timber as yt
 from yade_timber.base.colors import BLUE, ORANGE
 from yade_timber.base.table import csv_text
-from yade_timber.recording.sentences import DRIFT_LINES, ratio
+from yade_timber.text.english import DRIFT_LINES, ratio
 
 SEEDS = range(1, 11)
 START = 17.0

@@ -45,7 +45,7 @@ LARGEST = 150_000
 
 def telling_view(run):
     """The view that shows the tilt of a run's house: N-S is seen from the east."""
-    return SIDE if run.summary and run.summary["tilt_direction"] == "ew" else FRONT
+    return SIDE if run.summary and run.summary.tilt_direction == "ew" else FRONT
 
 
 @default_style()
@@ -95,7 +95,7 @@ def ended(folder):
 
 def fallen_at(run):
     """Time of collapse, or the end of the run. [s]"""
-    return run.summary["collapse_time_s"] or run.time[-1]
+    return run.summary.collapse_time_s or run.time[-1]
 
 
 def make(results, out):

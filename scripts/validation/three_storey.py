@@ -132,8 +132,8 @@ def package_periods(ends, folder):
     name = f"ubc3s_{ends.split()[-1]}"
     built = house_of_masses(ends, folder / f"{name}.yaml")
     run = yt.run(built, duration=SETTLING, dt=DT, out=folder / name, no_frames=True, quiet=True)
-    modes = run.summary["quantities"]["modes"]["before"]["modes"]
-    return {d: max(mode["period_s"] for mode in modes if mode["direction"] == d) for d in WALLS}
+    modes = run.summary.quantities.modes.before.modes
+    return {d: max(mode.period_s for mode in modes if mode.direction == d) for d in WALLS}
 
 
 def main():

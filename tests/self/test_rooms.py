@@ -1,6 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> pictures; study starts runs and reads recordings; api over all.
+"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> text -> pictures; study starts runs and reads recordings; api over all.
 
 Inside study: driver -> batch -> retrofit; driver -> ensemble. The package, its scripts and their tests never import the research beside it.
 """
@@ -15,14 +15,15 @@ RESEARCH = "timber_research"
 """Package beside the installed one."""
 YADE = {"yade", "_plugin", "host"}
 """YADE itself, the compiled module, and the module that loads it."""
-ALL = {"house", "motion", "scene", "run", "recording", "pictures", "study", "api"}
+ALL = {"house", "motion", "scene", "run", "recording", "text", "pictures", "study", "api"}
 FORBIDDEN = {
     "base": YADE | ALL,
     "house": YADE | ALL - {"house", "motion"},
     "motion": YADE | ALL - {"house", "motion"},
-    "scene": {"run", "recording", "pictures", "study", "api"},
+    "scene": {"run", "recording", "text", "pictures", "study", "api"},
     "run": {"study", "api"},
     "recording": YADE | ALL - {"recording"},
+    "text": YADE | ALL - {"recording", "text"},
     "pictures": YADE | {"scene", "run", "study", "api"},
     "study": {"api"},
 }

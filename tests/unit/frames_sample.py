@@ -2,7 +2,9 @@
 """A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
 import numpy as np
 from yade_timber.recording import frames
+from yade_timber.recording.events import Collapse, Event, FirstBreak, Tilt
 from yade_timber.recording.history import History
+from yade_timber.recording.summary import Summary
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 FALL = 2.0
@@ -72,12 +74,10 @@ def motion():
 
 
 def summary(name):
-    drift = {"ns": 1.3, "ew": 0.39}
-    found = {"first_break": (2.1, "first spring breaks: column-beam, storey 1, south"), "tilt": (2.3, "storey drift passes 1/10 N-S"),
-             "collapse": (2.9, "collapse: a floor is down by half a storey")}
-    events = [{"time_s": time, "kind": kind, "what": what, "number": 1} for kind, (time, what) in found.items()]
-    return {"model": name, "events": events, "broken": {"total": 7, "damaged_at_start": {"total": 1}}, "joints": {"total": 8}, "snow": False, "tilt_time_s": 2.3,
-            "tilt_direction": "ns", "collapsed": True, "collapse_time_s": 2.9, "peak_drift": {"storey1": drift, "storey2": {"ns": None, "ew": None}}}
+    events = [Event(2.1, FirstBreak("column_beam", "1", "south", "tension", 5900.0)), Event(2.3, Tilt("ns")), Event(2.9, Collapse())]
+    return Summary.sample(
+        model=name, earthquake=True, events=events, broken={"total": 7, "damaged_at_start": {"total": 1}}, joints={"total": 8}, tilt_time_s=2.3,
+        tilt_direction="ns", collapsed=True, collapse_time_s=2.9, peak_drift={"storey1": {"ns": 1.3, "ew": 0.39}})
 
 
 def run(name="A", until=DURATION):
@@ -114,5 +114,6 @@ def walled_run():
     joints.name[:6] = [f"main.wall1.NS.x{bay}.0-1.plywood.{half}" for bay in range(3) for half in ("beams", "columns")]
     joints.springs, joints.damaged = np.where(order < 6, 1, 4), np.zeros(8, bool)
     made.broken = np.where(made.time[:, None] > FALL + 0.1 * order, joints.springs, 0)
-    made.summary |= {"joints": {"total": 2, "wall_sheets": 3}, "broken": {"total": 2, "wall_sheets": 3, "wall_sheets_partly": 0, "damaged_at_start": {"total": 0}}}
+    counts = {"total": 2, "wall_sheets": 3, "wall_sheets_partly": 0, "damaged_at_start": {"total": 0}}
+    made.summary = made.summary.changed(joints={"total": 2, "wall_sheets": 3}, broken=counts)
     return made

@@ -11,6 +11,8 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
+from yade_timber.recording.events import Event, StructureFallen, Tilt  # noqa: E402
+from yade_timber.recording.summary import Summary  # noqa: E402
 from yade_timber.study.batch import BatchError, read_table, write_runs  # noqa: E402
 from yade_timber.study.batch.collect import RESULTS  # noqa: E402
 from yade_timber.study.batch.tasks import task_of  # noqa: E402
@@ -135,16 +137,16 @@ def test_commas_are_answered_with_the_remedy(table, text, remedy):
         [row.value("scale") for row in table(text)]
 
 
-SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}, "record": None}
+SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}}
 
 
 def result(rows, folder, summary, errors=()):
-    """Rows of runs.csv after the first run has this summary and later ones these errors."""
+    """Rows of runs.csv after the first run has this summary (changes of a sample) and later ones these errors."""
     for row, error in zip(rows[1:], errors):
         (folder / row.name).mkdir()
         (folder / row.name / "run.json").write_text(json.dumps({"status": "failed", "error": error}))
     (folder / rows[0].name).mkdir()
-    (folder / rows[0].name / "summary.json").write_text(json.dumps({**summary, "made_from": made_from(task_of(rows[0], folder).options)}))
+    Summary.sample(**summary, made_from=made_from(task_of(rows[0], folder).options)).write(folder / rows[0].name)
     write_runs(rows, folder)
     with open(folder / "runs.csv", newline="") as file:
         return list(csv.DictReader(file))
@@ -161,9 +163,9 @@ def test_one_row_of_results_per_run(table, tmp_path):
 
 
 def test_events_of_a_run(table, tmp_path):
-    events = [{"time_s": 2.3, "kind": "fallen", "what": "carport has fallen"}, {"time_s": 21.5, "kind": "collapse", "what": "collapse"}]
+    events = [Event(2.3, Tilt("ew")), Event(21.5, StructureFallen("carport"))]
     (run,) = result(table("house\nB\n"), tmp_path, {**SUMMARY, "events": events})
-    assert run["events"] == "2.30 s carport has fallen; 21.50 s collapse"
+    assert run["events"] == "2.30 s a storey drift E-W passes 1/10; 21.50 s carport has fallen: a level is down by half a storey"
 
 
 def test_wall_sheets_stand_apart_from_joints(table, tmp_path):

@@ -104,7 +104,7 @@ def package(tmp_path_factory):
         ("pictures/player.py", False),
         ("data/player/page.css", False),
         ("study/driver.py", False),
-        ("recording/sentences.py", False),
+        ("text/english.py", False),
         ("scene/engines.py", True),
         ("scene/scenario.py", True),
         ("run/runner.py", True),

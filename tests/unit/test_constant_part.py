@@ -24,7 +24,9 @@ from yade_timber.motion import (  # noqa: E402
     trim,
 )
 from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
-from yade_timber.recording.sentences import record, town  # noqa: E402
+from yade_timber.recording.summary import Summary  # noqa: E402
+from yade_timber.recording.town import summary as town_summary  # noqa: E402
+from yade_timber.text.english import record, sentence  # noqa: E402
 
 TIME = np.arange(0, 20, 0.01)
 BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))
@@ -132,9 +134,10 @@ def test_a_motion_of_python():
 
 def test_the_note_is_in_the_sentences():
     note = "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"
-    assert record({"record": {"note": note}}) == f"the record's {note}"
-    assert town({"model": "x", "verdicts": ["undamaged"], "record": {"note": note}}).endswith(f"; the record's {note}")
-    assert record({"record": {"note": None}}) == record({"record": None}) == record({}) == ""
+    noted = Summary.sample(record={"note": note})
+    assert record(noted) == f"the record's {note}"
+    assert sentence(town_summary("x", {"lot": noted})).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
+    assert record(Summary.sample(record={"source": "a"})) == record(Summary.sample()) == ""
 
 
 def test_show_record_says_so(tmp_path):

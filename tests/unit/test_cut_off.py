@@ -9,11 +9,12 @@ import yade_timber as yt
 from yade import O
 from yade_timber.base.errors import RunError
 from yade_timber.recording import frames
-from yade_timber.recording.sentences import sentence
+from yade_timber.recording.summary import Summary
 from yade_timber.run import runner, summary
 from yade_timber.run.cli import Output
 from yade_timber.scene.engines import find_engine
 from yade_timber.scene.scenario import Scenario
+from yade_timber.text.english import sentence, unconverged
 
 
 def run_with(folder, change):
@@ -58,7 +59,7 @@ def test_results_until_the_failure_are_kept(tmp_path, change):
     assert "physical range" in error and "\n" not in error
     found = read(tmp_path)
     assert found["cut_off"] == error and found["duration_s"] == pytest.approx(0.15, abs=0.01)
-    assert sentence(found).startswith("Cut off at 0.1") and abs(found["energy"]["residual_fraction"]) < 1e-3
+    assert sentence(Summary.read(tmp_path)).startswith("Cut off at 0.1") and abs(found["energy"]["residual_fraction"]) < 1e-3
     recorded = frames.load(tmp_path / frames.NAME)
     assert recorded.time[-1] <= 0.15 and (tmp_path / "history.csv").read_text().count("nan") == 0
 
@@ -71,9 +72,8 @@ def test_energy_from_nothing_is_refused(tmp_path):
 
     assert "created 1e+06 J" in run_with(tmp_path, create)
     assert read(tmp_path)["cut_off"].startswith("contacts and joints have created")
-    small = {"created": 0.9e-4, "input": 1.0}
-    assert summary.created_too_much({**small, "created": 0.9e-4 * 100, "input": 100}) is None
-    assert summary.created_too_much({**small, "created": 1.1e-4 * 100, "input": 100})
+    energies = [Summary.sample(energy={"created": created * 100, "input": 100}).energy for created in (0.9e-4, 1.1e-4)]
+    assert [bool(summary.created_too_much(energy)) for energy in energies] == [False, True]
 
 
 def test_steps_that_do_not_converge_are_counted():
@@ -91,8 +91,6 @@ def test_steps_that_do_not_converge_are_counted():
 
 
 def test_sentence_names_steps_that_matter():
-    found = {"solver": {"unconverged_steps": 3, "worst_change_j": 1.0}, "energy": {"input": 1e5}}
-    from yade_timber.recording.sentences import unconverged
-
+    found = Summary.sample(solver={"unconverged_steps": 3, "worst_change_j": 1.0}, energy={"input": 1e5})
     assert unconverged(found) == "3 steps did not converge (largest change 1 J)"
-    assert unconverged({**found, "energy": {"input": 1e7}}) == ""
+    assert unconverged(found.changed(energy={"input": 1e7})) == ""

@@ -8,6 +8,8 @@ import yade.wrapper as yw
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from yade_timber.motion import GroundMotion, default_motion, onset
+from yade_timber.recording.events import Collapse, ColumnsLost, Tilt
+from yade_timber.recording.summary import Columns
 from yade_timber.run import observer
 from yade_timber.run.progress import Progress
 from yade_timber.run.summary import record
@@ -30,38 +32,38 @@ def house():
 
 
 def test_columns(house):
-    assert house.survey.count_columns(house.state()) == {"total": 90, "fallen": 1, "loose": 1}
+    assert house.survey.count_columns(house.state()) == Columns(90, 1, 1)
 
 
 def test_by_place(house):
     """Totals, sides and storeys agree; nothing is broken in the second storey."""
     broken = house.survey.count_broken(house.state(), springs=0)
-    assert broken["by_place"]["1"]["west"]["column_beam"] >= 1 and set(broken["by_place"]) == set(broken["by_storey"])
-    for storey, sides in broken["by_place"].items():
-        assert max(side["total"] for side in sides.values()) <= broken["by_storey"][storey] <= sum(side["total"] for side in sides.values())
-    assert broken["total"] == sum(broken["by_storey"].values()) and house.survey.count_joints()["total"] == len(house.model.joints)
+    assert broken.by_place["1"]["west"].column_beam >= 1 and set(broken.by_place) == set(broken.by_storey)
+    for storey, sides in broken.by_place.items():
+        assert max(side.total for side in sides.values()) <= broken.by_storey[storey] <= sum(side.total for side in sides.values())
+    assert broken.total == sum(broken.by_storey.values()) and house.survey.count_joints().total == len(house.model.joints)
 
 
 def test_broken_joints_agree_with_the_engine(house):
     found = house.survey.count_broken(house.state(), springs=0)
-    assert found["total"] == sum(joint.isBroken for joint in engines.find_engine(yw.JointEngine).joints) and found["partly_broken"] == 0
+    assert found.total == sum(joint.isBroken for joint in engines.find_engine(yw.JointEngine).joints) and found.partly_broken == 0
 
 
 def test_lost_columns_are_an_event(house):
     house.observe(O.time)
-    assert [(event["kind"], event["number"]) for event in house.log.records()] == [("columns_lost", 2)]
+    assert [event.facts for event in house.log.sorted()] == [ColumnsLost(2, 90)]
 
 
 def test_events_are_printed_once(house, capsys):
     """A line for each event of the log, unless the run is quiet; events known from a checkpoint are not repeated."""
     case = scenario.Scenario("case", "A")
-    house.log.add(0.5, "tilt", "known")
+    house.log.add(0.5, Tilt("ns"))
     with Progress(case, house.log) as shown, Progress(case, house.log, quiet=True) as quiet:
-        house.log.add(1.25, "collapse", "new")
+        house.log.add(1.25, Collapse())
         for progress in (shown, shown, quiet):
             progress.update()
-    lines = [line for line in capsys.readouterr().err.replace("\r", "\n").splitlines() if "new" in line or "known" in line]
-    assert lines == ["   1.25 s  new"]
+    lines = [line for line in capsys.readouterr().err.replace("\r", "\n").splitlines() if " s  " in line]
+    assert lines == ["   1.25 s  collapse: a floor has come down by half a storey"]
 
 
 def test_motion_as_applied():
@@ -69,7 +71,7 @@ def test_motion_as_applied():
     motion = GroundMotion(0.01, np.outer(np.sin(np.arange(100)), [1.0, 2.0, 3.0]))  # ew, ns, ud
     shaken = scenario.Scenario("scaled", "A", motion, scale=0.5, dt=5e-4)
     scenario.build(shaken)
-    assert record(shaken)["pga_gal"] == pytest.approx({"ew": 50, "ns": 100, "ud": 150}, rel=1e-3)
+    assert record(shaken).pga_gal == pytest.approx({"ew": 50, "ns": 100, "ud": 150}, rel=1e-3)
     assert np.allclose(observer.describe_motion().acceleration, 0.5 * motion.acceleration)
 
 

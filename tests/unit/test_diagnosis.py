@@ -13,6 +13,7 @@ sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.house import build_house, comparison, diagnose, load_house  # noqa: E402
 from yade_timber.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement  # noqa: E402
+from yade_timber.recording.summary import Summary  # noqa: E402
 
 
 @cache
@@ -87,24 +88,21 @@ def test_headline_is_the_weakest_of_all_structures():
     assert "0.38 (side, storey 1, N-S)" in known["sentence"]
 
 
-def run_of(collapsed, peak_gal=None, snow=0.0):
+def run_of(iw, collapsed, peak_gal=None, snow=0.0, broken=0):
     record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
-    return {"structures": {"main": {"collapsed": collapsed}}, "earthquake": bool(peak_gal), "record": record, "snow_depth_m": snow}
-
-
-def known_index(iw, broken=0):
-    return {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken}
+    diagnosis = {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken}
+    return Summary.sample(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow, diagnosis=diagnosis)
 
 
 def test_disagreement():
     cases = ((1.2, True, 900), (1.2, False, 900), (0.5, True, 900), (0.5, False, 300), (None, True, 900), (0.5, False, None), (1.2, True, None))
-    assert [bool(comparison(known_index(iw), run_of(fell, peak))) for iw, fell, peak in cases] == [True, False, False, True, False, False, True]
+    assert [bool(comparison(run_of(iw, fell, peak))) for iw, fell, peak in cases] == [True, False, False, True, False, False, True]
 
 
 def test_disagreement_names_this_run():
-    assert comparison(known_index(0.5), run_of(False, 300)) == ("Main stands although its Iw is 0.50; this run: peak acceleration 3.0 m/s2, "
-                                                                "weaker than the 4 m/s2 of the index's earthquake.")
-    assert comparison(known_index(1.2, 8), run_of(True, 910, 1.0)) == (
+    assert comparison(run_of(0.5, False, 300)) == (
+        "Main stands although its Iw is 0.50; this run: peak acceleration 3.0 m/s2, weaker than the 4 m/s2 of the index's earthquake.")
+    assert comparison(run_of(1.2, True, 910, 1.0, 8)) == (
         "Main collapsed although its Iw is 1.20; this run: peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; "
         "snow 1 m; 8 joints broken from the start.")
-    assert comparison(known_index(1.2), run_of(True, snow=2.0)).endswith("this run: no earthquake; snow 2 m.")
+    assert comparison(run_of(1.2, True, snow=2.0)).endswith("this run: no earthquake; snow 2 m.")

@@ -2,9 +2,9 @@
 # runner: python
 """Runs of the driver: only missing ones are done, and none is taken that was made from something else."""
 import argparse
-import json
 import sys
 
+from yade_timber.recording.summary import Summary
 from yade_timber.run import identity
 from yade_timber.run.identity import made_from
 from yade_timber.study import driver
@@ -18,11 +18,12 @@ def fake_script(folder, body):
     return folder
 
 
-WRITES = """import sys, json, pathlib
+WRITES = """import sys, pathlib
+from yade_timber.recording.summary import Summary
 from yade_timber.run.identity import made_from
 folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
 words = sys.argv[1:]
-(folder / 'summary.json').write_text(json.dumps({'words': words, 'made_from': made_from(words[:words.index('--out')])}))
+Summary.sample(scenario=' '.join(words), made_from=made_from(words[:words.index('--out')])).write(folder)
 """
 
 
@@ -32,11 +33,11 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
     tasks = [Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
     tasks[2].folder.mkdir()
-    old = {"old": 1, "made_from": made_from(())}
-    (tasks[2].folder / "summary.json").write_text(json.dumps(old))
+    old = Summary.sample(made_from=made_from(()))
+    old.write(tasks[2].folder)
     said = []
     done = run_missing(tasks, scripts, 2, said.append)
-    assert "--dt" in done[tasks[0]]["words"] and "0.0002" in done[tasks[0]]["words"]
+    assert "--dt 0.0002" in done[tasks[0]].scenario
     assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
     assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
 
@@ -53,7 +54,7 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     def runs_done(seed=1):
         task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
         del said[:]
-        assert run_missing([task], scripts, 1, said.append)[task]["made_from"]["options"][-1] == str(seed)
+        assert run_missing([task], scripts, 1, said.append)[task].made_from["options"][-1] == str(seed)
         return len(said) and "again" in said[-1]
 
     assert runs_done() is False and runs_done() == 0

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Events, damage, verdicts and sentences of invented runs. Needs no YADE."""
-import copy
+import json
 
 import frames_sample
 import numpy as np
 import pytest
+from yade_timber.base.json_types import encode
 from yade_timber.recording.damage import DamageSurvey, Level, State
-from yade_timber.recording.events import EventLog
-from yade_timber.recording.own_weight import damage_before_shaking, start_of_shaking
-from yade_timber.recording.sentences import joint_place, sentence
-from yade_timber.recording.verdict import judge, leans, passed
+from yade_timber.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
+from yade_timber.recording.own_weight import start_of_shaking
+from yade_timber.recording.summary import Columns, JointCounts, Summary
+from yade_timber.recording.verdict import Structure, passed
 from yade_timber.recording.walls import count_apart
+from yade_timber.text.english import event, joint_place, own_weight, sentence
 
 ROOF = list(frames_sample.PARTS).index("roof")
 
@@ -29,7 +31,7 @@ def events(run, log=None):
     log = log or EventLog(survey(run))
     for time, state in states(run):
         log.observe(float(time), state)
-    return log.records()
+    return log.sorted()
 
 
 def test_a_fall():
@@ -37,8 +39,7 @@ def test_a_fall():
     run = frames_sample.run()
     run.broken[:] = 0
     found = events(run)
-    assert [(event["kind"], event["time_s"], event["number"]) for event in found] == [("columns_lost", 2.8, 4), ("structure_fallen", 2.95, 1)]
-    assert "carport" in found[1]["what"] and "4 of 4" in found[0]["what"]
+    assert found == [Event(2.8, ColumnsLost(4, 4)), Event(2.95, StructureFallen("carport"))]
 
 
 def test_columns_are_counted_in_doublings():
@@ -49,14 +50,14 @@ def test_columns_are_counted_in_doublings():
         broken = calm.broken.copy()
         broken[[joint for joint in range(8) if joint % 4 < k]] = 4
         log.observe(float(k), State(calm.position, calm.orientation, broken))
-    assert [(event["time_s"], event["number"]) for event in log.records()] == [(1, 1), (2, 2), (4, 4)]
+    assert log.sorted() == [Event(k, ColumnsLost(k, 4)) for k in (1, 2, 4)]
 
 
 def test_columns_loose_from_the_start_are_no_event():
     run = frames_sample.run(until=1.0)
     run.joints.damaged[[0, 4]] = True
     run.broken[:, [0, 4]] = 4
-    assert events(run) == [] and survey(run).count_columns(states(run)[0][1]) == {"total": 4, "fallen": 0, "loose": 1}
+    assert events(run) == [] and survey(run).count_columns(states(run)[0][1]) == Columns(4, 0, 1)
 
 
 def test_a_column_loose_from_the_start_may_fall():
@@ -65,7 +66,7 @@ def test_a_column_loose_from_the_start_may_fall():
     run.broken[:] = 0
     run.joints.damaged[[0, 4]] = True
     run.broken[:, [0, 4]] = 4
-    assert survey(run).loose_at_start == 1 and max(event["number"] for event in events(run) if event["kind"] == "columns_lost") == 4
+    assert survey(run).count_columns(states(run)[0][1]).loose == 1 and max(one.facts.number for one in events(run) if one.kind == "columns_lost") == 4
 
 
 def test_drift_of_a_structure_is_the_larger_component():
@@ -83,10 +84,10 @@ def test_a_resumed_log_repeats_nothing():
     """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
     run = frames_sample.run()
     once = events(run)
-    log = EventLog(survey(run), once)
+    log = EventLog(survey(run), json.loads(json.dumps(encode(once))))
     assert events(run, log) == once
     log.drop_after(2.42)
-    assert log.records() == once[:1] and once[0]["time_s"] < 2.42 < once[1]["time_s"]
+    assert log.sorted() == once[:1] and once[0].time_s < 2.42 < once[1].time_s
 
 
 def snowy_house(drop, slide, tilt=0.0):
@@ -120,7 +121,7 @@ def test_event_of_fallen_snow(structure, name, expected):
     found.elements.name[ROOF] = name
     log = EventLog(found)
     log.observe(1.0, state)
-    assert f"snow has fallen from the {expected}" in [event["what"] for event in log.records()]
+    assert f"snow has fallen from the {expected}" in map(event, log.sorted())
 
 
 @pytest.mark.parametrize("place, expected", [
@@ -137,18 +138,16 @@ def test_removed_elements_are_no_damage():
     position[[2, ROOF]] = np.nan
     state = State(position, np.where(np.isnan(position[:, :1]), np.nan, run.orientation[0]), run.broken[0])
     found = survey(run)
-    assert found.count_columns(state) == {"total": 3, "fallen": 0, "loose": 0} and found.fallen_structures(state) == []
+    assert found.count_columns(state) == Columns(3, 0, 0) and found.fallen_structures(state) == []
 
 
 # --- sentences ----------------------------------------------------------------------------------------------------------
 
 STANDING = {
-    "model": "B", "collapsed": False, "collapse_time_s": None, "tilt_time_s": None, "tilt_direction": None, "snow": False, "joints": {"total": 206},
-    "broken": {"total": 0, "partly_broken": 0, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 0, "loose": 0},
+    "model": "B", "earthquake": True, "joints": {"total": 206}, "columns": {"total": 90},
     "peak_drift": {"storey1": {"ns": 0.001, "ew": 0.002}, "storey2": {"ns": 0.001, "ew": 0.0}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": 1e-5}},
-    "final_amplitude": {"storey1": {"ns": 0.0, "ew": 0.0}}, "still_moving": False, "events": [],
 }
-SOUND = {"peak_drift": 0.002, "residual_drift": 0.0, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False}
+SOUND = {"peak_drift": 0.002}
 
 
 def drifts(peak, residual):
@@ -164,26 +163,25 @@ def drifts(peak, residual):
         (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"], ["leans"]),
         (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
         (drifts(0.3, 0.25), ["is unsafe and leans at the end", "1/3 E-W", "residual drift 1/4"], []),
-        ({"broken": {"total": 0, "partly_broken": 2, "damaged_at_start": {"total": 0}}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
-        ({"columns": {"total": 90, "fallen": 1, "loose": 0}, "events": [{"time_s": 20.5, "kind": "columns_lost", "what": "", "number": 1}]},
+        ({"broken": {"partly_broken": 2}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
+        ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]},
          ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
         ({"collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
-          "broken": {"total": 5, "partly_broken": 79, "damaged_at_start": {"total": 0}}, "columns": {"total": 90, "fallen": 42, "loose": 3}},
+          "broken": {"total": 5, "partly_broken": 79}, "columns": {"total": 90, "fallen": 42, "loose": 3}},
          ["House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly", "42 fallen and 3 loose of 90 columns"], ["unsafe"]),
         ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}}, ["still moving by ±1/100 E-W"], []),
         ({"structures": {"main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND, "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}},
-          "events": [{"time_s": 21.35, "kind": "structure_fallen", "what": "carport has fallen: a level is down by half a storey", "number": 1}]},
+          "events": [Event(21.35, StructureFallen("carport"))]},
          ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
         ({"structures": {"main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}},
-          "events": [{"time_s": time, "kind": "structure_fallen", "what": f"{name} has fallen: a level is down by half a storey", "number": 1}
-                     for time, name in ((3.0, "porch2"), (9.0, "porch"))]}, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
-        ({"snow": True, "snow_mass_kg": 5600.0, "events": [{"time_s": 20.2, "kind": "snow_fallen", "what": "", "number": 1}]}, ["snow 5.6 t, falling from 20.2 s"], []),
+          "events": [Event(3.0, StructureFallen("porch2")), Event(9.0, StructureFallen("porch"))]}, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
+        ({"snow": True, "snow_mass_kg": 5600.0, "events": [Event(20.2, SnowFallen("", "west", "roof"))]}, ["snow 5.6 t, falling from 20.2 s"], []),
         ({"record": {"onset_s": 18.8}, "duration_s": 2.0}, ["before strong shaking sets in (18.8 s)"], []),
     ],
 )
 def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
-    text = sentence({**copy.deepcopy(STANDING), **changes})
+    text = sentence(Summary.sample(**{**STANDING, **changes}))
     assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
 
 
@@ -192,10 +190,10 @@ def test_wall_sheets_are_counted_apart():
     run = frames_sample.walled_run()
     broken = np.array([1, 1, 1, 0, 0, 0, 4, 0])
     state = State(run.position[0], run.orientation[0], broken)
-    found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=7)}
-    assert (found["joints"]["total"], found["joints"]["wall_sheets"]) == (2, 3)
-    assert [found["broken"][key] for key in ("total", "wall_sheets", "wall_sheets_partly", "partly_broken")] == [1, 1, 1, 0]
-    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence({**copy.deepcopy(STANDING), **found})
+    joints, counts = survey(run).count_all(), survey(run).count_broken(state, springs=7)
+    assert (joints.total, joints.wall_sheets) == (2, 3)
+    assert (counts.total, counts.wall_sheets, counts.wall_sheets_partly, counts.partly_broken) == (1, 1, 1, 0)
+    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(Summary.sample(joints=joints, broken=counts))
     assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
@@ -203,8 +201,8 @@ def test_a_house_without_walls_has_no_wall_sheets():
     run = frames_sample.run(until=1.0)
     state = State(run.position[0], run.orientation[0], np.array([0, 4, 4, 0, 0, 0, 0, 0]))
     found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=8)}
-    assert "wall_sheets" not in found["joints"] and not any("wall" in key for key in found["broken"])
-    assert "; 2 of 8 joints broken (1 more from the start)" in sentence({**copy.deepcopy(STANDING), **found})
+    assert found["joints"] == JointCounts(total=8, column_beam=8, brace_beam=0) and "wall" not in str(encode(found))
+    assert "; 2 of 8 joints broken (1 more from the start)" in sentence(Summary.sample(**found))
 
 
 @pytest.mark.parametrize("changes, state", [
@@ -213,12 +211,12 @@ def test_a_house_without_walls_has_no_wall_sheets():
 ])
 def test_verdict(changes, state):
     """Each limit and each kind of damage decides alone; a limit counts as reached at its value."""
-    assert judge({**SOUND, **changes}) == state
+    assert Structure(**{**SOUND, **changes}).verdict == state
 
 
 def test_only_a_standing_house_leans():
     """A peak beyond the tilt is no lean; nor is the rest of a collapsed house."""
-    assert [leans({**SOUND, **changes}) for changes in ({"peak_drift": 0.3}, {"residual_drift": 0.11}, {"residual_drift": 0.11, "collapsed": True})] == [False, True, False]
+    assert [Structure(**{**SOUND, **changes}).leans for changes in ({"peak_drift": 0.3}, {"residual_drift": 0.11}, {"residual_drift": 0.11, "collapsed": True})] == [False, True, False]
     assert [limit and limit.name for limit in map(passed, (0.001, 0.01, 0.05, 0.2))] == [None, "damage limit", "safety limit", "tilt"]
 
 
@@ -229,9 +227,17 @@ def test_damage_by_structure():
     broken = np.zeros(8, int)
     broken[[3, 7]], broken[5] = 4, 1
     time, state = states(run)[0]
-    found = survey(run).by_structure(State(state.position, state.orientation, broken))
-    assert found == {"main": {"broken": 1, "partly_broken": 1, "columns_lost": 1, "collapsed": False},
-                     "carport": {"broken": 1, "partly_broken": 0, "columns_lost": 0, "collapsed": False}}
+    found = survey(run).by_structure(State(state.position, state.orientation, broken), {"main": 0.1, "carport": 0.0})
+    assert found == {"main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1), "carport": Structure(peak_drift=0.0, broken=1)}
+
+
+def test_a_summary_is_the_same_after_a_file(tmp_path):
+    """All kinds of values: events, structures, counts of other kinds, sheets, which a house without walls does not have."""
+    event = Event(0.9, OwnWeight(True, {"main": Structure(peak_drift=0.01, broken=3)}))
+    found = frames_sample.summary("A").changed(events=[event], joints={"roof_beam": 5, "wall_sheets": 2}, record=None)
+    found.write(tmp_path)
+    assert Summary.read(tmp_path) == found and found.joints.others == {"roof_beam": 5} and found.broken.wall_sheets is None
+    assert "wall_sheets" not in json.loads((tmp_path / "summary.json").read_text())["broken"]
 
 
 # --- own weight -------------------------------------------------------------------------------------------------------
@@ -245,24 +251,20 @@ def test_start_of_shaking():
     assert start_of_shaking(motion) is None and start_of_shaking(None) is None
 
 
-FACTS = {"peak_drift": 1e-4, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False}
-
-
 @pytest.mark.parametrize("main, text", [
-    ({}, ""), ({"peak_drift": 1 / 45, "broken": 12}, "12 joints broken, peak drift 1/45"), ({"collapsed": True}, "collapsed"),
+    ({"peak_drift": 1 / 45, "broken": 12}, "12 joints broken, peak drift 1/45"), ({"collapsed": True}, "collapsed"),
     ({"partly_broken": 1, "columns_lost": 2}, "1 joint partly broken, 2 columns lost, peak drift below 1/1000"),
 ])  # fmt: skip
 def test_damage_before_the_shaking(main, text):
-    structures = {"main": {**FACTS, **main}, "shed": FACTS}
-    assert damage_before_shaking(structures, False) == (text and f"damaged before the shaking, by its own weight: {text}")
+    structures = {"main": Structure(**{"peak_drift": 1e-4, **main}), "shed": Structure(peak_drift=1e-4)}
+    assert own_weight(OwnWeight(False, structures)) == f"damaged before the shaking, by its own weight: {text}"
 
 
 def test_damage_by_the_own_weight_in_the_verdict():
     """Of a run with an earthquake the event; of a run without one the cause, unless the house is undamaged."""
-    known = frames_sample.summary("A")
-    event = {"time_s": 0.9, "kind": "own_weight", "what": "damaged before the shaking, by its own weight: 3 joints broken", "number": 1}
-    assert "before the shaking" not in sentence({**known, "earthquake": True})
-    assert f"; {event['what']}; " in sentence({**known, "earthquake": True, "events": [*known["events"], event]})
-    assert "; damaged by its own weight and snow; " in sentence({**known, "earthquake": False, "snow": True, "snow_mass_kg": 1000})
-    calm = {"earthquake": False, "collapsed": False, "peak_drift": {"storey1": {"ns": 1e-4, "ew": 0.0}}, "broken": {"total": 0, "damaged_at_start": {"total": 0}}}
-    assert "own weight" not in sentence({**known, **calm, "events": []})
+    fallen = frames_sample.summary("A")
+    early = Event(0.9, OwnWeight(False, {"main": Structure(peak_drift=0.01, broken=3)}))
+    assert "before the shaking" not in sentence(fallen)
+    assert f"; {event(early)}; " in sentence(fallen.changed(events=[*fallen.events, early]))
+    assert "; damaged by its own weight and snow; " in sentence(fallen.changed(earthquake=False, snow=True, snow_mass_kg=1000))
+    assert "own weight" not in sentence(Summary.sample(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))

@@ -13,6 +13,7 @@ from yade_timber.scene import engines, scenario
 from yade_timber.house import HouseError
 from yade_timber.motion import GroundMotion
 from yade_timber.house.loader import SHIPPED
+from yade_timber.text import english
 
 STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
 ROOF = "type: gable, ridge: y, pitch: 0.45, eaves: 0.30, thickness: 0.20, material: tiles"
@@ -123,7 +124,8 @@ def test_a_roof_right_on_the_columns_marks_the_upper_level(tmp_path):
 def structures(model):
     """(fallen, leaning) structures of the scene as it is now."""
     observed = Observer(model)
-    return observed.survey.fallen_structures(observed.state()), observed.survey.leaning_structures(observed.state())
+    found = observed.survey.by_structure(observed.state(), observed.peaks)
+    return [name for name, facts in found.items() if facts.collapsed], [name for name, facts in found.items() if facts.leans]
 
 
 def test_fallen_structures_are_named():
@@ -194,7 +196,7 @@ def test_damage_before_the_shaking_is_an_event():
         observed = Observer(model)
         next(b for b in O.bodies if b.shape.name == "entrance.roof").state.pos += (lean, 0, 0)
         observed.observe(time)
-        texts = [event.what for event in observed.log.events if event.kind == "own_weight"]
+        texts = [english.event(event) for event in observed.log.events if event.kind == "own_weight"]
         assert texts == ["damaged before the shaking, by its own weight: entrance: peak drift 1/14"] * events
 
 

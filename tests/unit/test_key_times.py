@@ -6,23 +6,24 @@ import pytest
 from small_frames import frames
 from yade_timber.pictures import key_times, report_pictures, sheets
 from yade_timber.pictures.views import FRONT
+from yade_timber.recording.events import Event, StructureFallen
 
 
 def test_named_times():
     """The box moves between 1 s and 2 s. The collapse at 2 s looks like the end; the strongest shaking at 1.2 s is CLOSE to a tilt at 1.6 s."""
     made = frames()
-    made.summary = {**made.summary, "tilt_time_s": 1.75}
+    made.summary = made.summary.changed(tilt_time_s=1.75)
     found = {chosen.reason: made.time[chosen.frame] for chosen in key_times.choose(made)}
     assert {"start", "drift 1/10", "strongest shaking", "end"} <= set(found)
     assert (found["start"], found["strongest shaking"], found["drift 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.75, 3))
     assert "collapse" not in found
-    made.summary["tilt_time_s"] = 1.6
+    made.summary = made.summary.changed(tilt_time_s=1.6)
     assert "strongest shaking" not in [chosen.reason for chosen in key_times.choose(made)]
 
 
 def test_recorded_events_are_named():
     made = frames()
-    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": "porch has fallen: a level is down by half a storey", "number": 1}]}
+    made.summary = made.summary.changed(tilt_time_s=None, events=[Event(1.8, StructureFallen("porch"))])
     assert 1.8 in [made.time[chosen.frame] for chosen in key_times.choose(made) if chosen.reason == "porch has fallen"]
 
 
@@ -42,14 +43,11 @@ def test_each_panel_says_what_it_shows():
     assert key_times.state(frames(ended=False), 40) == "1 broken joint"
 
 
-LONG = "entrance has fallen: a level is down by half a storey"
-
-
 @pytest.mark.parametrize("form", [sheets.PRINT, sheets.SCREEN, report_pictures.SHOTS, sheets.Format(3.6, 6.0, 100, 6)])
 def test_titles_fit_their_panels(form):
     """Whole, and no wider than the panel and the gap beside it."""
     made = frames()
-    made.summary = {**made.summary, "tilt_time_s": None, "events": [{"time_s": 1.8, "kind": "structure_fallen", "what": LONG, "number": 1}]}
+    made.summary = made.summary.changed(tilt_time_s=None, events=[Event(1.8, StructureFallen("entrance"))])
     figure = sheets.sheet(made, FRONT, form)
     figure.canvas.draw()
     panels = [axis for axis in figure.axes if axis.get_title(loc="left")]

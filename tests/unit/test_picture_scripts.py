@@ -4,6 +4,7 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -11,6 +12,7 @@ import pytest
 from small_frames import frames
 from yade_timber.pictures.figures import stem_of
 from yade_timber.recording import frames as recorded
+from yade_timber.recording.events import Event, Tilt
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
@@ -83,7 +85,7 @@ def no_number(path):
 
 def wrong_events(path):
     made = frames()
-    made.summary = {**made.summary, "events": [{"time_s": "soon", "kind": "tilt", "what": 3}]}
+    made.summary = replace(made.summary, events=[Event("soon", Tilt(3))])
     recorded.save(path, made)
 
 

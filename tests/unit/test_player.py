@@ -14,7 +14,11 @@ import frames_sample
 import numpy as np
 import pytest
 from yade_timber.base.errors import RunError
-from yade_timber.pictures import japanese, key_times, player
+from yade_timber.pictures import key_times, player
+from yade_timber.recording.events import Collapse, ColumnsLost, Event, OwnWeight, SnowFallen, StructureFallen, Tilt
+from yade_timber.recording.summary import Summary
+from yade_timber.recording.verdict import Structure
+from yade_timber.text import japanese
 from yade_timber.pictures.packing import pack
 from yade_timber.recording import frames
 
@@ -126,8 +130,8 @@ def test_the_policy_permits_this_script_and_this_style_only(tmp_path):
 def test_no_text_from_data_becomes_markup(tmp_path, text):
     """The title is escaped, everything else is base64; the page has the same tags for any text."""
     run = frames_sample.run()
-    run.title, run.summary["model"], run.elements.name[1], run.elements.kind[1], run.joints.name[0] = [text] * 5
-    run.summary["events"][0]["what"] = text
+    run.title, run.elements.name[1], run.elements.kind[1], run.joints.name[0] = [text] * 4
+    run.summary = run.summary.changed(model=text, events=[Event(1.0, StructureFallen(text))])
     page = player.make([("x", run)], tmp_path / "player.html").read_text(encoding="utf-8")
     plain = player.make([("x", frames_sample.run())], tmp_path / "plain.html").read_text(encoding="utf-8")
     assert page.count("<") == plain.count("<") and re.fullmatch(r"[A-Za-z0-9+/=]+", re.search(r'class="run-data">([^<]*)<', page)[1])
@@ -141,8 +145,8 @@ def test_events_are_in_order():
     texts = [f"{event['time']:.2f} {event['text']}" for event in player.events(frames_sample.run())]
     assert [text[:24] for text in texts] == sorted(text[:24] for text in texts)
     expected = [
-        *("1.01 the shaking begins", "drift passes 1/120: damage limit", "2.10 first spring breaks: column-beam, storey 1, south"),
-        *("drift passes 1/30: safety limit", "2.30 storey drift passes 1/10 N-S", "2.90 collapse"),
+        *("1.01 the shaking begins", "drift passes 1/120: damage limit", "2.10 first spring breaks: column-beam joint, storey 1, south side, tension 5.9 kN"),
+        *("drift passes 1/30: safety limit", "2.30 a storey drift N-S passes 1/10", "2.90 collapse"),
     ]
     assert all(any(part in text for text in texts) for part in expected), texts
     assert key_times.onset(frames_sample.motion()) == pytest.approx(1.01)
@@ -186,40 +190,40 @@ def test_tables_with_other_content_are_refused(tmp_path, bad):
         player.packed(tmp_path / "frames.h5", frames_sample.run())
 
 
-def structure(**facts):
-    """An entry of `structures` of a summary, undamaged but for these facts."""
-    return {"peak_drift": 1e-3, "residual_drift": 0.0, "broken": 0, "partly_broken": 0, "columns_lost": 0, "collapsed": False, **facts}
-
-
 def test_the_japanese_result_judges_all_structures():
     """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged porch."""
-    found = frames_sample.summary("A") | {"collapsed": False, "peak_drift": {"storey1": {"ns": 0.05, "ew": 0.01}}, "structures": {
-        "main": structure(peak_drift=0.05), "entrance": structure(collapsed=True), "shed": structure(peak_drift=0.01), "porch": structure()}}
-    found["events"].append({"time_s": 2.6, "kind": "structure_fallen", "what": "entrance has fallen: a level is down by half a storey", "number": 1})
-    assert japanese.result(found) == "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。接合部 8 か所のうち 7 か所が破断（ほかに最初から破断 1 か所）。"
+    others = {"entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01), "porch": Structure(peak_drift=1e-3)}
+    found = Summary.sample(
+        joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.05, "ew": 0.01}},
+        structures=others, events=[Event(2.6, StructureFallen("entrance"))])
+    assert japanese.result(found) == (
+        "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。"
+        "接合部 8 か所のうち 7 か所が破断（ほかに最初から破断 1 か所）。")
 
 
 def test_the_japanese_result_has_all_warnings():
-    found = frames_sample.summary("A") | {
-        "collapsed": False, "structures": {"main": structure(peak_drift=0.3, residual_drift=0.2)}, "peak_drift": {"storey1": {"ns": 0.3, "ew": 0.01}},
-        "columns": {"total": 90, "fallen": 1, "loose": 3}, "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.02, "ew": 0.0}}, "snow": True,
-        "record": {"onset_s": 18.8}, "duration_s": 15.0,
-        "events": [{"time_s": time, "kind": kind, "what": "", "number": 1} for time, kind in ((12.0, "columns_lost"), (13.5, "snow_fallen"))]}
-    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下", "強い揺れ（18.8 秒）の前で計算を終了")
+    found = Summary.sample(
+        peak_drift={"storey1": {"ns": 0.3, "ew": 0.01}}, residual_drift={"storey1": {"ns": 0.2, "ew": 0.01}}, columns={"total": 90, "fallen": 1, "loose": 3},
+        still_moving=True, final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True, record={"onset_s": 18.8}, duration_s=15.0,
+        structures={"entrance": Structure(broken=2, peak_drift=5e-4)},
+        events=[Event(12.0, ColumnsLost(1, 90)), Event(13.5, SnowFallen("", "west", "roof"))])
+    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下", "強い揺れ（18.8 秒）の前で計算を終了",
+             "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
-    small = found | {"structures": {"main": structure(), "entrance": structure(broken=2, peak_drift=5e-4)}}
-    assert "玄関は補修可能（最大層間変形角 1/1000 未満）" in japanese.result(small)
 
 
-@pytest.mark.parametrize("kind, text, lot, expected", [
-    ("collapse", "collapse: a floor has come down by half a storey", None, "倒壊：床が階高の半分以上落ちた"),
-    ("collapse", "h1: collapse: a floor has come down by half a storey", "h1", "h1：倒壊：床が階高の半分以上落ちた"),
-    ("tilt", "h2: a storey drift E-W passes 1/10", "h2", "h2：層間変形角が 1/10 を超える（東西）"),
-    ("structure_fallen", "h1: entrance has fallen: a level is down by half a storey", "h1", "h1：玄関が倒れた"),
-    ("structure_fallen", "entrance has fallen: a level is down by half a storey", None, "玄関が倒れた"),
+@pytest.mark.parametrize("facts, lot, expected", [
+    (Collapse(), None, "倒壊：床が階高の半分以上落ちた"),
+    (Collapse(), "h1", "h1：倒壊：床が階高の半分以上落ちた"),
+    (Tilt("ew"), "h2", "h2：層間変形角が 1/10 を超える（東西）"),
+    (StructureFallen("entrance"), "h1", "h1：玄関が倒れた"),
+    (StructureFallen("entrance"), None, "玄関が倒れた"),
+    (SnowFallen("", "west", "roof"), None, "西の屋根の雪が落ちる"),
+    (OwnWeight(True, {"main": Structure(peak_drift=0.0), "entrance": Structure(peak_drift=1 / 14, broken=2)}), None,
+     "揺れの前に自重と雪で損傷：玄関は接合部 2 か所が破断、最大層間変形角 1/14"),
 ])
-def test_japanese_events_name_the_lot_of_a_town(kind, text, lot, expected):
-    assert japanese.event(kind, text, lot) == expected
+def test_japanese_events(facts, lot, expected):
+    assert japanese.event(Event(1.0, facts, lot)) == expected
 
 
 def test_a_long_run_has_a_player():

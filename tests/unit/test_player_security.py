@@ -6,6 +6,7 @@ import pytest
 from browser import errors
 from player_page import WIDE, ask, load
 from yade_timber.pictures import player
+from yade_timber.recording.events import Event, StructureFallen
 
 pytest_plugins = ["player_fixtures"]
 
@@ -18,7 +19,7 @@ def hostile_run(text):
     run.title = text
     run.elements.kind[2:4] = [text, text + "2"]
     run.elements.name[2], run.joints.name[0], run.joints.kind[0], run.joints.side[0] = text, text, text, text
-    run.summary["events"][0]["what"] = text
+    run.summary = run.summary.changed(events=[Event(1.0, StructureFallen(text))])
     return run
 
 

@@ -13,10 +13,12 @@ from yade_timber.base.errors import RunError
 from yade_timber.pictures import quantities, report, report_pictures
 from yade_timber.recording import peaks
 from yade_timber.recording.failures import cause_of, first_failures
-from yade_timber.recording.lines import MOST, lines, main_mode
+from yade_timber.recording.events import Collapse, Event, SnowFallen
+from yade_timber.recording.summary import Mode, ModesAt, Summary, Weight
 from yade_timber.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
 from yade_timber.recording.frames import Motion
 from yade_timber.run.runner import clear
+from yade_timber.text.lines import MOST, lines
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -38,16 +40,16 @@ def folder(tmp_path_factory):
 def test_files_and_summary(folder):
     """Tables are complete and sorted; the summary's peaks are those of the tables."""
     found = quantities.read(folder)
-    known, joints, columns = found.summary["quantities"], found.joints, found.columns
+    known, joints, columns = found.summary.quantities, found.joints, found.columns
     load, uplift = ([float(row[name]) for row in rows] for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
     assert load == sorted(load, reverse=True) and uplift == sorted(uplift, reverse=True)
-    assert len(joints) == found.summary["joints"]["total"] and len(columns) == found.summary["columns"]["total"]
-    assert known["largest_utilisation"]["value"] == pytest.approx(load[0], abs=1e-4)
-    assert known["largest_pull"]["force"] == pytest.approx(max(float(row["pull [N]"]) for row in joints if row["strength [N]"] != "inf"))
-    assert known["until_s"] is None, "the house stands"
+    assert len(joints) == found.summary.joints.total and len(columns) == found.summary.columns.total
+    assert known.largest_utilisation.value == pytest.approx(load[0], abs=1e-4)
+    assert known.largest_pull.force == pytest.approx(max(float(row["pull [N]"]) for row in joints if row["strength [N]"] != "inf"))
+    assert known.until_s is None, "the house stands"
     for axis in ("ns", "ew"):
-        assert known["base_shear"]["peak"][axis] == pytest.approx(found.storeys.peak(f"base_shear_{axis}"), abs=1e-3)
-    assert known["storeys"]["storey1"]["mass_above_kg"] > known["storeys"]["storey2"]["mass_above_kg"] > 1000
+        assert known.base_shear.peak[axis] == pytest.approx(found.storeys.peak(f"base_shear_{axis}"), abs=1e-3)
+    assert known.storeys["storey1"].mass_above_kg > known.storeys["storey2"].mass_above_kg > 1000
 
 
 def test_peaks_are_those_of_the_summary(folder):
@@ -86,8 +88,8 @@ def test_page_and_report(folder, tmp_path):
     written = report.write(tmp_path)
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
-    found = json.loads((tmp_path / "summary.json").read_text())
-    for part in (found["sentence"], "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), report.weight(found["weight"]), "scripts/modelB1_quake.py", "--dt 5e-4"):
+    found = Summary.read(tmp_path)
+    for part in (found.sentence, "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), report.weight(found.weight), "scripts/modelB1_quake.py", "--dt 5e-4"):
         assert report.text(part) in page, part
     if shutil.which("chromium"):
         assert written[1].name == report.PDF and len(re.findall(rb"/Type\s*/Page\b(?!s)", written[1].read_bytes())) == 1, "one page"
@@ -95,17 +97,17 @@ def test_page_and_report(folder, tmp_path):
 
 def test_weight(folder):
     """Total and weight per floor area without snow, which is stated apart; a house without a floor area has a weight only."""
-    known = {"total_kn": 83.2, "snow_kn": 0.0, "floor_area_m2": 119.2, "per_floor_area_kn_m2": 0.698}
+    known = Weight(83.2, 0.0, 119.2, 0.698, {})
     assert report.weight(known) == "Weight 83 kN, 0.70 kN per m² of 119 m² of floor."
-    assert report.weight({**known, "snow_kn": 59.4, "floor_area_m2": 0.0, "per_floor_area_kn_m2": None}) == "Weight 83 kN; snow 59 kN."
-    found = json.loads((folder / "summary.json").read_text())
+    assert report.weight(Weight(83.2, 59.4, 0.0, None, {})) == "Weight 83 kN; snow 59 kN."
+    found = Summary.read(folder)
     assert "weighs 0.7 kN per m² of floor" in report.caveats(found)[0]
-    assert report.caveats({"weight": {**found["weight"], "per_floor_area_kn_m2": 2.7}}) == list(report.CAVEATS)
+    assert report.caveats(found.changed(weight={"per_floor_area_kn_m2": 2.7})) == list(report.CAVEATS)
 
 
 def test_report_of_other_folders(folder, tmp_path):
     """A folder without results, results of an earlier version, results without frames: one line."""
-    with pytest.raises(RunError, match="no such file; give the folder of a finished run"):
+    with pytest.raises(RunError, match="no finished run is there"):
         report.write(tmp_path)
     for name in ("history.csv", "storeys.csv", "joints.csv", "columns.csv", "summary.json"):
         shutil.copy(folder / name, tmp_path / name)
@@ -114,7 +116,7 @@ def test_report_of_other_folders(folder, tmp_path):
     found = json.loads((tmp_path / "summary.json").read_text())
     for part in ("weight", "quantities"):
         (tmp_path / "summary.json").write_text(json.dumps({key: value for key, value in found.items() if key != part}))
-        with pytest.raises(RunError, match="earlier version"):
+        with pytest.raises(RunError, match=f"{part}: missing; repeat the run"):
             report.write(tmp_path)
 
 
@@ -130,19 +132,17 @@ def test_hostile_names_are_text(folder):
 
 def test_ten_lines(folder):
     """Ten at most, whatever happens; events take places from the last of the others."""
-    found = json.loads((folder / "summary.json").read_text())
+    found = Summary.read(folder)
     assert len(lines(found)) <= MOST and lines(found)[0].startswith("Main: ")
-    found["events"] = [{"time_s": 2.0 + k, "kind": "snow_fallen", "what": f"event {k}", "number": 1} for k in range(5)]
-    found["events"].append({"time_s": 9.0, "kind": "collapse", "what": "collapse", "number": 1})
-    made = lines(found)
-    assert len(made) == MOST and made[-3:] == ["2.00 s: event 0.", "3.00 s: event 1.", "9.00 s: collapse."]
+    made = lines(found.changed(events=[*(Event(2.0 + k, SnowFallen("", f"{k}.", "roof")) for k in range(5)), Event(9.0, Collapse())]))
+    snow = [f"{2 + k}.00 s: snow has fallen from the {k}. roof." for k in (0, 1)]
+    assert len(made) == MOST and made[-3:] == [*snow, "9.00 s: collapse: a floor has come down by half a storey."]
 
 
 def test_main_mode_moves_most_of_the_mass():
-    modes = [{"direction": "ns", "mass_share": {"ns": share, "ew": 0.0}, "period_s": share} for share in (0.1, 0.7, 0.3)]
-    found = {"quantities": {"modes": {"before": {"modes": modes}, "after": None}}}
-    assert main_mode(found, "before", "ns")["period_s"] == 0.7
-    assert main_mode(found, "before", "ew") is None and main_mode(found, "after", "ns") is None and main_mode({}, "before", "ns") is None
+    shares = [Mode(share, "ns", {"ns": share, "ew": 0.0}, {}) for share in (0.1, 0.7, 0.3)]
+    found = Summary.sample(quantities={"modes": {"before": ModesAt(1.0, shares)}})
+    assert found.main_mode("before", "ns").period_s == 0.7 and found.main_mode("before", "ew") is None and found.main_mode("after", "ns") is None
 
 
 # --- storeys ----------------------------------------------------------------------------------------------------------
@@ -229,7 +229,7 @@ def test_report_of_a_collapse():
             for k, name in enumerate(run.joints.name)]
     run.broken[:] = 0
     run.broken[run.time > 2.35, 3] = 4
-    results = quantities.Results({"quantities": {"until_s": 2.5}}, run.history, None, rows, [])
+    results = quantities.Results(Summary.sample(quantities={"until_s": 2.5}), run.history, None, rows, [])
     table = report.failed_joints(run, results, first_failures(run))
     assert table.count("<tr>") == 3 and "First failures" in table and "<td class=number>2.20</td>" in table and "<td>tension</td>" in table
     assert "<td class=number>4.6</td><td class=number>1.5</td><td class=number>5.9</td>" in table
@@ -240,10 +240,8 @@ def test_report_of_a_collapse():
 
 def test_lines_of_a_collapse(folder):
     """No drift of a wreck: when it fell, and forces before the fall."""
-    found = json.loads((folder / "summary.json").read_text())
-    found["structures"]["main"] |= {"collapsed": True, "verdict": "collapsed", "peak_drift": 3.92}
-    found |= {"collapsed": True, "collapse_time_s": 5.77, "tilt_time_s": 4.28, "tilt_direction": "ew"}
-    found["quantities"]["until_s"] = 4.28
-    texts = lines(found)
+    fallen = {"collapsed": True, "collapse_time_s": 5.77, "tilt_time_s": 4.28, "tilt_direction": "ew"}
+    main = {"collapsed": True, "peak_drift": 3.92}
+    texts = lines(Summary.read(folder).changed(**fallen, structures={"main": main}, quantities={"until_s": 4.28}))
     assert texts[0] == "Main: collapsed at 5.8 s, 1.5 s after a storey drift of 1/10 E-W." and not any("3.92" in line for line in texts)
     assert any(line.startswith("Largest base shear before 4.28 s, ") for line in texts)

@@ -176,7 +176,7 @@ def test_hostile_names_in_a_recording(tmp_path, coarse):
     """Title, model and kinds of elements and joints from a file that someone sends."""
     made = frames()
     made.title, made.joints.kind, made.elements.kind = HOSTILE[0], ["$\\frac{$", "_x", "y" * 10**5], ["ground", "$a$", "x" * 10**5]
-    made.summary = {**made.summary, "model": "$\\sqrt{$"}
+    made.summary = made.summary.changed(model="$\\sqrt{$")
     recorded.save(tmp_path / recorded.NAME, made)
     for path in all_pictures.write(tmp_path):
         assert path.suffix != ".png" or image.imread(path).ndim == 3

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 from yade_timber.base.errors import RunError
-from yade_timber.recording.sentences import other_walls
+from yade_timber.recording.summary import OtherWalls, Summary, Walls
 from yade_timber.run import cli
 from yade_timber.study import other_walls as study
+from yade_timber.text.english import other_walls
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -31,11 +32,11 @@ def test_options_of_the_other_level():
 
 
 def test_sentence_names_the_other_verdict_where_they_differ():
-    facts = {"peak_drift": 0.02, "residual_drift": 0.0, "columns_lost": 0, "broken": 0, "partly_broken": 0, "collapsed": False}
-    found = {"structures": {"main": facts}, "walls": {"level": "mean", "other": {"level": "design", "verdict": "collapsed"}}}
-    assert other_walls(found) == "with walls of the level design collapsed"
-    found["walls"]["other"]["verdict"] = "repairable"
-    assert other_walls(found) == other_walls({"structures": {"main": facts}, "walls": None}) == ""
+    texts = []
+    for verdict in ("collapsed", "repairable"):
+        walls = Walls("mean", OtherWalls("design", verdict, {}))
+        texts.append(other_walls(Summary.sample(peak_drift={"storey1": {"ns": 0.02, "ew": 0.0}}, walls=walls)))
+    assert [*texts, other_walls(Summary.sample())] == ["with walls of the level design collapsed", "", ""]
 
 
 def test_report_runs_both_levels(tmp_path):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The results of a finished run as an object. Needs no YADE."""
 import csv
-import json
 from functools import cached_property
 from pathlib import Path
 
@@ -10,9 +9,10 @@ from ..base.input_file import require_regular
 from ..recording import ensemble, frames
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
-from ..recording.sentences import largest_drift, sentence
+from ..recording.summary import Summary
+from ..text.english import sentence
 
-SUMMARY, BREAKS = "summary.json", "breaks.csv"
+BREAKS = "breaks.csv"
 
 
 class RunResult:
@@ -36,13 +36,8 @@ class RunResult:
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        path = self.folder / SUMMARY
-        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its end")
-        try:
-            self.summary = json.loads(path.read_text(encoding="utf-8"))
-            self.sentence = sentence(self.summary)
-        except (OSError, ValueError, LookupError, TypeError, AttributeError) as problem:
-            raise RunError(f"{path}: cannot be read as the summary of a run: {problem}") from None
+        self.summary = Summary.read(self.folder)
+        self.sentence = sentence(self.summary)
 
     def __repr__(self):
         return f"<Run {self.folder}: {self.sentence}>"
@@ -52,42 +47,42 @@ class RunResult:
     @property
     def drift(self):
         """Largest storey drift of any storey and direction during the run. [-]"""
-        return largest_drift(self.summary)[0]
+        return self.summary.largest_drift()[0]
 
     @property
     def residual_drift(self):
         """Largest storey drift that remains at the end, mean of the last oscillations. [-]"""
-        return largest_drift(self.summary, "residual_drift")[0]
+        return self.summary.largest_drift("residual_drift")[0]
 
     @property
     def drifts(self):
         """Peak drift of each storey and direction: ``run.drifts["storey1"]["ns"]``. [-]"""
-        return self.summary["peak_drift"]
+        return self.summary.peak_drift
 
     @property
     def broken(self):
         """Number of joints that broke during the run, without those of walls."""
-        return self.summary["broken"]["total"]
+        return self.summary.broken.total
 
     @property
     def collapsed(self):
         """Whether a floor of the main structure has come down by half a storey."""
-        return self.summary["collapsed"]
+        return self.summary.collapsed
 
     @property
     def collapse_time(self):
         """Time of the collapse [s], or None."""
-        return self.summary["collapse_time_s"]
+        return self.summary.collapse_time_s
 
     @property
     def energy(self):
-        """Energy balance at the end: input, kinetic, elastic, dissipated, residual. [J]"""
-        return self.summary["energy"]
+        """Energy balance at the end: ``energy.input``, ``kinetic``, ``elastic``, ``dissipated``, ``residual``. [J]"""
+        return self.summary.energy
 
     @property
     def events(self):
-        """Events in the order of time: dictionaries with ``time_s`` [s], ``kind``, ``what``, ``number``."""
-        return self.summary["events"]
+        """Events in the order of time: each with ``time_s`` [s], ``kind``, ``facts``."""
+        return self.summary.events
 
     # --- tables -------------------------------------------------------------------------------------------------------
 

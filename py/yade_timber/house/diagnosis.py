@@ -79,32 +79,32 @@ def sentence(diagnosis):
             f"least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one ({diagnosis['wall_quantity_at']})")
 
 
-def comparison(diagnosis, found):
+def comparison(summary):
     """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run; '' if none does.
 
-    found: summary. Without an earthquake a structure that stands agrees with every index.
+    summary: recording.summary.Summary. Without an earthquake a structure that stands agrees with every index.
     """
-    for name, facts in found["structures"].items():
-        iw = _least({name: diagnosis["structures"].get(name, {"storeys": {}})}, "iw")[0]
-        stands_untested = not facts["collapsed"] and not found["earthquake"]
-        if iw is None or facts["collapsed"] == (iw < 1.0) or stands_untested:
+    for name, facts in summary.structures.items():
+        iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
+        stands_untested = not facts.collapsed and not summary.earthquake
+        if iw is None or facts.collapsed == (iw < 1.0) or stands_untested:
             continue
-        outcome = "collapsed" if facts["collapsed"] else "stands"
-        return f"{name.capitalize()} {outcome} although its Iw is {iw:.2f}; this run: {_circumstances(diagnosis, found)}."
+        outcome = "collapsed" if facts.collapsed else "stands"
+        return f"{name.capitalize()} {outcome} although its Iw is {iw:.2f}; this run: {_circumstances(summary)}."
     return ""
 
 
-def _circumstances(diagnosis, found):
+def _circumstances(summary):
     """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from the start'."""
     parts = ["no earthquake"]
-    if found["earthquake"]:
-        peak = max(found["record"]["pga_gal"][axis] for axis in DIRECTIONS) / 100
+    if summary.earthquake:
+        peak = max(summary.record.pga_gal[axis] for axis in DIRECTIONS) / 100
         than = "stronger" if peak > rules.VERY_RARE_PEAK else "weaker"
         parts = [f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's earthquake"]
-    if found["snow_depth_m"]:
-        parts.append(f"snow {found['snow_depth_m']:g} m")
-    if diagnosis["broken_from_start"]:
-        parts.append(f"{diagnosis['broken_from_start']} joints broken from the start")
+    if summary.snow_depth_m:
+        parts.append(f"snow {summary.snow_depth_m:g} m")
+    if summary.diagnosis.broken_from_start:
+        parts.append(f"{summary.diagnosis.broken_from_start} joints broken from the start")
     return "; ".join(parts)
 
 

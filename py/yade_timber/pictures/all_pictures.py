@@ -3,6 +3,7 @@
 from functools import partial
 
 from ..recording import ensemble, frames
+from ..recording.summary import Summary
 from . import copies
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
@@ -44,7 +45,7 @@ def _pages(folder, recorded, path):
 
     if recorded.history and recorded.history.samples:
         yield curves.write(folder / CURVES, recorded)
-        if "quantities" in recorded.summary and (path.parent / quantities.JOINTS).exists():
+        if isinstance(recorded.summary, Summary) and (path.parent / quantities.JOINTS).exists():
             yield quantities.write(folder / QUANTITIES, quantities.read(path.parent))
         if ensemble.has_runs(path.parent):
             yield bands.write(folder / BANDS, recorded, path.parent)

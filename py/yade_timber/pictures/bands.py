@@ -4,7 +4,7 @@ import numpy as np
 
 from ..base import colors
 from ..recording import ensemble
-from ..recording.sentences import DRIFT_LINES, direction_name
+from ..text.english import DRIFT_LINES, direction_name
 from .curves import DRIFT_RANGE, draw_events, draw_levels, label
 from .figures import A4, footer, heading, heading_height, new_figure, save
 from .key_times import first_shown
@@ -34,7 +34,7 @@ def page(frames, histories, dpi):
     figure.subplots_adjust(left=0.11, right=0.84, top=1 - head / A4[1], bottom=0.06, hspace=0.12)
     for axis, (storey, direction, curve) in zip(axes, drifts):
         draw_band(axis, time, quantiles(histories.values(), time, storey, direction))
-        axis.plot(shown.time, curve, color="black", lw=0.8, label=f"run {(frames.summary.get('ensemble') or {}).get('run', '')}, which is shown")
+        axis.plot(shown.time, curve, color="black", lw=0.8, label=f"run {frames.summary.ensemble.run}, which is shown")
         label(axis, f"drift {direction_name(direction)}, storey {storey} [-]")
     draw_events(axes, frames.summary)
     axes[-1].set_xlim(first_shown(frames), time[-1])

@@ -4,8 +4,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
-from ..recording.sentences import broken_of, collapse_time, ratio
+from ..recording.summary import collapse_time
 from ..recording.walls import count_apart
+from ..text.english import broken_of, ratio
 from . import fonts
 from .figures import drawable
 from .provenance import provenance
@@ -56,7 +57,7 @@ class Caption:
         """'12.35 s   storey drift 1/85   3 of 382 joints broken'"""
         run, shown = self.run, min(time, self.run.time[-1])
         parts = [f"{time:6.2f} s{self.speed}"]
-        down = collapse_time(run.summary or {})
+        down = collapse_time(run.summary)
         if down is not None and time >= down:
             parts.append("collapsed")
         elif self.drifts is not None:

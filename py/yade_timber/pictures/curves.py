@@ -5,8 +5,9 @@ from itertools import cycle
 import numpy as np
 
 from ..base import colors
-from ..recording.sentences import DRIFT_LINES
+from ..base.energy_terms import DISSIPATED, ELASTIC
 from ..recording.walls import of_walls, sheet_states
+from ..text.english import DRIFT_LINES
 from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
 from .key_times import first_shown
 from .provenance import provenance
@@ -24,15 +25,6 @@ STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
 JOINT_KINDS = {
     "column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE, "floor_beam": colors.AMBER,
     "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN,
-}
-DISSIPATED = {
-    "dashpot_normal": ("contact dashpots,\nnormal", colors.SKY_BLUE),
-    "dashpot_shear": ("contact dashpots,\ntangential", colors.BLUE),
-    "friction": ("friction", colors.AMBER),
-    "broken_springs": ("broken joints", colors.ORANGE),
-    "lost_contacts": ("contacts lost\nunder load", colors.PURPLE),
-    "joint_dashpot": ("joint dashpots", colors.GREEN),
-    "joint_yield": ("yielding joints", colors.GREY),
 }
 
 
@@ -69,13 +61,13 @@ def page(frames, dpi):
     return figure
 
 
-def draw_events(axes, found):
+def draw_events(axes, summary):
     """Lines through all axes where a storey drift passes 1/10 and where the house collapses, with labels above."""
-    for key, text, side in (("tilt_time_s", "drift 1/10", "right"), ("collapse_time_s", "collapses", "left")):
-        if found[key] is not None:
+    for time, text, side in ((summary.tilt_time_s, "drift 1/10", "right"), (summary.collapse_time_s, "collapses", "left")):
+        if time is not None:
             for axis in axes:
-                axis.axvline(found[key], color="black", lw=0.7, ls="--")
-            axes[0].annotate(text, (found[key], 1), (0, 2), ("data", "axes fraction"), "offset points", fontsize=8, ha=side)
+                axis.axvline(time, color="black", lw=0.7, ls="--")
+            axes[0].annotate(text, (time, 1), (0, 2), ("data", "axes fraction"), "offset points", fontsize=8, ha=side)
 
 
 def legend(axis):
@@ -140,11 +132,11 @@ def draw_breaks(axis, frames):
 def draw_energy(axis, history):
     """Energy input and its parts, without dissipated terms that are zero; the remainder is printed above."""
     supplied = history.energy("ground_motion") - history.energy("gravity")
-    dissipated = {term: style for term, style in DISSIPATED.items() if f"{term} [J]" in history.columns and history.energy(term).any()}
-    parts = [history.energy(term) for term in dissipated]
-    parts += [history.energy("elastic_contacts") + history.energy("elastic_joints"), history.energy("kinetic")]
-    names = [name for name, _ in dissipated.values()] + ["elastic", "kinetic"]
-    fills = [color for _, color in dissipated.values()] + [colors.GREEN, colors.YELLOW]
+    dissipated = [term for term in DISSIPATED if f"{term.name} [J]" in history.columns and history.energy(term.name).any()]
+    parts = [history.energy(term.name) for term in dissipated]
+    parts += [sum(history.energy(term.name) for term in ELASTIC), history.energy("kinetic")]
+    names = [*(term.label for term in dissipated), "elastic", "kinetic"]
+    fills = [*(term.color for term in dissipated), colors.GREEN, colors.YELLOW]
     axis.stackplot(history.time, [part / 1e3 for part in parts], labels=names, colors=fills, lw=0)
     axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
     residual = abs(sum(parts) - supplied).max()

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The times of a run that are worth a picture. Needs no YADE."""
-import re
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..recording.sentences import collapse_time, counted, ratio
+from ..recording.summary import collapse_time
+from ..text.english import counted, ratio, short
 
 PANELS = 6
 CLOSE = 0.5
@@ -58,7 +58,7 @@ def choose(frames, count=PANELS):
 
 def state(frames, frame):
     """State of the house in a frame: collapsed, its storey drift, or the number of its broken joints."""
-    time, collapse = frames.time[frame], collapse_time(frames.summary or {})
+    time, collapse = frames.time[frame], collapse_time(frames.summary)
     if collapse is not None and time >= collapse:
         return "after the collapse"
     if frames.history and frames.history.samples:
@@ -76,18 +76,17 @@ def differences(frames, frame):
 
 def named(frames):
     """(time [s], reason) of the times that have a name, the most important first."""
-    found = frames.summary or {}
-    if found.get("collapse_time_s") is not None:
-        yield found["collapse_time_s"], "collapse"
-    if found.get("tilt_time_s") is not None:
-        yield found["tilt_time_s"], "drift 1/10"
+    summary = frames.summary
+    for time, reason in ((summary.collapse_time_s, "collapse"), (summary.tilt_time_s, "drift 1/10")) if summary else ():
+        if time is not None:
+            yield time, reason
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
     for kind in ("structure_fallen", "snow_fallen"):
-        yield from [(event["time_s"], re.split(": | from ", event["what"])[0]) for event in found.get("events", []) if event["kind"] == kind][:1]
+        yield from [(event.time_s, short(event)) for event in (summary.events if summary else ()) if event.kind == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first damage"
-    if frames.history and frames.history.samples and not found["collapsed"]:
+    if frames.history and frames.history.samples and not summary.collapsed:
         yield largest_drift(frames), "largest drift"
 
 

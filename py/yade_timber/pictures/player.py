@@ -19,9 +19,10 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..recording import frames, peaks
-from ..recording.sentences import DRIFT_LINES, collapse_time, joint_place, sentence
+from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
+from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
-from . import japanese
+from ..text import english, japanese
 from .key_times import largest_drift, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
@@ -92,34 +93,33 @@ def peaks_of(source, run):
 
 def info(run, largest):
     """Texts of the page, and the description of its arrays. largest: Peaks of the run"""
-    e, j, found = run.elements, run.joints, run.summary or {}
-    origin = provenance(run)
+    e, j = run.elements, run.joints
     return {
         "title": plain(run.title),
-        "result": plain(sentence(found)) if found else f"Not ended yet: the first {run.time[-1]:.1f} s",
-        "japanese": japanese_texts(found, origin) if found and "verdicts" not in found else None,
-        "origin": plain(origin),
+        "result": plain(english.sentence(run.summary)) if run.summary else f"Not ended yet: the first {run.time[-1]:.1f} s",
+        "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
+        "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey), **uplift(largest, name)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
-        "joint_list": [{"kind": plain(kind), "place": plain(joint_place(kind, storey, side)), **forces(largest, name)}
+        "joint_list": [{"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
                        for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)],
         "feet": feet(run),
         "breaks": breaks(run),
         "kinds": kinds({plain(kind) for kind in e.kind}),
         "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
         "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in drifts(run)],
-        "levels": [{"value": value, "text": text.split()[0]} for value, text in DRIFT_LINES],
+        "levels": [{"value": value, "text": text.split()[0]} for value, text in english.DRIFT_LINES],
         "events": events(run),
         "main": main_event(run),
-        "collapse": collapse_time(found),
+        "collapse": collapse_time(run.summary),
     }
 
 
-def japanese_texts(found, origin):
-    """Title, result and origin of an ended run in Japanese. found: its summary"""
-    texts = {"title": japanese.title(found), "result": japanese.result(found), "origin": japanese.origin(origin)}
+def japanese_texts(run):
+    """Title, result and origin of an ended run in Japanese."""
+    texts = {"title": japanese.title(run.summary), "result": japanese.result(run.summary), "origin": provenance(run, japanese)}
     return {name: plain(text) for name, text in texts.items()}
 
 
@@ -153,11 +153,10 @@ def breaks(run):
 
 def main_event(run):
     """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest drift; else None."""
-    found = run.summary or {}
-    falls = [event["time_s"] for kind in ("structure_fallen", "snow_fallen") for event in found.get("events", []) if event["kind"] == kind]
+    known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
+    falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run) if event.kind == kind]
     largest = [float(largest_drift(run))] if drifts(run) else []
-    times = [time for time in (found.get("collapse_time_s"), found.get("tilt_time_s"), *falls, *largest) if time is not None]
-    return times[0] if times else None
+    return next((time for time in (*known, *falls, *largest) if time is not None), None)
 
 
 def kinds(present):
@@ -171,30 +170,34 @@ def css(color):
     return "#" + "".join(f"{round(255 * part):02x}" for part in color)
 
 
+def recorded(run):
+    """Events of a run that has ended."""
+    return run.summary.events if run.summary else []
+
+
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    recorded = ((event["time_s"], event["kind"], event["what"], event.get("lot")) for event in (run.summary or {}).get("events", []))
-    own = ((*event, None) for event in (*shaking(run), *passed_levels(run)))
-    found = sorted((event for event in (*own, *recorded) if 0 <= event[0] <= run.time[-1]), key=lambda event: event[:3])
-    return [{"time": float(time), "text": plain(text), "japanese": plain(japanese.event(kind, text, lot))} for time, kind, text, lot in found]
+    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded(run)) if 0 <= event.time_s <= run.time[-1]]
+    shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
+    return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))} for event in shown]
 
 
 def shaking(run):
-    """(time, kind, text) of the ground motion."""
+    """Events of the ground motion."""
     if run.motion and run.motion.acceleration.any():
-        yield onset(run.motion), "shaking", "the shaking begins"
+        yield Event(onset(run.motion), ShakingBegins())
         if run.summary:
-            yield strongest_shaking(run), "shaking", "strongest shaking"
+            yield Event(strongest_shaking(run), StrongestShaking())
 
 
 def passed_levels(run):
-    """(time, kind, text) when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
+    """Events when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
     if not drifts(run):
         return
     largest = run.history.largest_drift()
-    for value, text in DRIFT_LINES[:-1]:
+    for value, _ in english.DRIFT_LINES[:-1]:
         if (largest > value).any():
-            yield run.history.time[np.argmax(largest > value)], "level", f"drift passes {text.replace(' ', ': ', 1)}"
+            yield Event(run.history.time[np.argmax(largest > value)], LevelPassed(value))
 
 
 # --- numbers ----------------------------------------------------------------------------------------------------------

@@ -1,29 +1,32 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, place in an ensemble, time step, versions."""
 from ..motion import GroundMotion, jma_intensity, pga
-from ..recording.sentences import place_in_ensemble
+from ..text import english
 
 SHORTEST = 1.0
 """Duration of a motion that has an intensity. [s]"""
 
 
-def provenance(frames):
-    """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.7; time step 0.00025 s; yade-timber 1.0, YADE 2023.02a'"""
-    found = frames.summary or {}
-    record, versions = (part if isinstance(part, dict) else {} for part in (found.get("record"), found.get("versions")))
-    step = f"time step {found['dt']:g} s" if isinstance(found.get("dt"), (int, float)) else ""
-    programs = [f"yade-timber {frames.version}".strip(), f"YADE {versions['yade']}" if versions.get("yade") else ""]
-    return "; ".join(filter(None, (shaking(frames, record), place_in_ensemble(found), step, ", ".join(filter(None, programs)))))
+def provenance(frames, language=english):
+    """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.7; time step 0.00025 s; yade-timber 1.0, YADE 2023.02a'. language: module of text/"""
+    summary, words = frames.summary, language.ORIGIN
+    parts, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
+    if summary:
+        place = language.place_in_ensemble(summary.ensemble) if summary.ensemble else ""
+        parts += [place, f"{words['step']} {summary.dt:g} s"]
+        programs += f", YADE {summary.versions.yade}"
+    return "; ".join(filter(None, (*parts, programs)))
 
 
-def shaking(frames, record):
-    """Record, factor, PGA and intensity of the motion as applied. record: of the summary"""
+def shaking(frames, words):
+    """Record, factor, PGA and intensity of the motion as applied."""
     if frames.motion is None:
-        return "No ground motion"
+        return words["none"]
     applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
-    source = f"Record {record['source']}" if record.get("source") else "Ground motion"
-    factor = f" x {record['scale']:g}" if isinstance(record.get("scale"), (int, float)) else ""
+    record = frames.summary and frames.summary.record
+    source = f"{words['record']} {record.source}" if record and record.source else words["motion"]
+    factor = f" x {record.scale:g}" if record else ""
     parts = [source + factor, f"PGA {pga(applied):.0f} gal"]
     if applied.duration >= SHORTEST and pga(applied) > 0:
-        parts.append(f"JMA intensity {jma_intensity(applied).official:.1f}")
+        parts.append(f"{words['intensity']} {jma_intensity(applied).official:.1f}")
     return ", ".join(parts)

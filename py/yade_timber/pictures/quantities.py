@@ -1,23 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One page of engineering quantities of a run, from the files in its folder: storey shears, accelerations, modes, joints, uplift, energy."""
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..base import colors
-from ..base.errors import RunError
+from ..base.energy_terms import DISSIPATED
 from ..base.gravity import weight_of
-from ..base.input_file import require_regular
 from ..recording.history import DIRECTIONS, History
 from ..recording.history import NAME as HISTORY
 from ..recording.peaks import COLUMNS, JOINTS, rows
 from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
-from ..recording.lines import main_mode, period_text
-from ..recording.sentences import direction_name, sentence
-from .curves import DISSIPATED
+from ..recording.summary import Summary
+from ..text.english import direction_name, period_text, sentence
 from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure, save
 from .style import default_style
 
@@ -26,7 +23,6 @@ TITLE_SIZE = 8.5
 """Of diagrams, made smaller to fit them. [pt]"""
 SHOWN_JOINTS = 12
 """Number of joints in the diagram of utilisations."""
-SUMMARY = "summary.json"
 STATES = {"whole": colors.BLUE, "partly": colors.AMBER, "broken": colors.ORANGE, "before": colors.GREY}
 """Colours of joints by their state at the end."""
 IMPACTS_CUT = 2.0
@@ -39,7 +35,7 @@ VISIBLE_UPLIFT = 1e-4
 class Results:
     """Files of a run's folder. joints, columns: a dictionary for each row, with texts."""
 
-    summary: dict
+    summary: Summary
     history: History
     storeys: Storeys
     joints: list
@@ -49,14 +45,8 @@ class Results:
 def read(folder):
     """Results of a run's folder. Raises RunError when a file is missing or of an earlier version of the package."""
     folder = Path(folder)
-    require_regular(folder / SUMMARY, remedy="give the folder of a finished run")
-    try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-    except ValueError as problem:
-        raise RunError(f"{folder / SUMMARY}: not a summary: {problem}") from None
-    if "weight" not in summary or "ground_acceleration" not in summary.get("quantities", {}):
-        raise RunError(f"{folder / SUMMARY}: of an earlier version of the package, without quantities or weight; repeat the run")
-    return Results(summary, History.read(folder / HISTORY), Storeys.read(folder / STOREYS), rows(folder / JOINTS), rows(folder / COLUMNS))
+    tables = (rows(folder / name) for name in (JOINTS, COLUMNS))
+    return Results(Summary.read(folder), History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
 
 
 def write(stem, results):
@@ -82,7 +72,7 @@ def page(results, dpi):
     draw_uplift(figure.add_subplot(lower[1]), results)
     draw_modes(figure.add_subplot(rows[3, 0]), results)
     draw_energy(figure.add_subplot(rows[3, 1]), results)
-    heading(figure, f"House {results.summary['model']}. Quantities", text)
+    heading(figure, f"House {results.summary.model}. Quantities", text)
     return figure
 
 
@@ -101,7 +91,7 @@ def draw_loop(axis, results, storey, direction):
     drift = 100 * np.interp(table.time, history.time, history.drift(storey, direction))
     shear = np.where(np.abs(drift) < 20, table.column(f"shear_{direction}{storey}") / 1e3, np.nan)
     axis.plot(drift, shear, lw=0.5, color=colors.DIRECTIONS[direction])
-    cut_impacts(axis, results.summary["quantities"]["storeys"][f"storey{storey}"]["shear"]["sustained"][direction])
+    cut_impacts(axis, results.summary.quantities.storeys[f"storey{storey}"].shear.sustained[direction])
     style(axis, f"storey {storey}, {direction_name(direction)}", "drift [%]", "shear [kN]")
 
 
@@ -116,8 +106,8 @@ def draw_shears(axis, results):
     table = results.storeys
     for direction in DIRECTIONS:
         axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction], label=direction_name(direction))
-    peaks = results.summary["quantities"]["base_shear"]["sustained"]
-    weight = weight_of(results.summary["quantities"]["mass_kg"])
+    peaks = results.summary.quantities.base_shear.sustained
+    weight = weight_of(results.summary.quantities.mass_kg)
     text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
     cut_impacts(axis, max(peaks.values()))
     style(axis, f"base shear: {text} sustained; weight {weight:.0f} kN", "time [s]", "[kN]")
@@ -126,11 +116,11 @@ def draw_shears(axis, results):
 
 def draw_accelerations(axis, results):
     """Largest absolute acceleration of the ground and of each level, in one band."""
-    found, ground = results.summary["quantities"]["storeys"], results.summary["quantities"]["ground_acceleration"]
+    storeys, ground = results.summary.quantities.storeys, results.summary.quantities.ground_acceleration
     for axis_name in ("ns", "ew", "ud"):
-        values = [ground[axis_name], *(storey["acceleration"][axis_name] for storey in found.values())]
+        values = [ground[axis_name], *(storey.acceleration[axis_name] for storey in storeys.values())]
         axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name], label=direction_name(axis_name).replace("ud", "up-down"))
-    axis.set_yticks(range(len(found) + 1), ["ground", *(f"level {k}" for k in range(1, len(found) + 1))])
+    axis.set_yticks(range(len(storeys) + 1), ["ground", *(f"level {k}" for k in range(1, len(storeys) + 1))])
     axis.set_xlim(0)
     style(axis, f"largest accelerations, {BAND_TEXT}", "[m/s²]")
     axis.legend(fontsize=7, frameon=False, loc="lower right")
@@ -170,27 +160,28 @@ def draw_modes(axis, results):
     lines = []
     for when, width in (("before", 1), ("after", 2.2)):
         for direction in DIRECTIONS:
-            mode = main_mode(results.summary, when, direction)
+            mode = results.summary.main_mode(when, direction)
             if mode is None:
                 continue
-            shape = [0.0, *(storey[direction] for storey in mode["shape"].values())]
+            shape = [0.0, *(storey[direction] for storey in mode.shape.values())]
             sign = 1 if shape[-1] >= 0 else -1
             axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width, color=colors.DIRECTIONS[direction])
-            lines.append(f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode['mass_share'][direction]:.0f} % of the mass")
-    if results.summary["collapsed"]:
+            lines.append(f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode.mass_share[direction]:.0f} % of the mass")
+    if results.summary.collapsed:
         lines.append("after: none, the house has collapsed")
     axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right", fontsize=7)
     axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
-    levels = len(results.summary["quantities"]["storeys"])
+    levels = len(results.summary.quantities.storeys)
     axis.set_yticks(range(levels + 1), ["ground", *(f"level {k}" for k in range(1, levels + 1))])
     style(axis, "natural modes: thin before, thick after the run")
 
 
 def draw_energy(axis, results):
     """Dissipated energy by its cause."""
-    found = {term: value / 1e3 for term, value in results.summary["energy"]["dissipated"].items() if value}
-    names = [DISSIPATED[term][0] for term in found]
-    axis.barh(names, list(found.values()), color=[DISSIPATED[term][1] for term in found], height=0.7)
+    energy = results.summary.energy
+    terms = [term for term in DISSIPATED if energy.dissipated[term.name]]
+    values = [energy.dissipated[term.name] / 1e3 for term in terms]
+    axis.barh([term.label for term in terms], values, color=[term.color for term in terms], height=0.7)
     axis.invert_yaxis()
     axis.locator_params(axis="x", nbins=5)
-    style(axis, f"dissipated energy: {sum(found.values()):.3g} kJ of {results.summary['energy']['input'] / 1e3:.3g} kJ", "[kJ]")
+    style(axis, f"dissipated energy: {sum(values):.3g} kJ of {energy.input / 1e3:.3g} kJ", "[kJ]")

@@ -20,8 +20,8 @@ from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.failures import first_failures
-from ..recording.lines import lines, main_mode, period_text
-from ..recording.sentences import counted, directed, direction_name, joints_and_sheets, sentence
+from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
+from ..text.lines import lines
 from . import REPORT, fonts, quantities, report_pictures
 from .panels import panels
 from .style import default_style
@@ -74,11 +74,11 @@ def write(folder):
 def page(frames, results):
     """Text of the page. results: quantities.Results"""
     found = results.summary
-    failures = first_failures(frames) if found["collapsed"] else []
+    failures = first_failures(frames) if found.collapsed else []
     table = failed_joints(frames, results, failures) if failures else joints(results)
     parts = [
         f"<h1>{text(frames.title)}</h1>",
-        f'<div class="verdict" style="background:{COLORS[found["verdict"]]}">{text(sentence(found))}</div>',
+        f'<div class="verdict" style="background:{COLORS[found.verdict]}">{text(sentence(found))}</div>',
         f'<div class="row"><section>{house(frames, found, failures)}</section><section class="wide">{motion(frames, found)}{storeys(found)}</section></div>',
         f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
         f'<div class="row"><section>{events(found)}</section><section class="wide">{table}</section></div>{limits()}',
@@ -111,45 +111,44 @@ def house(frames, found, failures):
     """Plans with the first failures, numbers of members, weight, natural periods."""
     kinds = frames.elements.kind
     counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {"walled bay": len(panels(frames, 0))}
-    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := main_mode(found, "before", axis)))
-    (_, counts["joint"]), (_, counts["wall sheet"]) = joints_and_sheets(found)
+    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := found.main_mode("before", axis)))
+    (_, counts["joint"]), (_, counts["wall sheet"]) = found.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     marks = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
     marks += "; orange: joints broken from the start" * any(frames.joints.damaged) + "; numbers: first failures" * bool(failures)
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}"
-        f"<p>Plans, north up{marks}. {numbers}. {weight(found['weight'])}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
+        f"<p>Plans, north up{marks}. {numbers}. {weight(found.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
     )
 
 
 def storeys(found):
     """Table of the storeys: weight above and shear."""
-    known = found["quantities"]
-    until = "" if known.get("until_s") is None else f", before {known['until_s']:.2f} s"
+    known = found.quantities
+    until = "" if known.until_s is None else f", before {known.until_s:.2f} s"
     rows = "".join(
-        f"<tr><td>{text(name.replace('storey', 'storey '))}</td><td class=number>{weight_of(storey['mass_above_kg']):.0f} kN</td>"
+        f"<tr><td>{text(storey_name(name))}</td><td class=number>{weight_of(storey.mass_above_kg):.0f} kN</td>"
         f"<td class=number>{coefficients(storey)}</td></tr>"
-        for name, storey in known["storeys"].items()
+        for name, storey in known.storeys.items()
     )
     return f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W{until}</th></tr>{rows}</table>"
 
 
 def coefficients(storey):
     """'0.45, 0.39': storey shear coefficients N-S and E-W."""
-    return ", ".join("-" if value is None else f"{value:.2f}" for value in storey["shear_coefficient"].values())
+    return ", ".join("-" if value is None else f"{value:.2f}" for value in storey.shear_coefficient.values())
 
 
 def weight(known):
-    """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of the part `weight` of a summary."""
-    per_area = "" if known["per_floor_area_kn_m2"] is None else f", {known['per_floor_area_kn_m2']:.2f} kN per m² of {known['floor_area_m2']:.0f} m² of floor"
-    snow = f"; snow {known['snow_kn']:.0f} kN" if known["snow_kn"] else ""
-    return f"Weight {known['total_kn']:.0f} kN{per_area}{snow}."
+    """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of a Weight."""
+    per_area = "" if known.per_floor_area_kn_m2 is None else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor"
+    snow = f"; snow {known.snow_kn:.0f} kN" if known.snow_kn else ""
+    return f"Weight {known.total_kn:.0f} kN{per_area}{snow}."
 
 
 def diagnosis(found):
-    """The seismic index beside the run, and why they disagree; empty for runs of before it was reported."""
-    known = found.get("diagnosis")
-    return "" if known is None else text(f" By the diagnosis of engineers: {known['sentence']}. {known['disagreement']}")
+    """The seismic index beside the run, and why they disagree."""
+    return text(f" By the diagnosis of engineers: {found.diagnosis.sentence}. {found.diagnosis.disagreement}")
 
 
 def motion(frames, found):
@@ -157,12 +156,11 @@ def motion(frames, found):
     if frames.motion is None:
         return "<h2>The motion</h2><p>No earthquake.</p>"
     applied = report_pictures.ground_motion(frames)
-    source = (found.get("record") or {}).get("source", "")
     intensity = jma_intensity(applied).official if applied.duration >= 0.3 and applied.acceleration.any() else None
     peaks = ", ".join(f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
     values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None else f", JMA intensity {intensity:.1f}")
-    scale = f", times {found['record']['scale']:g}" if found["record"]["scale"] != 1 else ""
-    about = f"<p>{text(source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
+    scale = f", times {found.record.scale:g}" if found.record.scale != 1 else ""
+    about = f"<p>{text(found.record.source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
     return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
 
 
@@ -213,7 +211,7 @@ def failed_joint(number, failure, frames, known):
 
 def others(frames, results):
     """How far the joints were when the fall of a house that has collapsed began."""
-    fall = results.summary["quantities"]["until_s"]
+    fall = results.summary.quantities.until_s
     broken = frames.broken[max(0, int(np.searchsorted(frames.time, fall)) - 1)] > 0
     names = {name for name, fails in zip(frames.joints.name, broken) if fails}
     rows = [row for row in results.joints if np.isfinite(float(row["strength [N]"])) and row["state"] != "before"]
@@ -236,18 +234,18 @@ def joint_name(name):
 
 def caveats(found):
     """Limits of the model that matter for this run."""
-    per_area = found["weight"]["per_floor_area_kn_m2"]
+    per_area = found.weight.per_floor_area_kn_m2
     light = f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load weigh 2.5 to 3 kN per m²."
     return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
 def repeat(found):
     """Versions, and the command that repeats the run."""
-    versions, made = found["versions"], found["made_from"]
+    versions, made = found.versions, found.made_from
     words = [str(word) for word in made["options"]]
-    script = f"scripts/{found['scenario']}.py" if re.fullmatch(r"model[ABC][12]?_(quake|snow)", found["scenario"]) else "scripts/house.py"
+    script = f"scripts/{found.scenario}.py" if re.fullmatch(r"model[ABC][12]?_(quake|snow)", found.scenario) else "scripts/house.py"
     command = shlex.join(["yade", "-n", "-x", script, *words])
-    about = f"yade-timber {versions['package']}, YADE {versions['yade']}, package {made['package']}, files {made['files']}; time step {found['dt']:g} s."
+    about = f"yade-timber {versions.package}, YADE {versions.yade}, package {made['package']}, files {made['files']}; time step {found.dt:g} s."
     return f"<h2>How to repeat it</h2><p>{text(about)} <code>{text(command)}</code></p>"
 
 

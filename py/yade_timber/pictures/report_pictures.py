@@ -7,8 +7,7 @@ from matplotlib.transforms import Bbox
 from ..base import colors
 from ..motion import GAL, GroundMotion, response_spectrum
 from ..recording.history import DIRECTIONS
-from ..recording.lines import main_mode
-from ..recording.sentences import direction_name, largest_drift
+from ..text.english import direction_name
 from .figures import heading_height, new_figure
 from .panels import panels
 from .sheets import Format, result, sheet
@@ -110,7 +109,7 @@ def motion(frames):
         left.plot(recorded.time[shown], values[shown] / GAL, color=colors.DIRECTIONS[direction], lw=0.4, label=direction_name(direction))
         spectrum = response_spectrum(values, recorded.dt, PERIODS)
         right.semilogx(PERIODS, spectrum.psv * 0.01 * 2 * np.pi / PERIODS, color=colors.DIRECTIONS[direction], lw=1)
-    draw_periods(right, frames.summary or {})
+    draw_periods(right, frames.summary)
     style(left, "ground acceleration [gal]", "time [s]")
     style(right, "5 % spectrum [m/s²]", "period [s]")
     right.set_xticks([0.1, 0.5, 1, 5], ["0.1", "0.5", "1", "5"])
@@ -121,9 +120,9 @@ def motion(frames):
 def draw_periods(axis, summary):
     """Lines at the natural periods before the run."""
     for direction in DIRECTIONS:
-        mode = main_mode(summary, "before", direction)
-        if mode and mode["period_s"]:
-            axis.axvline(mode["period_s"], color=colors.DIRECTIONS[direction], lw=0.8, ls=":")
+        mode = summary.main_mode("before", direction)
+        if mode and mode.period_s:
+            axis.axvline(mode.period_s, color=colors.DIRECTIONS[direction], lw=0.8, ls=":")
 
 
 def style(axis, title, x):
@@ -135,7 +134,7 @@ def style(axis, title, x):
 
 def shots(frames):
     """(figure with up to six key times, in the view in which the house tilts or moves most; its part without the heading, a Bbox [inch])."""
-    direction = frames.summary["tilt_direction"] or largest_drift(frames.summary)[2]
+    direction = frames.summary.tilt_direction or frames.summary.largest_drift()[2]
     figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
     width, height = figure.get_size_inches()
     return figure, Bbox([[0, 0], [width, height - heading_height(width, result(frames)) - 0.12]])

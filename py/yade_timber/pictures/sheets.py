@@ -2,7 +2,7 @@
 """Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views. Needs no YADE."""
 from dataclasses import dataclass
 
-from ..recording.sentences import sentence
+from ..text.english import sentence
 from . import key_times
 from .figures import A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height, new_figure, save
 from .provenance import provenance

@@ -7,13 +7,14 @@ A column is lost when it has fallen (inclined by more than FALLEN_ANGLE) or is l
 """
 import math
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from .frames import Elements, Joints, rotated
-from .verdict import TILT
+from .summary import Broken, Columns, JointCounts
+from .verdict import Structure
 from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
@@ -52,20 +53,15 @@ class DamageSurvey:
     # --- joints -------------------------------------------------------------------------------------------------------
 
     def count_joints(self, chosen=None):
-        """{'total' without those of walls, 'column_beam', 'brace_beam', other kinds that occur}: numbers of joints; chosen: (J,) bool, default all."""
+        """JointCounts without wall sheets. chosen: (J,) bool, default all"""
         chosen = np.ones(len(self.joints.kind), bool) if chosen is None else chosen
         kinds = Counter(kind for kind, counts in zip(self.joints.kind, chosen) if counts)
-        return {"total": int((chosen & ~self._of_walls).sum()), "column_beam": 0, "brace_beam": 0, **kinds}
-
-    def count_sheets(self, broken):
-        """{'wall_sheets', 'wall_sheets_partly'}: numbers of broken and partly broken wall sheets; empty without walls. broken: (J,) bool"""
-        states = sheet_states(self.joints, broken)
-        return {"wall_sheets": states.count("broken"), "wall_sheets_partly": states.count("partly")} if states else {}
+        main = {kind: kinds.pop(kind, 0) for kind in ("column_beam", "brace_beam")}
+        return JointCounts(total=int((chosen & ~self._of_walls).sum()), **main, others=dict(kinds))
 
     def count_all(self):
-        """The part `joints` of the summary: `count_joints` of all joints, and 'wall_sheets' of a house with walls."""
-        states = sheet_states(self.joints, self._of_walls)
-        return {**self.count_joints(), **({"wall_sheets": len(states)} if states else {})}
+        """JointCounts of all joints and wall sheets: the part `joints` of the summary."""
+        return replace(self.count_joints(), wall_sheets=len(sheet_states(self.joints, self._of_walls)) or None)
 
     @cached_property
     def _of_walls(self):
@@ -84,18 +80,17 @@ class DamageSurvey:
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         counted = broken & ~self._of_walls
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
-        return {
-            **self.count_joints(broken),
-            "by_side": {side: int((counted & there).sum()) for side, there in on_side.items()},
-            "by_storey": {name: int((counted & there).sum()) for name, there in in_storey.items()},
-            "by_place": {
-                name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()
-            },
-            "partly_broken": int(partly.sum()),
-            **self.count_sheets(broken),
-            "springs": springs,
-            "damaged_at_start": self.count_joints(damaged),
-        }
+        sheets = sheet_states(self.joints, broken)
+        return Broken(
+            **vars(self.count_joints(broken)) | {"wall_sheets": sheets.count("broken") if sheets else None},
+            by_side={side: int((counted & there).sum()) for side, there in on_side.items()},
+            by_storey={name: int((counted & there).sum()) for name, there in in_storey.items()},
+            by_place={name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()},
+            partly_broken=int(partly.sum()),
+            wall_sheets_partly=sheets.count("partly") if sheets else None,
+            springs=springs,
+            damaged_at_start=self.count_joints(damaged),
+        )
 
     @cached_property
     def _structure_of_joints(self):
@@ -123,21 +118,16 @@ class DamageSurvey:
         return ~joined[self._columns]
 
     def count_columns(self, state):
-        """The part `columns` of the summary: {'total', 'fallen', 'loose' (and not fallen)}."""
+        """The part `columns` of the summary; loose ones that have not fallen."""
         present, fallen = ~np.isnan(state.position[self._columns, 0]), self.fallen_columns(state)
         loose = present & ~fallen & self.loose_columns(state)
-        return {"total": int(present.sum()), "fallen": int(fallen.sum()), "loose": int(loose.sum())}
+        return Columns(total=int(present.sum()), fallen=int(fallen.sum()), loose=int(loose.sum()))
 
     @cached_property
     def _loose_at_start(self):
         """(C,) bool for each column: its joints are all broken before the start."""
         e, j = self.elements, self.joints
         return self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
-
-    @property
-    def loose_at_start(self):
-        """Number of columns whose joints are all broken before the start."""
-        return int(self._loose_at_start.sum())
 
     def lost_columns(self, state):
         """(C,) bool for each column: it has fallen, or become loose, since the start."""
@@ -169,23 +159,20 @@ class DamageSurvey:
         moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
         return max((float(np.abs((above - below)[:2]).max() / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
 
-    def leaning_structures(self, state):
-        """Names of the structures, the main one excepted, that have not fallen and have a drift above the tilt."""
-        fallen = self.fallen_structures(state)
-        return [name for name in self.structures[1:] if name not in fallen and self.drift(state, name) > TILT.drift]
-
-    def by_structure(self, state):
-        """{structure: {'broken', 'partly_broken', 'columns_lost', 'collapsed'}}: the damage on which a verdict rests."""
+    def by_structure(self, state, peaks):
+        """{name: verdict.Structure}, the main one first, on which verdicts rest. peaks: {name: peak drift so far [-]}"""
         broken, partly = self._broken_joints(state)
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
         return {
-            name: {
-                "broken": int(broken[self._structure_of_joints == name].sum()),
-                "partly_broken": int(partly[self._structure_of_joints == name].sum()),
-                "columns_lost": int(lost[groups == name].sum()),
-                "collapsed": name in fallen,
-            }
+            name: Structure(
+                peak_drift=peaks[name],
+                residual_drift=self.drift(state, name),
+                broken=int(broken[self._structure_of_joints == name].sum()),
+                partly_broken=int(partly[self._structure_of_joints == name].sum()),
+                columns_lost=int(lost[groups == name].sum()),
+                collapsed=name in fallen,
+            )
             for name in self.structures
         }
 

@@ -1,40 +1,75 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Events of a run with their times: to joints, columns, structures and snow. Needs no YADE.
+"""Events of a run: time, kind, facts. Their phrases: text/. Needs no YADE.
 
-Kinds: first_break, tilt (a storey drift passes 1/10), collapse (an upper floor comes down by half a storey): at the time they happen;
-own_weight (damaged before the shaking): in the last frame before it; structure_fallen (another structure than the main one), columns_lost,
-snow_fallen: at the end of the frame interval in which they happen.
+FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they happen;
+OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the main one), ColumnsLost,
+SnowFallen: at the end of the frame interval in which they happen. ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded.
 """
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, field
 
-from .damage import DamageSurvey
+from ..base.json_types import decode, encode, require, table
+from .verdict import Structure
+
+FirstBreak = table("FirstBreak", joint=str, storey=str, side=str, cause=str, force_n=float)
+"""Of a spring. joint: kind of its joint; storey, side, cause: as in breaks.csv; force_n: 0 after yielding [N]"""
+Tilt, Collapse = table("Tilt", direction=str), table("Collapse")
+OwnWeight = table("OwnWeight", snow=bool, structures=dict[str, Structure])
+"""structures: all of the house, the main one first"""
+StructureFallen = table("StructureFallen", structure=str)
+ColumnsLost = table("ColumnsLost", number=int, total=int)
+"""number: of `total` columns, inclined by more than 45 degrees or without a joint"""
+SnowFallen = table("SnowFallen", structure=str, side=str, layer=str)
+"""structure: '' for the main one; side: '' for a roof of one part; layer: 'roof' or 'roof2'"""
+ShakingBegins, StrongestShaking, LevelPassed = table("ShakingBegins"), table("StrongestShaking"), table("LevelPassed", drift=float)
+"""drift: one of verdict.LIMITS [-]"""
+RECORDED = {
+    "first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight, "structure_fallen": StructureFallen,
+    "columns_lost": ColumnsLost, "snow_fallen": SnowFallen,
+}  # fmt: skip
+KINDS = {**RECORDED, "shaking_begins": ShakingBegins, "strongest_shaking": StrongestShaking, "level": LevelPassed}
 
 
 @dataclass(frozen=True)
 class Event:
-    """time_s [s]; kind: see the head of the module; what: a clause for people; number: of the columns that are lost, else 1."""
+    """time_s [s]; kind: a key of KINDS; facts: of its class; lot: of a town, else None."""
 
     time_s: float
-    kind: str
-    what: str
-    number: int = 1
+    kind: str = field(init=False)
+    facts: object
+    lot: str | None = field(default=None, metadata={"omitted": True})
+
+    def __post_init__(self):
+        object.__setattr__(self, "kind", next(kind for kind, facts in KINDS.items() if isinstance(self.facts, facts)))
+
+    @classmethod
+    def decoded(cls, value, path):
+        """From a table of JSON. Raises ValueError."""
+        entries = {"lot": None, **require(value, dict, path)}
+        if entries.keys() != {"time_s", "kind", "facts", "lot"} or entries["kind"] not in list(RECORDED):
+            raise ValueError(f"{path}: not an event of this version")
+        facts = decode(RECORDED[entries["kind"]], entries["facts"], f"{path}.facts")
+        return cls(require(entries["time_s"], float, f"{path}.time_s"), facts, decode(str | None, entries["lot"], f"{path}.lot"))
 
 
 class EventLog:
-    """Events of a run so far. survey: DamageSurvey of its house; events: those known already, as `records` gives them."""
+    """Events of a run so far. survey: damage.DamageSurvey of its house; events: those known already, as `encoded` gives them."""
 
-    def __init__(self, survey: DamageSurvey, events=()):
+    def __init__(self, survey, events=()):
         self.survey = survey
-        self.events = [Event(**event) for event in events]
+        self.events = decode(list[Event], list(events), "events")
 
-    def records(self):
-        """Events in the order of time as dictionaries: the key `events` of the summary."""
-        return [asdict(event) for event in sorted(self.events, key=lambda event: event.time_s)]
+    def sorted(self):
+        """Events in the order of time."""
+        return sorted(self.events, key=lambda event: event.time_s)
 
-    def add(self, time, kind, what, number=1):
+    def encoded(self):
+        """The same for JSON."""
+        return encode(self.sorted())
+
+    def add(self, time, facts):
         """Note an event at a time [s], unless it is known."""
-        if all((event.kind, event.what) != (kind, what) for event in self.events):
-            self.events.append(Event(round(time, 6), kind, what, number))
+        if all(event.facts != facts for event in self.events):
+            self.events.append(Event(round(time, 6), facts))
 
     def drop_after(self, time):
         """Forget events later than a time [s]: an earlier state was loaded."""
@@ -44,22 +79,21 @@ class EventLog:
         """Note the events of a State that were not there before."""
         for name in self.survey.fallen_structures(state):
             if name != self.survey.structures[0]:
-                self.add(time, "structure_fallen", f"{name} has fallen: a level is down by half a storey")
+                self.add(time, StructureFallen(name))
         for roof in self.survey.fallen_snow(state):
-            self.add(time, "snow_fallen", f"snow has fallen from the {self._roof_name(roof)}")
+            self.add(time, self._fallen_snow(roof))
         self._observe_columns(time, state)
 
     def _observe_columns(self, time, state):
         """An event for the first lost column, and each time the number has doubled: a collapse gives a few events, not ninety."""
-        total, lost = self.survey.count_columns(state)["total"], int(self.survey.lost_columns(state).sum())
-        known = max((event.number for event in self.events if event.kind == "columns_lost"), default=0)
+        total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
+        known = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * known):
-            self.add(time, "columns_lost", f"{lost} of {total} columns inclined by more than 45 degrees or without a joint", lost)
+            self.add(time, ColumnsLost(lost, total))
 
-    def _roof_name(self, roof):
-        """'west roof' of an element 'main.roof.west', 'entrance's roof' of 'entrance.roof'."""
+    def _fallen_snow(self, roof):
+        """SnowFallen of an element 'main.roof.west' or 'entrance.roof'."""
         e = self.survey.elements
         structure, name = e.group[roof], e.name[roof]
         layer, _, side = name.removeprefix(f"{structure}.").partition(".")
-        owner = "" if structure == self.survey.structures[0] else f"{structure}'s"
-        return " ".join(filter(None, (owner, side, layer)))
+        return SnowFallen("" if structure == self.survey.structures[0] else structure, side, layer)

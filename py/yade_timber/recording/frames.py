@@ -35,8 +35,9 @@ import numpy as np
 from ..base.atomic_write import written_from_memory
 from ..base.errors import RunError
 from ..base.input_file import require_regular
+from ..base.json_types import encode
 from .history import History
-from .sentences import sentence
+from .summary import Summary, parse
 
 NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
@@ -119,7 +120,7 @@ class Motion(_ShortRepr):
 class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a run.
 
-    summary: dictionary; history: History; breaks: dictionary of lists. All three are None before the end of the run.
+    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists. All three are None before the end of the run.
     """
 
     title: str
@@ -135,7 +136,7 @@ class Frames:
     broken: list = field(default_factory=list)
     contacts: Contacts = field(default_factory=Contacts)
     motion: Motion = None
-    summary: dict = None
+    summary: Summary = None
     history: History = None
     breaks: dict = None
     run: str = ""
@@ -221,7 +222,7 @@ def save(path, frames):
 def _save_attributes(file, frames):
     known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES}, "ended": frames.summary is not None}
     if frames.summary is not None:
-        known["summary"] = json.dumps(frames.summary)
+        known["summary"] = json.dumps(encode(frames.summary))
     file.attrs.update(known)
 
 
@@ -306,8 +307,6 @@ def _check_shapes(frames):
         if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
             raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
     _check_finite(frames)
-    if frames.summary is not None:
-        _check_summary(frames.summary)
 
 
 def _check_finite(frames):
@@ -322,18 +321,6 @@ def _check_finite(frames):
             raise ValueError(f"{name}: a number that is not finite")
 
 
-def _check_summary(found):
-    """Raise an exception for values of another type than in summary.json, where pictures and sentences use them."""
-    sentence(found)
-    collapse = found["collapse_time_s"]
-    members = [("model", found["model"], str), ("collapse_time_s", 0 if collapse is None else collapse, (int, float))]
-    for event in found.get("events", []):
-        members += [("events: time_s", event["time_s"], (int, float)), ("events: kind", event["kind"], str), ("events: what", event["what"], str)]
-    for name, value, kind in members:
-        if not isinstance(value, kind):
-            raise ValueError(f"summary: {name}: {value!r:.40} is of a wrong type")
-
-
 def _load(file):
     attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
@@ -342,7 +329,7 @@ def _load(file):
     if "motion" in file:
         loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"]))
     if file.attrs["ended"]:
-        loaded.summary = json.loads(file.attrs["summary"])
+        loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))
         loaded.breaks = _values(file["breaks"])
     return loaded

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Recorded frames of the lots of a town -> frames of the town, for its pictures and its player. Needs no YADE."""
+from dataclasses import replace
+
 import numpy as np
 
 from . import frames, verdict
 from .history import History
+from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
 """Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has some 30 MB."""
@@ -12,23 +15,23 @@ SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
 
 
-def summary(name, found):
-    """Summary of a town for sentences and pictures. found: {name of a lot: its summary}"""
-    events = [{**event, "lot": lot, "what": f"{lot}: {event['what']}"} for lot, one in found.items() for event in one["events"] if event["kind"] in SHOWN]
-    found = list(found.values())
-    worst = max((verdict.STATES.index(lot["verdict"]) for lot in found), default=0)
-    return {
-        "model": name,
-        "verdict": verdict.STATES[worst],
-        "verdicts": [lot["verdict"] for lot in found],
-        "collapsed": any(lot["collapsed"] for lot in found),
-        "collapse_time_s": min((lot["collapse_time_s"] for lot in found if lot["collapsed"]), default=None),
-        "tilt_time_s": min((lot["tilt_time_s"] for lot in found if lot["tilt_time_s"] is not None), default=None),
-        "dt": found[0]["dt"],
-        "record": found[0]["record"],
-        "versions": found[0]["versions"],
-        "events": sorted(events, key=lambda event: event["time_s"]),
-    }
+def summary(name, summaries):
+    """TownSummary. summaries: {name of a lot: its Summary}"""
+    events = [replace(event, lot=lot) for lot, one in summaries.items() for event in one.events if event.kind in SHOWN]
+    lots = list(summaries.values())
+    verdicts = [lot.verdict for lot in lots]
+    return TownSummary(
+        model=name,
+        verdict=max(verdicts, key=verdict.STATES.index),
+        verdicts=verdicts,
+        collapsed=any(lot.collapsed for lot in lots),
+        collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
+        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
+        dt=lots[0].dt,
+        record=lots[0].record,
+        versions=lots[0].versions,
+        events=sorted(events, key=lambda event: event.time_s),
+    )
 
 
 def town_frames(name, lots):

@@ -8,7 +8,7 @@ undamaged   none of these
 
 Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift exceeds the tilt.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 UNDAMAGED, REPAIRABLE, UNSAFE, COLLAPSED = STATES = ("undamaged", "repairable", "unsafe", "collapsed")
 """From the best to the worst."""
@@ -34,20 +34,33 @@ TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begin
 LIMITS = (DAMAGE, SAFETY, TILT)
 
 
-def judge(facts):
-    """One of STATES. facts: an entry of `structures` of a summary: peak_drift [-], broken, partly_broken, columns_lost, collapsed."""
-    if facts["collapsed"]:
+@dataclass(frozen=True, kw_only=True)
+class Structure:
+    """Facts on a structure, and the verdict that follows. Drifts [-]; numbers of joints, and of columns fallen or loose, since the start."""
+
+    verdict: str = field(init=False)
+    leans: bool = field(init=False)
+    peak_drift: float
+    residual_drift: float = 0.0
+    broken: int = 0
+    partly_broken: int = 0
+    columns_lost: int = 0
+    collapsed: bool = False
+
+    def __post_init__(self):
+        object.__setattr__(self, "verdict", _judge(self))
+        object.__setattr__(self, "leans", not self.collapsed and self.residual_drift >= TILT.drift)
+
+
+def _judge(facts):
+    """One of STATES."""
+    if facts.collapsed:
         return COLLAPSED
-    if facts["peak_drift"] >= SAFETY.drift or facts["columns_lost"]:
+    if facts.peak_drift >= SAFETY.drift or facts.columns_lost:
         return UNSAFE
-    if facts["peak_drift"] >= DAMAGE.drift or facts["broken"] or facts["partly_broken"]:
+    if facts.peak_drift >= DAMAGE.drift or facts.broken or facts.partly_broken:
         return REPAIRABLE
     return UNDAMAGED
-
-
-def leans(facts):
-    """Whether a structure that stands ends with a lean beyond the tilt."""
-    return not facts["collapsed"] and facts["residual_drift"] >= TILT.drift
 
 
 def passed(drift):

@@ -11,6 +11,7 @@ from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import LEVELS, Town, load_house, load_town, shipped_houses
 from ..house.disturbance import LARGEST
 from ..motion import GroundMotion, add_motion_options, motion_request, with_then
+from ..recording.summary import OtherWalls
 from ..scene.scenario import Scenario
 from .identity import of_arrays
 
@@ -39,7 +40,7 @@ class Output:
     export: Path = None
     quiet: bool = False
     checkpoint_interval: float = CHECKPOINT_INTERVAL  # simulated time [s]; 0: no checkpoints
-    other_walls: dict = None  # verdict with the walls of the other level: `other` of `walls` in summary.json
+    other_walls: OtherWalls = None  # verdict with the walls of the other level
     options: tuple = ()  # arguments of the command line that decide the results
     ensemble: int = None  # number of runs of an ensemble, None: a run of its own
     jobs: int = None  # runs of an ensemble at a time, None: one per core

@@ -5,13 +5,14 @@ import yade.wrapper as yw
 
 from ..recording.history import DIRECTIONS
 from ..recording.quantities import AXES
+from ..recording.summary import Mode, ModesAt
 from ..scene.modes import natural_modes
 
 O = yw.Omega()
 
 
 def modes_now(levels):
-    """The scene's modes as in the summary: `time_s`, `modes`, each with `period_s` (None: unstable), `direction`, `mass_share`, `shape`.
+    """ModesAt of the scene as it is now; the period of an unstable mode is None.
 
     levels: damage.Level of the main structure, from below. shape: mean displacement of each level, largest component 1.
     """
@@ -23,5 +24,5 @@ def modes_now(levels):
         largest = max(shape[:, :2].flat, key=abs, default=1.0)
         shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS} for k, row in enumerate(shape, 1)}
         period = round(mode.period, 4) if mode.omega2 > 0 else None
-        found.append({"period_s": period, "direction": max(share, key=share.get), "mass_share": share, "shape": shape})
-    return {"time_s": round(O.time, 6), "modes": found}
+        found.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
+    return ModesAt(time_s=round(O.time, 6), modes=found)

@@ -9,11 +9,13 @@ import numpy as np
 import yade.wrapper as yw
 
 from .. import _plugin
+from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
 from ..recording import frames, own_weight
 from ..recording.damage import SIDES, DamageSurvey, Level, State
-from ..recording.events import EventLog
-from ..recording.sentences import direction_name, joint_place
+from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
+from ..recording.summary import ModesAt
+from ..recording.verdict import UNDAMAGED
 from ..scene.engines import find_engine
 from ..scene.scenario import level_marks
 from .modal import modes_now
@@ -150,13 +152,13 @@ class Observer:
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
         self.log = EventLog(self.survey, known["events"] if known else ())
         self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
-        self.modes = known["modes"] if known else None
+        self.modes = decode(ModesAt | None, known["modes"]) if known else None
         self.upright = known["upright"] if known else (0.0, [])
         self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `known`."""
-        return {"events": self.log.records(), "peaks": self.peaks, "modes": self.modes, "upright": self.upright}
+        return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright}
 
     @property
     def main_levels(self):
@@ -184,14 +186,13 @@ class Observer:
         monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
         if first:
             _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
-            load = f" {force / 1000:.1f} kN" if force else ""  # none after yielding
-            self.log.add(first.time, "first_break", f"first spring breaks: {joint_place(kind, storey, side)}, {cause}{load}")
+            self.log.add(first.time, FirstBreak(kind, storey, side, cause, force))
         if not any(map(math.isfinite, (monitor.tiltTime, monitor.collapseTime))):
             self.upright = time, largest_so_far()
         if math.isfinite(monitor.tiltTime):
-            self.log.add(monitor.tiltTime, "tilt", f"a storey drift {direction_name(monitor.tiltDirection)} passes 1/10")
+            self.log.add(monitor.tiltTime, Tilt(monitor.tiltDirection))
         if math.isfinite(monitor.collapseTime):
-            self.log.add(monitor.collapseTime, "collapse", "collapse: a floor has come down by half a storey")
+            self.log.add(monitor.collapseTime, Collapse())
         state = self.state()
         self.log.observe(time, state)
         if self.modes is None and time > SETTLED - O.dt / 2:
@@ -203,7 +204,6 @@ class Observer:
     def _weigh(self, time, state):
         """Note the damage that the house has in its last frame before the shaking."""
         peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
-        structures = {name: {"peak_drift": peaks[name], **facts} for name, facts in self.survey.by_structure(state).items()}
-        damage = own_weight.damage_before_shaking(structures, "snow" in self.survey.elements.kind)
-        if damage:
-            self.log.add(time, "own_weight", damage)
+        structures = self.survey.by_structure(state, peaks)
+        if any(facts.verdict != UNDAMAGED for facts in structures.values()):
+            self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))

@@ -6,9 +6,9 @@ import numpy as np
 import yade.wrapper as yw
 from tqdm import tqdm
 
-from ..recording.sentences import broken_of, ratio
 from ..recording.walls import count_apart
 from ..scene.engines import find_engine
+from ..text import english
 
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
@@ -38,11 +38,11 @@ class Progress:
         if self.bar.disable:
             return
         for event in self.log.events[self.shown:]:
-            self.bar.write(f"{event.time_s:7.2f} s  {event.what}", file=sys.stderr)
+            self.bar.write(f"{event.time_s:7.2f} s  {english.event(event)}", file=sys.stderr)
         self.shown = len(self.log.events)
         joints = find_engine(yw.JointEngine).joints
         known = self.log.survey.joints
         broken = np.array([joint.isBroken for joint in joints[:len(known.damaged)]], bool) & ~known.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        self.bar.set_postfix_str(f"drift {ratio(peak)}, {broken_of(*count_apart(known, broken), of='/')}", refresh=False)
+        self.bar.set_postfix_str(f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(known, broken), of='/')}", refresh=False)
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)

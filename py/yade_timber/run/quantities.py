@@ -13,6 +13,7 @@ from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
 from ..recording.peaks import COLUMNS, JOINTS
+from ..recording.summary import LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear, StoreyQuantities
 from ..scene.engines import find_engine, gravity_now
 from . import observer
 from .modal import modes_now
@@ -44,32 +45,31 @@ def storeys():
 
 
 def storey_peaks(table):
-    """{'mass_kg', 'base_shear', 'storeys'} as in the summary. table: Storeys of the run, up to a fall"""
+    """Arguments of Quantities: masses, base shear, accelerations, storeys. table: Storeys of the run, up to a fall"""
     masses, gravity = part_masses(), gravity_now().norm()
-    found = {}
+    peaks = {}
     for k in range(1, table.count + 1):
         above = float(masses[2 * k:].sum())
         shear = _shears(table, f"shear_{{}}{k}")
-        found[f"storey{k}"] = {
-            "mass_above_kg": round(above, 3),
-            "shear": shear,
-            "shear_coefficient": {axis: round(value / (above * gravity), 4) if above * gravity else None for axis, value in shear["sustained"].items()},
-            "acceleration": {axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
-        }
+        peaks[f"storey{k}"] = StoreyQuantities(
+            mass_above_kg=round(above, 3),
+            shear=shear,
+            shear_coefficient={axis: round(value / (above * gravity), 4) if above * gravity else None for axis, value in shear.sustained.items()},
+            acceleration={axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
+        )
     return {
         "mass_kg": round(float(masses.sum()), 3),
         "base_shear": _shears(table, "base_shear_{}"),
         "acceleration_band_hz": list(quantities.BAND),
         "ground_acceleration": {axis: round(table.peak(f"ground_acceleration_{axis}"), 4) for axis in AXES},
-        "storeys": found,
+        "storeys": peaks,
     }
 
 
 def _shears(table, name):
-    """{'sustained', 'peak'}: largest shears in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
-    columns = {axis: name.format(axis) for axis in DIRECTIONS}
-    measures = {"sustained": table.sustained, "peak": table.peak}
-    return {kind: {axis: round(largest(column), 3) for axis, column in columns.items()} for kind, largest in measures.items()}
+    """Shear: the largest in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
+    sustained, peak = ({axis: round(largest(name.format(axis)), 3) for axis in DIRECTIONS} for largest in (table.sustained, table.peak))
+    return Shear(sustained=sustained, peak=peak)
 
 
 # --- joints and columns -----------------------------------------------------------------------------------------------
@@ -137,23 +137,23 @@ def tables(observed):
 
 
 def summarised(made, observed):
-    """The part `quantities` of the summary. made: Tables of the run; observed: Observer of the run"""
+    """Quantities of the summary. made: Tables of the run; observed: Observer of the run"""
     standing = [row for row in made.columns if row[-1] == "standing"]
     breakable = [row for row in made.joints if np.isfinite(row[8])]
     fall = observed.fall()
     collapsed = fall is not None
-    return {
-        "until_s": fall,
-        "modes": {"before": observed.modes, "after": None if collapsed or observed.modes is None else modes_now(observed.main_levels)},
+    return Quantities(
+        until_s=fall,
+        modes=Modes(before=observed.modes, after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
         **storey_peaks(made.storeys.until(fall) if collapsed else made.storeys),
-        "largest_utilisation": _largest(made.joints, 4, "joint", "value", 4),
-        "largest_pull": _largest(breakable, 5, "joint", "force"),
-        "largest_shear": _largest(breakable, 6, "joint", "force"),
-        "largest_uplift": None if collapsed else _largest(standing, 5, "column", "uplift_m"),
-    }
+        largest_utilisation=_largest(LargestUtilisation, made.joints, 4, "joint", "value", 4),
+        largest_pull=_largest(LargestForce, breakable, 5, "joint", "force"),
+        largest_shear=_largest(LargestForce, breakable, 6, "joint", "force"),
+        largest_uplift=None if collapsed else _largest(LargestUplift, standing, 5, "column", "uplift_m"),
+    )
 
 
-def _largest(rows, column, noun, value, digits=6):
-    """{noun: name, value: number} of the row with the largest number in a column, None without rows."""
+def _largest(kind, rows, column, noun, value, digits=6):
+    """kind(noun: name, value: number) of the row with the largest number in a column, None without rows."""
     row = max(rows, key=lambda row: row[column], default=None)
-    return row and {noun: row[0], value: round(float(row[column]), digits)}
+    return row and kind(**{noun: row[0], value: round(float(row[column]), digits)})

@@ -11,10 +11,10 @@ from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..pictures import REPORT, all_pictures
 from ..recording import ensemble, frames
-from ..recording.sentences import sentence
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
+from ..text.english import sentence
 from . import checkpoint, quantities, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
@@ -238,15 +238,14 @@ class Run:
             self.take(O.time, last=True)
         tables = quantities.tables(self.observer)
         origin = made_from(self.output.options, self.scenario.house)
-        numbers = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.output.other_walls, cut_off)
-        found = self.summary = {**numbers, "made_from": origin}
+        found = self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, origin, self.output.other_walls, cut_off)
         written = self._results(found, tables)
         written += self._pictures()
         written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
-        if cut_off is None and found["cut_off"]:
-            raise PhysicsError(found["cut_off"])
+        if cut_off is None and found.cut_off:
+            raise PhysicsError(found.cut_off)
 
     def _results(self, found, tables):
         written = []

@@ -1,44 +1,44 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv, and the tables of quantities.py."""
-import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import yade.wrapper as yw
 
 from .. import _plugin
 from ..base.atomic_write import write_text
+from ..base.energy_terms import DISSIPATED, ELASTIC
 from ..base.errors import RunError
+from ..base.json_types import decode, encode
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..motion import constant_note, interpolation_error, onset
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
-from ..recording.sentences import largest_drift, sentence
-from ..recording.verdict import judge, leans
+from ..recording.summary import NAME, Diagnosis, Energy, PartOfRecord, Record, Solver, Summary, Versions, Walls, Weight
 from ..scene import queries
 from ..scene.engines import find_engine
+from ..text.english import sentence
 from . import observer, quantities
 from .versions import versions
 
-DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield")
-"""Terms of the energy balance that are dissipated."""
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
-SUMMARY, BREAKS = "summary.json", "breaks.csv"
-NAMES = (SUMMARY, HISTORY, BREAKS, *quantities.NAMES)
+BREAKS = "breaks.csv"
+NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 """Files that `write` makes."""
 
 O = yw.Omega()
 
 
-def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
-    """Content of summary.json for the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run;
-    wall_s: wall time of its steps so far [s]; other_walls: verdict with the walls of the other level; cut_off: reason why the run ends before its duration.
+def summary(scenario, observed, tables, wall_s, made_from, other_walls=None, cut_off=None):
+    """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s: wall time of its steps so far [s];
+    other_walls: OtherWalls, of the walls of the other level; cut_off: reason why the run ends before its duration.
     Raises RunError for energies that are not finite.
 
-    residual_drift, final_amplitude, still_moving: see recording/drift.py; events: recording/events.py; broken, columns: recording/damage.py.
+    residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
@@ -46,64 +46,40 @@ def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
     tilt, collapse = _time(monitor.tiltTime), _time(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
-    found = {
-        "scenario": scenario.name,
-        "model": model.name,
-        "earthquake": scenario.motion is not None,
-        "snow": scenario.snow_depth > 0,
-        "snow_depth_m": scenario.snow_depth,
-        "snow_mass_kg": model.counts()["mass_snow"],
-        "weight": weigh(model),
-        "diagnosis": diagnose(model),
-        "joint_damping": scenario.joint_damping,
-        "walls": {"level": model.law["wall_level"], "other": other_walls} if model.law["wall_level"] else None,
-        "record": record(scenario),
-        "dt": scenario.dt,
-        "duration_s": simulated,
-        "until_collapse": scenario.until_collapse,
-        "cut_off": None,
-        "steps": O.iter,
-        "wall_s": round(wall_s, 3),
-        "skipped_s": round(skipper.skipped if skipper else 0.0, 3),
-        "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
-        "threads": _plugin.thread_count(),
-        "elements": len(O.bodies),
-        "joints": survey.count_all(),
-        "broken": survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
-        "columns": survey.count_columns(state),
-        "leans_from_s": drift.lean_start(history, tilt, monitor.tiltDirection),
-        "tilt_time_s": tilt,
-        "tilt_direction": monitor.tiltDirection or None,
-        "collapsed": collapse is not None,
-        "collapse_time_s": collapse,
-        "fallen_structures": survey.fallen_structures(state),
-        "leaning_structures": survey.leaning_structures(state),
-        "peak_drift": drift.by_storey(monitor.peak),
-        "residual_drift": drift.by_storey(residual),
-        "final_amplitude": drift.by_storey(amplitude),
-        "still_moving": drift.still_moving(amplitude),
-        "events": observed.log.records(),
-        "energy": energy_balance(queries.energy() if cut_off is None else last_energies(history)),
-        "solver": solver(),
-        "versions": versions(),
-    }
-    found["cut_off"] = cut_off or created_too_much(found["energy"])
-    found["structures"] = structures(found, observed, state)
-    found["diagnosis"]["disagreement"] = comparison(found["diagnosis"], found)
-    found["quantities"] = quantities.summarised(tables, observed)
-    return {**found, "verdict": found["structures"][survey.structures[0]]["verdict"], "sentence": sentence(found)}
+    structures = survey.by_structure(state, observed.peaks)
+    energy = energy_balance(queries.energy() if cut_off is None else last_energies(history))
+    draft = Summary(
+        scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None,
+        snow=scenario.snow_depth > 0, snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"],
+        weight=decode(Weight, weigh(model)),
+        diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}),
+        joint_damping=scenario.joint_damping,
+        walls=Walls(level=model.law["wall_level"], other=other_walls) if model.law["wall_level"] else None,
+        record=record(scenario),
+        dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse, cut_off=cut_off or created_too_much(energy),
+        steps=O.iter, wall_s=round(wall_s, 3), skipped_s=round(skipper.skipped if skipper else 0.0, 3),
+        real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None,
+        threads=_plugin.thread_count(), elements=len(O.bodies), joints=survey.count_all(),
+        broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
+        columns=survey.count_columns(state),
+        leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection),
+        tilt_time_s=tilt, tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None, collapse_time_s=collapse,
+        fallen_structures=[name for name, facts in structures.items() if facts.collapsed],
+        leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
+        peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
+        final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
+        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**versions()),
+        structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="", made_from=made_from,
+    )  # fmt: skip
+    return judged(draft)
 
 
-def structures(found, observed, state):
-    """The part `structures`: facts and verdict of each structure. Drifts of the main one are those of `peak_drift` and `residual_drift`."""
-    damage, main = observed.survey.by_structure(state), observed.survey.structures[0]
-    facts = {name: {"peak_drift": observed.peaks[name], "residual_drift": observed.survey.drift(state, name), **known} for name, known in damage.items()}
-    facts[main] |= {
-        "peak_drift": largest_drift(found)[0],
-        "residual_drift": largest_drift(found, "residual_drift")[0],
-        "collapsed": found["collapsed"],
-    }
-    return {name: {"verdict": judge(known), "leans": leans(known), **known} for name, known in facts.items()}
+def judged(draft):
+    """The Summary with verdict and sentences. The main structure has the drifts and the collapse of the HouseMonitor's samples, others those of the frames."""
+    peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
+    main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
+    draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
+    return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 
 
 def record(scenario):
@@ -117,22 +93,22 @@ def record(scenario):
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
     begin = onset(motion)  # None: no shaking
-    return {
-        "source": motion.source or motion.name,
-        "pga_gal": pga,
-        "scale": scenario.scale,
-        "dt": motion.dt,
-        "interpolation_error": round(error, 6),
-        "onset_s": None if begin is None else begin + scenario.delay,
-        "note": constant_note(motion, scenario.scale) or None,
-        "sequence": [part_of_record(part, scenario.scale) for part in motion.parts] or None,
-    }
+    return Record(
+        source=motion.source or motion.name,
+        pga_gal=pga,
+        scale=scenario.scale,
+        dt=motion.dt,
+        interpolation_error=round(error, 6),
+        onset_s=None if begin is None else begin + scenario.delay,
+        note=constant_note(motion, scenario.scale) or None,
+        sequence=[part_of_record(part, scenario.scale) for part in motion.parts] or None,
+    )
 
 
 def part_of_record(part, scale):
     """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
     pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
-    return {"source": part.source, "start_s": round(part.start, 6), "duration_s": round(part.duration, 6), "scale": scale * part.scale, "pga_gal": pga}
+    return PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6), scale=scale * part.scale, pga_gal=pga)
 
 
 def recorded_history(monitor):
@@ -153,21 +129,21 @@ def energy_balance(terms):
     the input; residual_fraction: its absolute value over the input, None without input. created: negative dissipation of single contact points and
     joints, as a positive number; contained in `dissipated`. Raises RunError for numbers that are not finite.
     """
-    terms = {"ground_motion": 0.0, **dict.fromkeys(DISSIPATED, 0.0), **terms}
+    terms = {"ground_motion": 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
     supplied, residual = terms["ground_motion"] - terms["gravity"], queries.energy_residual(terms)
-    balance = {
-        "input": supplied,
-        "kinetic": terms["kinetic"],
-        "elastic": sum(value for name, value in terms.items() if name.startswith("elastic_")),
-        "dissipated": {name: terms[name] for name in DISSIPATED},
-        "created": find_engine(yw.ContactForces).created,
-        "residual": residual,
-        "residual_fraction": abs(residual) / supplied if supplied > 0 else None,
-        "ground_motion": terms["ground_motion"],
-        "gravity_released": -terms["gravity"],
-    }
-    if not all(math.isfinite(value) for value in (supplied, residual, balance["created"], *balance["dissipated"].values())):
-        raise RunError(f"the energies at {O.time:.4f} s are not finite: {balance}; try a smaller --dt")
+    balance = Energy(
+        input=supplied,
+        kinetic=terms["kinetic"],
+        elastic=sum(terms[term.name] for term in ELASTIC),
+        dissipated={term.name: terms[term.name] for term in DISSIPATED},
+        created=find_engine(yw.ContactForces).created,
+        residual=residual,
+        residual_fraction=abs(residual) / supplied if supplied > 0 else None,
+        ground_motion=terms["ground_motion"],
+        gravity_released=-terms["gravity"],
+    )
+    if not all(math.isfinite(value) for value in (supplied, residual, balance.created, *balance.dissipated.values())):
+        raise RunError(f"the energies at {O.time:.4f} s are not finite: {encode(balance)}; try a smaller --dt")
     return balance
 
 
@@ -176,20 +152,16 @@ def solver():
     in the last sweep of one, as twice its kinetic energy [J]."""
     forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
     computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
-    return {
-        "sweeps_mean": round(forces.sweepsDone / max(1, computed), 3),
-        "sweeps_max": forces.sweepsMax,
-        "unconverged_steps": forces.unconverged,
-        "worst_change_j": forces.worstChange,
-    }
+    mean = round(forces.sweepsDone / max(1, computed), 3)
+    return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged, worst_change_j=forces.worstChange)
 
 
 def created_too_much(energy):
-    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy: part of a summary"""
-    if energy["created"] <= CREATED * max(energy["input"], 0.0) or energy["created"] < NEGLIGIBLE:
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy: Energy"""
+    if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
         return None
-    share = energy["created"] / energy["input"] if energy["input"] > 0 else math.inf
-    return f"contacts and joints have created {energy['created']:.3g} J, {share:.1g} of the energy put in (admissible: {CREATED:g}); try a smaller --dt"
+    share = energy.created / energy.input if energy.input > 0 else math.inf
+    return f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible: {CREATED:g}); try a smaller --dt"
 
 
 def _time(value):
@@ -206,17 +178,13 @@ def breaks_text(model):
     return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
-def write(folder, found, tables, model):
+def write(folder, result, tables, model):
     """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError.
 
-    found, tables: `summary` and quantities.Tables of the run
+    result, tables: Summary and quantities.Tables of the run
     """
-    monitor, paths = find_engine(yw.HouseMonitor), tables.write(folder)
-    contents = {
-        HISTORY: recorded_history(monitor).text(),
-        BREAKS: breaks_text(model),
-        SUMMARY: json.dumps(found, indent=1, allow_nan=False) + "\n",
-    }
-    for name, text in contents.items():
+    paths = tables.write(folder)
+    for name, text in ((HISTORY, recorded_history(find_engine(yw.HouseMonitor)).text()), (BREAKS, breaks_text(model))):
         write_text(folder / name, text)
-    return [*paths, *(folder / name for name in contents)]
+        paths.append(folder / name)
+    return [*paths, result.write(folder)]

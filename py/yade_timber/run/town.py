@@ -18,7 +18,7 @@ from ..house.town import check_places
 from ..pictures import all_pictures
 from ..recording import frames
 from ..recording import town as recording
-from ..recording.sentences import joints_and_sheets, largest_drift, sentence
+from ..text.english import sentence
 from .cli import prepare_folder
 from .runner import STOP_SIGNALS, Interrupted, Run
 from .town_progress import TownProgress
@@ -158,11 +158,11 @@ class TownRun:
         rows = []
         for lot, run in zip(self.town.lots, self.runs):
             found, scenario = run.summary, run.scenario
-            drift, residual = largest_drift(found)[0], largest_drift(found, "residual_drift")[0]
-            place = lot.name, found["model"], lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
-            times = ["" if found[key] is None else found[key] for key in ("tilt_time_s", "collapse_time_s")]
-            joints, sheets = joints_and_sheets(found)
-            rows.append((*place, found["verdict"], found["diagnosis"]["iw"], drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
+            drift, residual = found.largest_drift()[0], found.largest_drift("residual_drift")[0]
+            place = lot.name, found.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
+            times = ["" if time is None else time for time in (found.tilt_time_s, found.collapse_time_s)]
+            joints, sheets = found.joints_and_sheets
+            rows.append((*place, found.verdict, found.diagnosis.iw, drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
         return csv_text(COLUMNS, rows)
 
 

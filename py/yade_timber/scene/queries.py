@@ -4,6 +4,7 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
+from ..base.energy_terms import SIGNS
 from . import arguments
 from .engines import find_engine
 from .joints import require_ids
@@ -81,7 +82,8 @@ def energy_residual(terms):
         [J]
     """
     arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
-    return sum(value for name, value in terms.items() if name != "ground_motion") - terms.get("ground_motion", 0.0)
+    supplied, others = (sum(value for name, value in terms.items() if SIGNS.get(name, 1) == sign) for sign in (-1, 1))
+    return others - supplied
 
 
 def stable_dt(safety=0.5):

@@ -17,9 +17,11 @@ from pathlib import Path
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.lock import is_locked
+from ..recording.summary import NAME as SUMMARY
+from ..recording.summary import Summary
 from ..run.identity import made_from
 
-END, LOG, SUMMARY = "run.json", "run.log", "summary.json"
+END, LOG = "run.json", "run.log"
 STATES = ("done", "failed", "unfinished")
 POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
@@ -43,9 +45,9 @@ class Task:
 
     @property
     def summary(self):
-        """Content of summary.json, or None if the run is not done or was made from other options, files or another package."""
-        found = _read(self.folder / SUMMARY)
-        return found if found and found.get("made_from") == made_from(self.options, self.house) else None
+        """Summary, or None if the run is not done or was made from other options, files or another package."""
+        table = _read(self.folder / SUMMARY)
+        return Summary.read(self.folder) if table and table.get("made_from") == made_from(self.options, self.house) else None
 
     @property
     def error(self):

@@ -3,13 +3,14 @@
 
 from ..base.errors import RunError
 from ..house import LEVELS, has_rated_walls, load_house
+from ..recording.summary import OtherWalls
 from .driver import Task, run_missing
 
 OPTION = "--walls"
 
 
 def run(script, scenario, output):
-    """`other` of `walls` in summary.json: level and verdict; None for a house without rated walls.
+    """OtherWalls of the summary; None for a house without rated walls.
 
     The run is in the folder walls_LEVEL of the results. script: path of the run script; output: run.cli.Output. Raises HouseError, RunError,
     and KeyboardInterrupt after a signal.
@@ -23,7 +24,7 @@ def run(script, scenario, output):
     found = run_missing([task], script.resolve().parent, 1, report)[task]
     if found is None:
         raise RunError(f"the run with walls of the level {level} has no results: {task.error or task.folder}")
-    return {"level": level, "verdict": found["verdict"], "peak_drift": found["peak_drift"]}
+    return OtherWalls(level=level, verdict=found.verdict, peak_drift=found.peak_drift)
 
 
 def _without_walls(options):

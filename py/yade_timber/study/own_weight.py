@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no YADE itself."""
-import json
 import subprocess
 import tempfile
-from pathlib import Path
 
 from ..base.errors import RunError
-from ..recording.sentences import sentence
-from .driver import SUMMARY, command
+from ..recording.summary import Summary
+from ..text.english import sentence
+from .driver import command
 
 TIME = 3.0
 """Simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]"""
@@ -25,4 +24,4 @@ def check_own_weight(house, snow, scripts):
         if done.returncode:
             lines = [line for line in done.stderr.splitlines() if line.strip()]
             raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")
-        return sentence(json.loads((Path(folder) / SUMMARY).read_text()))
+        return sentence(Summary.read(folder))

@@ -7,20 +7,21 @@ from pathlib import Path
 
 import pytest
 from timber_research import claims, comparison, report
+from yade_timber.recording.summary import Summary
 from yade_timber.study.driver import Task
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
-    """A summary with the entries that claims use."""
+    """A Summary with the entries that claims use."""
     drift = {"ns": sway_ns, "ew": sway_ew}
-    place = {"1": {"west": {"column_beam": west[0], "brace_beam": west[1]}}}
-    broken = {"springs": springs, "total": springs // 4, "column_beam": 0, "brace_beam": 0, "by_place": place, "by_storey": {}, "by_side": dict.fromkeys(("north", "south", "east", "west"), 0)}
-    return {
-        "model": model, "snow": snow, "record": {"onset_s": 18.5}, "peak_drift": {"storey1": drift, "storey2": dict(drift)},
-        "residual_drift": {"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}}, "broken": broken,
-        "columns": {"total": 90, "fallen": fallen, "loose": 0}, "collapsed": collapse is not None, "collapse_time_s": collapse,
-        "leans_from_s": leans, "tilt_time_s": leans and leans + 1, "tilt_direction": direction, "wall_s": 1.0,
-    }
+    place = {"1": {"west": {"total": sum(west), "column_beam": west[0], "brace_beam": west[1]}}}
+    sides = dict.fromkeys(("north", "south", "east", "west"), 0)
+    return Summary.sample(
+        model=model, snow=snow, record={"onset_s": 18.5}, peak_drift={"storey1": drift, "storey2": drift},
+        residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}},
+        broken={"springs": springs, "total": springs // 4, "by_place": place, "by_side": sides},
+        columns={"total": 90, "fallen": fallen}, collapsed=collapse is not None, collapse_time_s=collapse, leans_from_s=leans,
+        tilt_time_s=leans and leans + 1, tilt_direction=direction, wall_s=1.0)
 
 
 def paper_results():
@@ -58,7 +59,7 @@ def drift(ns, ew):
 
 
 def broken(springs=0, west=(2, 0)):
-    return {"broken": summary("", springs=springs, west=west)["broken"]}
+    return {"broken": summary("", springs=springs, west=west).broken}
 
 
 COLLAPSED = {"collapsed": True, "collapse_time_s": 20.0}
@@ -121,8 +122,7 @@ STILL_RIGHT = [  # changes up to the limits of the criteria
 
 def changed(run, change):
     runs = paper_results()
-    runs[run] = {**runs[run], **change}
-    return runs
+    return {**runs, run: runs[run].changed(**change)}
 
 
 @pytest.mark.parametrize("name, run, change", WRONG)
@@ -137,11 +137,12 @@ def test_limits_of_the_criteria(name, run, change):
 
 def test_row_of_a_run():
     """Each number in its column."""
-    run = summary("A", collapse=24.0, leans=18.0, springs=9, direction="ns")
-    run["peak_drift"] = {"storey1": {"ns": 1 / 11, "ew": 1 / 12}, "storey2": {"ns": 1 / 13, "ew": None}}
-    run["residual_drift"] = {"storey1": {"ns": 0.03, "ew": 0.04}, "storey2": {"ns": 0.0, "ew": 0.01}}
-    run["broken"] |= {"total": 3, "column_beam": 2, "brace_beam": 1, "by_storey": {"1": 5, "2": 6}, "by_side": {"north": 7, "south": 8, "east": 10, "west": 11}}
-    run |= {"columns": {"total": 90, "fallen": 12, "loose": 13}, "wall_s": 14.4}
+    sides = {"north": 7, "south": 8, "east": 10, "west": 11}
+    run = summary("A", collapse=24.0, leans=18.0, springs=9, direction="ns").changed(
+        peak_drift={"storey1": {"ns": 1 / 11, "ew": 1 / 12}, "storey2": {"ns": 1 / 13, "ew": None}},
+        residual_drift={"storey1": {"ns": 0.03, "ew": 0.04}, "storey2": {"ns": 0.0, "ew": 0.01}},
+        broken={"total": 3, "column_beam": 2, "brace_beam": 1, "by_storey": {"1": 5, "2": 6}, "by_side": sides},
+        columns={"fallen": 12, "loose": 13}, wall_s=14.4)
     row = dict(zip(report.RUN_COLUMNS, report.run_row("modelA_quake", run), strict=True))
     assert list(row.values()) == ["modelA_quake", "collapsed", "18.0 s", "19.0 s", "24.0 s", "1/11", "1/12", "1/13", "<1/1000", "1/20", "1/100", 9, 3, 2, 1, 5, 6, 7, 8, 10, 11, 12, 13, 14]
     assert (row["peak drift 1 N-S"], row["2 E-W"], row["residual 1"], row["storey 2"], row["south"], row["west"], row["loose"]) == ("1/11", "<1/1000", "1/20", 6, 8, 11, 13)

@@ -5,12 +5,14 @@ import numpy as np
 import pytest
 from scipy import stats
 from timber_research import two_ensembles
+from yade_timber.recording.summary import Summary
 
 
 def summary(verdict="unsafe", drift=0.1, falls=None):
     """What the tests read of a run with a largest drift [-]; falls: collapse time [s]"""
     drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
-    return {"verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts, "residual_drift": drifts, "broken": {"springs": 3}}
+    return Summary.sample(
+        verdict=verdict, collapsed=falls is not None, collapse_time_s=falls, peak_drift=drifts, residual_drift=drifts, broken={"springs": 3})
 
 
 def ensembles(shift=1.0, spread=0.1, falls=(4, 4)):
@@ -30,7 +32,7 @@ def by_test(found, quantity):
 def test_p_values_are_those_of_scipy():
     first, second = ensembles(1.2)
     found = by_test(two_ensembles.compare("A", first, second), "largest drift [-]")
-    a, b = ([run["peak_drift"]["storey1"]["ns"] for run in runs if not run["collapsed"]] for runs in (first, second))
+    a, b = ([run.peak_drift["storey1"]["ns"] for run in runs if not run.collapsed] for runs in (first, second))
     assert found["Mann-Whitney"].p == stats.mannwhitneyu(a, b).pvalue and len(a) == 12
     assert found["Brown-Forsythe"].p == stats.levene(np.log(a), np.log(b)).pvalue
     assert found["Mann-Whitney"].ratio[0] == pytest.approx(np.median(b) / np.median(a))

@@ -4,7 +4,7 @@ import math
 
 from yade_timber.base.atomic_write import write_text
 from yade_timber.base.table import csv_text
-from yade_timber.recording.sentences import counted
+from yade_timber.text.english import counted
 
 from .. import design
 from ..claims import CLAIMS

@@ -43,17 +43,17 @@ class Response:
 
 def drift(run):
     """Largest drift of a run, 1 for a collapse. [-]"""
-    return 1.0 if run["collapsed"] else _limited(max(sway(run, "ns"), sway(run, "ew")))
+    return 1.0 if run.collapsed else _limited(max(sway(run, "ns"), sway(run, "ew")))
 
 
 def lean(run, storey=None):
     """Residual drift of a storey, or the largest; 1 for a collapse. [-]"""
-    return 1.0 if run["collapsed"] else _limited(leaning(run, storey))
+    return 1.0 if run.collapsed else _limited(leaning(run, storey))
 
 
 def springs(run):
     """Broken springs, all of the house for a collapse, and 1 more, so that it has a logarithm."""
-    return 1 + (4 * run["joints"]["total"] if run["collapsed"] else damage(run))
+    return 1 + (4 * run.joints.total if run.collapsed else damage(run))
 
 
 def _limited(value):
@@ -74,7 +74,7 @@ def _more_lost(run, other):
 
 
 def _broken(kind, side):
-    return lambda run: run["broken"]["by_place"]["1"][side][kind]
+    return lambda run: getattr(run.broken.by_place["1"][side], kind)
 
 
 # --- the responses ------------------------------------------------------------------------------------------------------
@@ -91,8 +91,8 @@ def _snow(house):
 def _all():
     houses, damaged = ("A", "B", "C", "B1", "B2", "C1", "C2"), ("B1", "B2", "C1", "C2")
     for house in houses:
-        yield Response(f"falls_{house}", f"{house} falls", SHARE, (_quake(house),), lambda run: run["collapsed"])
-    yield Response("ns_A", "A tilts N-S", SHARE, (_quake("A"),), lambda run: run["tilt_direction"] == "ns")
+        yield Response(f"falls_{house}", f"{house} falls", SHARE, (_quake(house),), lambda run: run.collapsed)
+    yield Response("ns_A", "A tilts N-S", SHARE, (_quake("A"),), lambda run: run.tilt_direction == "ns")
     for house in houses:
         yield Response(f"drift_{house}", f"{house}: largest drift", LOG, (_quake(house),), lambda run: math.log10(drift(run)))
     yield Response("across_B1", "B1: sway E-W / N-S", LOG, (_quake("B1"),), _across("ew", "ns"))

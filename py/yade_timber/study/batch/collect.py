@@ -2,7 +2,9 @@
 """Results of a batch in one CSV file, one row per run."""
 
 from ...base.atomic_write import write_text
+from ...base.json_types import encode
 from ...base.table import csv_text
+from ...text.english import event
 from .tasks import task_of
 
 RUNS = "runs.csv"
@@ -43,6 +45,7 @@ def write_runs(rows, folder):
 
 def _result(row, task, columns):
     summary = task.summary
+    table = encode(summary) or {}
     error = None if summary else task.error
     return {
         "run": row.name,
@@ -51,15 +54,10 @@ def _result(row, task, columns):
         "status": "failed" if error else "done" if summary else "unfinished",
         "error": error and f"{row.table.name}:{row.line}: {error}",
         **{column: row.cells.get(column) for column in columns},
-        "peak_drift": _largest(_at(summary, "peak_drift")),
-        **{column: _at(summary, path) for column, path in RESULTS.items()},
-        "events": "; ".join(f"{event['time_s']:.2f} s {event['what']}" for event in _at(summary, "events") or ()) or None,
+        "peak_drift": summary and summary.largest_drift()[0],
+        **{column: _at(table, path) for column, path in RESULTS.items()},
+        "events": "; ".join(f"{one.time_s:.2f} s {event(one)}" for one in (summary.events if summary else ())) or None,
     }
-
-
-def _largest(drifts):
-    """Largest of {storey: {direction: drift}}, None if there is none."""
-    return max((drift for storey in (drifts or {}).values() for drift in storey.values() if drift is not None), default=None)
 
 
 def _at(found, path):

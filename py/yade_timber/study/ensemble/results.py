@@ -2,14 +2,15 @@
 """Results of an ensemble: ensemble.json, ensemble.csv, lines for the terminal, results of the run that is shown."""
 import json
 import shutil
+from dataclasses import replace
 
 from ...base.atomic_write import write_text, written_whole
 from ...base.table import csv_text
 from ...house.disturbance import LARGEST
 from ...recording import frames
 from ...recording.ensemble import NAME, TABLE
-from ...recording.sentences import counted, largest_drift, ratio, sentence, span
-from ..driver import SUMMARY
+from ...recording.summary import Ensemble
+from ...text.english import counted, ratio, sentence, span
 from . import statistics
 
 ROWS = (
@@ -54,7 +55,7 @@ def write(folder, found, done, planned):
     write_text(folder / NAME, json.dumps(found, indent=1, allow_nan=False) + "\n")
     write_text(folder / TABLE, table_text(found, done, planned))
     shown = found["shown"]
-    return [folder / NAME, folder / TABLE, *show(folder, planned[shown - 1].folder, {**done[shown], "ensemble": draw(found, done)})]
+    return [folder / NAME, folder / TABLE, *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done)))]
 
 
 def table_text(found, done, planned):
@@ -73,13 +74,10 @@ def table_text(found, done, planned):
 
 def draw(found, done):
     """The entry `ensemble` in the summary of the run that is shown: its number, the outcomes, the ranges over all runs."""
-    standing = [largest_drift(summary)[0] for summary in done.values() if not summary["collapsed"]]
-    return {
-        "run": found["shown"],
-        "runs": found["runs"],
-        "outcomes": {**{state: known["runs"] for state, known in found["outcomes"].items()}, **({"failed": len(found["errors"])} if found["errors"] else {})},
-        "peak_drift_standing": [min(standing), max(standing)] if standing else None,
-    }
+    standing = [summary.largest_drift()[0] for summary in done.values() if not summary.collapsed]
+    failed = {"failed": len(found["errors"])} if found["errors"] else {}
+    outcomes = {**{state: known["runs"] for state, known in found["outcomes"].items()}, **failed}
+    return Ensemble(run=found["shown"], runs=found["runs"], outcomes=outcomes, peak_drift_standing=[min(standing), max(standing)] if standing else None)
 
 
 def show(folder, run, summary):
@@ -89,14 +87,13 @@ def show(folder, run, summary):
         with written_whole(folder / table.name) as part:
             shutil.copyfile(table, part)
         written.append(folder / table.name)
-    summary = {**summary, "sentence": sentence(summary)}
+    summary = replace(summary, sentence=sentence(summary))
     if (run / frames.NAME).is_file():
         recorded = frames.load(run / frames.NAME)
         recorded.summary = summary
         frames.save(folder / frames.NAME, recorded)
         written.append(folder / frames.NAME)
-    write_text(folder / SUMMARY, json.dumps(summary, indent=1, allow_nan=False) + "\n")
-    return [*written, folder / SUMMARY]
+    return [*written, summary.write(folder)]
 
 
 # --- lines for the terminal ---------------------------------------------------------------------------------------------
@@ -105,11 +102,11 @@ def show(folder, run, summary):
 def lines(found, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
     count = len(found["finished"])
-    heads = [f"{count} runs of house {shown['model']}, vertices disturbed by at most {found['disturbance_m']:g} m", *map(_outcome, found["outcomes"].items())]
+    heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m", *map(_outcome, found["outcomes"].items())]
     heads += [f"failed: {counted(len(found['errors']), 'run')}"] if found["errors"] else []
     rows = [_row(label, found["numbers"][place], text, count) for label, place, text in ROWS if place in found["numbers"]]
     number = found["shown"]
-    reason = f"shown: run {number}, nearest to the median of the {'collapse time' if shown['collapsed'] else 'peak drift'} of the {shown['verdict']} ones"
+    reason = f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of the {shown.verdict} ones"
     return [*heads, COLUMNS.format("", "median", "lowest to highest", "").rstrip(), *rows, reason]
 
 

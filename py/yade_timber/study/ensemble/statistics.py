@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Medians, ranges and shares over the runs of an ensemble, and the run that stands for it. A summary is the content of summary.json."""
+"""Medians, ranges and shares over the runs of an ensemble, and the run that stands for it."""
 from collections import Counter
 from numbers import Real
 
 import numpy as np
 from scipy import stats
 
-from ...recording.sentences import largest_drift
+from ...base.json_types import encode
 from ...recording.verdict import STATES
 
 CONFIDENCE = 0.95
@@ -29,14 +29,14 @@ def leaves(found, path=""):
 
 def numbers(found):
     """{path: number} of a summary, with the largest of its peak drifts and of its residual drifts. Lists have no numbers."""
-    own = {place: value for place, value in leaves(found) if isinstance(value, Real) and not isinstance(value, bool)}
-    largest = {f"largest_{key}": largest_drift(found, key)[0] for key in ("peak_drift", "residual_drift")}
+    own = {place: value for place, value in leaves(encode(found)) if isinstance(value, Real) and not isinstance(value, bool)}
+    largest = {f"largest_{key}": found.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
     return {**largest, **own}
 
 
 def words(found):
     """{path: text} of the flags and texts among the results of a summary, NONE for what has no value."""
-    results = leaves({key: value for key, value in found.items() if key not in FIXED})
+    results = leaves({key: value for key, value in encode(found).items() if key not in FIXED})
     return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results if isinstance(value, (str, bool)) or value is None}
 
 
@@ -69,7 +69,7 @@ def counts(summaries):
 
 def outcomes(summaries):
     """{verdict: number of runs} of the verdicts that occur, from the best to the worst."""
-    found = Counter(summary["verdict"] for summary in summaries)
+    found = Counter(summary.verdict for summary in summaries)
     return {state: found[state] for state in STATES if found[state]}
 
 
@@ -87,7 +87,7 @@ def representative(summaries):
     """
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
-    chosen = {number: found for number, found in summaries.items() if found["verdict"] == outcome}
-    values = {number: found["collapse_time_s"] if found["collapsed"] else largest_drift(found)[0] for number, found in chosen.items()}
+    chosen = {number: found for number, found in summaries.items() if found.verdict == outcome}
+    values = {number: found.collapse_time_s if found.collapsed else found.largest_drift()[0] for number, found in chosen.items()}
     middle = np.median(list(values.values()))
     return min(values, key=lambda number: abs(values[number] - middle))

@@ -4,7 +4,7 @@ import html
 import math
 
 from ...base.table import csv_text
-from ...recording.sentences import ratio
+from ...text.english import ratio
 from .race import CAP, FINALISTS, NO_DIFFERENCE, SIGNIFICANCE, response
 
 WIDTH, HEIGHT, RADIUS, REACH = 220, 18, 4, 3.0

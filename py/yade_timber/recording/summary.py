@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md. Needs no YADE."""
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from ..base.atomic_write import write_text
+from ..base.errors import RunError
+from ..base.input_file import require_regular
+from ..base.json_types import decode, default, encode, optional, others, table
+from .events import Event, StructureFallen
+from .verdict import Structure
+
+NAME = "summary.json"
+ANEW = "repeat the run with this version of the package"
+Drifts = dict[str, dict[str, float | None]]
+"""{storey: {direction: drift [-], None where there is none}}"""
+Components = dict[str, float]
+"""{direction: value}"""
+
+Weight = table(
+    "Weight", total_kn=float, snow_kn=float, floor_area_m2=float, per_floor_area_kn_m2=float | None,
+    storeys=dict[str, dict[str, Components]])  # fmt: skip
+Diagnosis = table(
+    "Diagnosis", iw=float | None, iw_at=str | None, judgement=str | None, wall_quantity_ratio=float | None,
+    wall_quantity_at=str | None, broken_from_start=int, structures=dict, sentence=str, disagreement=str)  # fmt: skip
+OtherWalls = table("OtherWalls", level=str, verdict=str, peak_drift=Drifts)
+Walls = table("Walls", level=str, other=OtherWalls | None)
+PartOfRecord = table("PartOfRecord", source=str, start_s=float, duration_s=float, scale=float, pga_gal=Components)
+Record = table(
+    "Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float, onset_s=float | None,
+    note=str | None, sequence=list[PartOfRecord] | None)  # fmt: skip
+Columns = table("Columns", total=int, fallen=int, loose=int)
+Energy = table(
+    "Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float, residual=float,
+    residual_fraction=float | None, ground_motion=float, gravity_released=float)  # fmt: skip
+Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float)
+Versions = table("Versions", yade=str, package=str)
+Mode = table("Mode", period_s=float | None, direction=str, mass_share=Components, shape=dict[str, Components])
+ModesAt = table("ModesAt", time_s=float, modes=list[Mode])
+Shear = table("Shear", sustained=Components, peak=Components)
+StoreyQuantities = table(
+    "StoreyQuantities", mass_above_kg=float, shear=Shear, shear_coefficient=dict[str, float | None],
+    acceleration=Components)  # fmt: skip
+LargestUtilisation = table("LargestUtilisation", joint=str, value=float)
+LargestForce = table("LargestForce", joint=str, force=float)
+LargestUplift = table("LargestUplift", column=str, uplift_m=float)
+Ensemble = table("Ensemble", run=int, runs=int, outcomes=dict[str, int], peak_drift_standing=list[float] | None)
+Modes = table("Modes", before=ModesAt | None, after=ModesAt | None)
+Quantities = table(
+    "Quantities", until_s=float | None, modes=Modes, mass_kg=float, base_shear=Shear, acceleration_band_hz=list[float],
+    ground_acceleration=Components, storeys=dict[str, StoreyQuantities], largest_utilisation=LargestUtilisation | None,
+    largest_pull=LargestForce | None, largest_shear=LargestForce | None,
+    largest_uplift=LargestUplift | None)  # fmt: skip
+JointCounts = table(
+    "JointCounts", total=int, column_beam=int, brace_beam=int, others=others(int),
+    wall_sheets=optional(int))  # fmt: skip
+"""total: without those of walls; others: other kinds that occur. Sheets: None in a house without walls."""
+Broken = table(
+    "Broken", total=int, column_beam=int, brace_beam=int, by_side=dict[str, int], by_storey=dict[str, int],
+    by_place=dict[str, dict[str, JointCounts]], partly_broken=int, springs=int, damaged_at_start=JointCounts,
+    others=others(int), wall_sheets=optional(int), wall_sheets_partly=optional(int))  # fmt: skip
+Values = table(
+    "Values", scenario=str, model=str, earthquake=bool, snow=bool, snow_depth_m=float, snow_mass_kg=float,
+    weight=Weight, diagnosis=Diagnosis, joint_damping=float | None, walls=Walls | None, record=Record | None, dt=float,
+    duration_s=float, until_collapse=bool, cut_off=str | None, steps=int, wall_s=float, skipped_s=float,
+    real_time_factor=float | None, threads=int, elements=int, joints=JointCounts, broken=Broken, columns=Columns,
+    leans_from_s=float | None, tilt_time_s=float | None, tilt_direction=str | None, collapsed=bool,
+    collapse_time_s=float | None, fallen_structures=list[str], leaning_structures=list[str], peak_drift=Drifts,
+    residual_drift=Drifts, final_amplitude=Drifts, still_moving=bool, events=list[Event], energy=Energy, solver=Solver,
+    versions=Versions, structures=dict[str, Structure], quantities=Quantities, verdict=str, sentence=str,
+    made_from=dict, ensemble=optional(Ensemble))  # fmt: skip
+TownSummary = table(
+    "TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool, collapse_time_s=float | None,
+    tilt_time_s=float | None, dt=float, record=Record | None, versions=Versions, events=list[Event],
+    ensemble=optional(Ensemble))  # fmt: skip
+"""Of a town, for sentences and pictures. Times are those of the first house that tilts or collapses; events have their lots."""
+
+
+class Summary(Values):
+    """Results of a run."""
+
+    @classmethod
+    def read(cls, folder):
+        """Of the run in a folder. Raises RunError."""
+        path = Path(folder) / NAME
+        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its end")
+        try:
+            return parse(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as problem:
+            raise RunError(f"{path}: cannot be read as the summary of a run: {problem}; {ANEW}") from None
+
+    def write(self, folder):
+        """Write summary.json; returns its path. Raises OSError."""
+        write_text(folder / NAME, json.dumps(encode(self), indent=1, allow_nan=False) + "\n")
+        return folder / NAME
+
+    def changed(self, **changes):
+        """A Summary with other values; tables are merged."""
+        return decode(Summary, _merged(encode(self), encode(changes)), "summary")
+
+    @classmethod
+    def sample(cls, **changes):
+        """For tests: House A, of which nothing is known but the changes. Verdicts follow from them, the main structure is that of the totals."""
+        found = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(**{"model": "A", **changes, "structures": {}})
+        lost, main = found.columns.fallen + found.columns.loose, {"broken": found.broken.total, "partly_broken": found.broken.partly_broken}
+        drifts = {"peak_drift": found.largest_drift()[0], "residual_drift": found.largest_drift("residual_drift")[0]}
+        structures = {"main": {**main, **drifts, "columns_lost": lost, "collapsed": found.collapsed}, **changes.get("structures", {})}
+        found = found.changed(structures=structures)
+        return found.changed(verdict=changes.get("verdict", found.main.verdict))
+
+    @property
+    def main(self):
+        """Structure on which the verdict rests."""
+        return next(iter(self.structures.values()))
+
+    @property
+    def others(self):
+        """[(name, Structure)] of the other structures."""
+        return list(self.structures.items())[1:]
+
+    def largest_drift(self, key="peak_drift"):
+        """(drift, storey, 'ns' | 'ew') of the largest drift; zero where none is known. key: 'peak_drift', 'residual_drift' or 'final_amplitude'"""
+        drifts = ((value, storey, direction) for storey, pair in getattr(self, key).items() for direction, value in pair.items() if value is not None)
+        return max(drifts, default=(0.0, "storey1", "ns"))
+
+    def main_mode(self, when, direction):
+        """The Mode 'before' or 'after' the run that moves most of the mass in a direction, None without one."""
+        found = getattr(self.quantities.modes, when)
+        modes = [mode for mode in found.modes if mode.direction == direction] if found else ()
+        return max(modes, key=lambda mode: mode.mass_share[direction], default=None)
+
+    def first_time(self, kind):
+        """Time of the first event of a kind, None without one. [s]"""
+        return next((event.time_s for event in self.events if event.kind == kind), None)
+
+    def fall_time(self, name):
+        """Time at which a structure other than the main one fell; None if it is not recorded. [s]"""
+        return next((event.time_s for event in self.events if event.facts == StructureFallen(name)), None)
+
+    @property
+    def missed_onset(self):
+        """Onset of the strong shaking of a run that ends before it [s], else None."""
+        onset = self.record and self.record.onset_s
+        return onset if onset and self.duration_s < onset else None
+
+    @property
+    def partly_broken(self):
+        """Number of joints and wall sheets that lost some springs."""
+        return self.broken.partly_broken + (self.broken.wall_sheets_partly or 0)
+
+    @property
+    def joints_and_sheets(self):
+        """((broken, all) of the joints, (broken, all) of the wall sheets); (0, 0) in a house without walls."""
+        counts = self.broken, self.joints
+        return tuple(count.total for count in counts), tuple(count.wall_sheets or 0 for count in counts)
+
+
+def parse(text):
+    """Summary or TownSummary of a text of JSON. Raises ValueError."""
+    entries = json.loads(text)
+    kind = TownSummary if isinstance(entries, dict) and "verdicts" in entries else Summary
+    summary = decode(kind, entries, "summary")
+    if kind is Summary and not (summary.structures and summary.collapsed == (summary.collapse_time_s is not None)):
+        raise ValueError("summary: no structures, or a collapse without its time")
+    return summary
+
+
+def collapse_time(summary):
+    """Time at which a house collapsed [s]; None without, for None, and for a town, which has none of its own."""
+    return summary.collapse_time_s if isinstance(summary, Summary) else None
+
+
+def _merged(old, new):
+    """The table with other entries; where both have tables, those are merged."""
+    both = {key for key, entry in new.items() if isinstance(entry, dict) and isinstance(old.get(key), dict)}
+    return {**old, **{key: _merged(old[key], entry) if key in both else entry for key, entry in new.items()}}

@@ -1,0 +1,269 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Summaries and events in English. Needs no YADE."""
+from ..recording import verdict
+from ..recording.summary import TownSummary
+
+DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
+"""Limits of storey drifts and their meaning. [-]"""
+CONVERGED = 1e-6
+"""Share of the energy put in that unconverged steps may lack without a remark. [-]"""
+SMALL = 1e-3
+"""Drifts below this are not distinguished. [-]"""
+ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity", "step": "time step"}
+"""Words of pictures/provenance.py."""
+
+
+# --- the result of a run ----------------------------------------------------------------------------------------------
+
+
+def sentence(summary):
+    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run first its outcomes.
+
+    Of a town: the numbers of its houses by verdict.
+    """
+    if isinstance(summary, TownSummary):
+        return town(summary)
+    parts = (outcome, other_walls, weight, residual, structures, joints, columns, snow, record, early, unconverged)
+    text = "; ".join(filter(None, (part(summary) for part in parts)))
+    return f"{cut_off(summary)}{ensemble(summary)}House {summary.model} {text}"
+
+
+def cut_off(summary):
+    """'Cut off at 5.93 s, results until then: ' of a run whose numbers failed, else empty."""
+    return f"Cut off at {summary.duration_s:.2f} s, not to be relied on: " if summary.cut_off else ""
+
+
+def early(summary):
+    """Remark on a run that ends before the strong shaking; empty for others."""
+    onset = summary.missed_onset
+    return "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
+
+
+def unconverged(summary):
+    """Steps that did not converge, if what they lack could be more than CONVERGED of the energy put in; else empty."""
+    solver = summary.solver
+    if solver.unconverged_steps * solver.worst_change_j <= CONVERGED * summary.energy.input:
+        return ""
+    return f"{solver.unconverged_steps} steps did not converge (largest change {solver.worst_change_j:.2g} J)"
+
+
+def weight(summary):
+    """Damage before the shaking, which an event describes; without an earthquake the cause of the damage. Empty for a house without damage."""
+    if summary.earthquake:
+        return next((own_weight(event.facts) for event in summary.events if event.kind == "own_weight"), "")
+    return f"damaged by {its_weight(summary.snow)}" if summary.main.verdict != verdict.UNDAMAGED else ""
+
+
+def its_weight(has_snow):
+    """'its own weight and snow'."""
+    return "its own weight" + " and snow" * has_snow
+
+
+def ensemble(summary):
+    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ' of a run that is shown for an ensemble, else empty."""
+    if not summary.ensemble:
+        return ""
+    outcomes, drifts = summary.ensemble.outcomes, summary.ensemble.peak_drift_standing
+    numbers = ", ".join(f"{number} {state}" for state, number in outcomes.items())
+    standing = " in those that stand" * (verdict.COLLAPSED in outcomes)
+    return f"{place_in_ensemble(summary.ensemble)} ({numbers}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
+
+
+def place_in_ensemble(place):
+    """'Run 7 of 16'. place: summary.Ensemble"""
+    return f"Run {place.run} of {place.runs}"
+
+
+def town(summary):
+    """'Town harbour: 6 houses, 3 undamaged, 2 unsafe, 1 collapsed'."""
+    counts = [f"{summary.verdicts.count(state)} {state}" for state in verdict.STATES if state in summary.verdicts]
+    return "; ".join(filter(None, (f"Town {summary.model}: {len(summary.verdicts)} houses, {', '.join(counts)}", record(summary))))
+
+
+def outcome(summary):
+    """Verdict on the main structure, with its peak storey drift."""
+    if summary.collapsed:
+        tilt, end = summary.tilt_time_s, f"collapsed at {summary.collapse_time_s:.1f} s"
+        return end if tilt is None else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s"
+    drift, storey, direction = summary.largest_drift()
+    peak = f"{directed(drift, direction)} in {storey_name(storey)}" if drift >= SMALL else ratio(drift)
+    limit = verdict.passed(drift)
+    meaning = f"beyond the {limit.name} of {ratio(limit.drift)}" if limit else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
+    lean = " and leans at the end" if summary.main.leans else ""
+    return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}"
+
+
+def other_walls(summary):
+    """'with walls of the level design collapsed' where the verdict depends on the level of the walls."""
+    other = summary.walls and summary.walls.other
+    return f"with walls of the level {other.level} {other.verdict}" if other and other.verdict != summary.main.verdict else ""
+
+
+def residual(summary):
+    """Residual drift after a peak beyond the damage limit, amplitude of the motion that remains."""
+    parts = []
+    drift, _, direction = summary.largest_drift("residual_drift")
+    if not summary.collapsed and summary.largest_drift()[0] >= verdict.DAMAGE.drift:
+        parts.append(f"residual drift {directed(drift, direction)}")
+    if summary.still_moving and not summary.collapsed:
+        amplitude, _, direction = summary.largest_drift("final_amplitude")
+        parts.append(f"still moving by ±{directed(amplitude, direction)}")
+    return ", ".join(parts)
+
+
+def structures(summary):
+    """Verdicts on the structures other than the main one, unless they are undamaged."""
+    return ", ".join(structure(name, facts, summary) for name, facts in summary.others if facts.verdict != verdict.UNDAMAGED)
+
+
+def structure(name, facts, summary):
+    """Verdict on a structure other than the main one: 'entrance collapsed at 21.3 s'. facts: verdict.Structure"""
+    if facts.collapsed:
+        return f"{name} {facts.verdict}{at(summary.fall_time(name))}"
+    lean = " and leans" if facts.leans else ""
+    return f"{name} {facts.verdict}{lean} (peak drift {ratio(facts.peak_drift)})"
+
+
+def joints(summary):
+    """Broken and partly broken joints and wall sheets."""
+    partly = f", {summary.partly_broken} partly" if summary.partly_broken else ""
+    before = summary.broken.damaged_at_start.total
+    return broken_of(*summary.joints_and_sheets) + partly + (f" ({before} more from the start)" if before else "")
+
+
+def broken_of(joints, sheets, of=" of "):
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of: between two numbers"""
+    walls = f" and {sheets[0]}{of}{counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
+    return f"{joints[0]}{of}{joints[1]} joints{walls} broken"
+
+
+def columns(summary):
+    """Fallen and loose columns, if any, and the time of the first loss."""
+    counts, first = summary.columns, summary.first_time("columns_lost")
+    texts = [f"{number} {state}" for number, state in ((counts.fallen, "fallen"), (counts.loose, "loose")) if number]
+    since = "" if first is None else f", the first at {first:.1f} s"
+    return f"{' and '.join(texts)} of {counts.total} columns{since}" if texts else ""
+
+
+def snow(summary):
+    """Mass of the snow, and whether some has fallen."""
+    first = summary.first_time("snow_fallen")
+    falling = "" if first is None else f", falling from {first:.1f} s"
+    return f"snow {summary.snow_mass_kg / 1000:.1f} t{falling}" if summary.snow else ""
+
+
+def record(summary):
+    """Constant part of the record, if it has one."""
+    return f"the record's {summary.record.note}" if summary.record and summary.record.note else ""
+
+
+# --- events -----------------------------------------------------------------------------------------------------------
+
+
+def event(one):
+    """Clause on an Event; of a town with its lot."""
+    return _in_lot(one, PHRASES[one.kind](one.facts))
+
+
+def short(one):
+    """The same in two or three words, for a fall of a structure or of snow."""
+    return _in_lot(one, f"{one.facts.structure} has fallen" if one.kind == "structure_fallen" else "snow has fallen")
+
+
+def _in_lot(one, text):
+    return text if one.lot is None else f"{one.lot}: {text}"
+
+
+def first_break(facts):
+    force = f" {facts.force_n / 1000:.1f} kN" if facts.force_n else ""  # none after yielding
+    return f"first spring breaks: {joint_place(facts.joint, facts.storey, facts.side)}, {facts.cause}{force}"
+
+
+def own_weight(facts):
+    """'damaged before the shaking, by its own weight: 12 joints broken, peak drift 1/45'."""
+    main = next(iter(facts.structures), None)
+    parts = [("" if name == main else f"{name}: ") + _damage(one) for name, one in facts.structures.items() if one.verdict != verdict.UNDAMAGED]
+    return f"damaged before the shaking, by {its_weight(facts.snow)}: {'; '.join(parts)}"
+
+
+def _damage(facts):
+    if facts.collapsed:
+        return "collapsed"
+    counts = ((facts.broken, "joint", "broken"), (facts.partly_broken, "joint", "partly broken"), (facts.columns_lost, "column", "lost"))
+    return ", ".join([*(f"{counted(number, noun)} {state}" for number, noun, state in counts if number), f"peak drift {ratio(facts.peak_drift)}"])
+
+
+def snow_fallen(facts):
+    """'snow has fallen from the west roof', 'from the entrance's roof'."""
+    owner = f"{facts.structure}'s" if facts.structure else ""
+    return f"snow has fallen from the {' '.join(filter(None, (owner, facts.side, facts.layer)))}"
+
+
+def level(facts):
+    limit = verdict.passed(facts.drift)
+    return f"drift passes {limit.text.replace(' ', ': ', 1)}"
+
+
+PHRASES = {
+    "first_break": first_break,
+    "tilt": lambda facts: f"a storey drift {direction_name(facts.direction)} passes 1/10",
+    "collapse": lambda facts: "collapse: a floor has come down by half a storey",
+    "own_weight": own_weight,
+    "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",
+    "columns_lost": lambda facts: f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or without a joint",
+    "snow_fallen": snow_fallen,
+    "shaking_begins": lambda facts: "the shaking begins",
+    "strongest_shaking": lambda facts: "strongest shaking",
+    "level": level,
+}
+
+
+# --- words ------------------------------------------------------------------------------------------------------------
+
+
+def direction_name(key):
+    """'ns' -> 'N-S'."""
+    return {"ns": "N-S", "ew": "E-W"}.get(key, key)
+
+
+def storey_name(key):
+    """'storey1' -> 'storey 1'."""
+    return f"storey {key.removeprefix('storey')}"
+
+
+def counted(number, noun):
+    """'1 run', '3 runs'."""
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def at(time):
+    """' at 21.3 s', empty without a time."""
+    return "" if time is None else f" at {time:.1f} s"
+
+
+def span(low, high):
+    """'1/14 to 1/8' from two texts, one of them where they are the same."""
+    return low if low == high else f"{low} to {high}"
+
+
+def directed(drift, direction):
+    """'1/85 N-S', without a direction below SMALL."""
+    return f"{ratio(drift)} {direction_name(direction)}" if drift >= SMALL else ratio(drift)
+
+
+def ratio(drift, below="below "):
+    """A drift in the notation of engineers: 1/85."""
+    if drift < SMALL:
+        return f"{below}1/1000"
+    return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"
+
+
+def joint_place(kind, storey, side):
+    """'column-beam joint, storey 1, west side' from the values of breaks.csv."""
+    walls = side if side == "inside" else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
+    return f"{kind.replace('_', '-')} joint, {f'storey {storey}' if storey.isdigit() else storey}, {walls}"
+
+
+def period_text(mode):
+    """'0.31 s', or 'unstable'."""
+    return "unstable" if mode.period_s is None else f"{mode.period_s:.2f} s"

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Summaries and events in Japanese, for the player. Numbers and names are the same as in English. Needs no YADE."""
+from ..recording.verdict import COLLAPSED, DAMAGE, UNDAMAGED, passed
+from .english import SMALL, ratio
+
+DIRECTIONS = {"ns": "南北", "ew": "東西"}
+SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
+STRUCTURES = {"entrance": "玄関"}
+ORIGIN = {"none": "地動なし", "motion": "地動", "record": "記録", "intensity": "計測震度", "step": "時間刻み"}
+"""Words of pictures/provenance.py."""
+OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "collapsed": "倒壊", "failed": "計算失敗"}
+LEVELS = {"damage limit": "損傷の始まり", "safety limit": "大きな損傷"}
+
+
+def title(summary):
+    """'住宅 C2：地震、積雪 5.6 t'."""
+    loads = ["地震"] * summary.earthquake + [f"積雪 {summary.snow_mass_kg / 1000:.1f} t"] * summary.snow
+    return f"住宅 {summary.model}：{'、'.join(loads) or '自重のみ'}"
+
+
+def result(summary):
+    """Outcome: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow."""
+    parts = [outcome(summary), moving(summary), *structures(summary), joints(summary), columns(summary), snow(summary), early(summary)]
+    return ensemble(summary) + "。".join(filter(None, parts)) + "。"
+
+
+def outcome(summary):
+    if summary.collapsed:
+        return f"{summary.collapse_time_s:.1f} 秒に倒壊"
+    drift, storey, direction = summary.largest_drift()
+    left = summary.largest_drift("residual_drift")[0]
+    residual = f"、残留変形角 {below(left)}" if drift >= DAMAGE.drift else ""
+    peak = f"{ratio(drift, '')}（{direction_name(direction)}、{storey.removeprefix('storey')} 階）" if drift >= SMALL else "1/1000 未満"
+    lean = "（最後に傾いている）" if summary.main.leans else ""
+    return f"{OUTCOMES[summary.main.verdict]}{lean}。最大層間変形角 {peak}{residual}"
+
+
+def moving(summary):
+    """Amplitude of the motion that remains; empty at rest."""
+    amplitude, _, direction = summary.largest_drift("final_amplitude")
+    return f"なお ±{below(amplitude)}（{direction_name(direction)}）で揺れている" if summary.still_moving and not summary.collapsed else ""
+
+
+def structures(summary):
+    """Verdicts on the structures other than the main one, unless they are undamaged."""
+    for name, facts in summary.others:
+        time = summary.fall_time(name)
+        if facts.verdict == COLLAPSED:
+            yield f"{structure_name(name)}は" + ("倒壊" if time is None else f" {time:.1f} 秒に倒壊")
+        elif facts.verdict != UNDAMAGED:
+            yield f"{structure_name(name)}は{OUTCOMES[facts.verdict]}（最大層間変形角 {below(facts.peak_drift)}）"
+
+
+def joints(summary):
+    """Broken and partly broken joints and wall sheets."""
+    (broken, total), (torn, sheets) = summary.joints_and_sheets
+    walls = f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
+    partly, before = summary.partly_broken, summary.broken.damaged_at_start.total
+    others = "、".join([f"一部破断 {partly} か所"] * bool(partly) + [f"最初から破断 {before} か所"] * bool(before))
+    return f"接合部 {total} か所のうち {broken} か所{walls}が破断" + (f"（ほかに{others}）" if others else "")
+
+
+def columns(summary):
+    """Fallen and loose columns, and the time of the first loss; empty without."""
+    counts, first = summary.columns, summary.first_time("columns_lost")
+    lost = [f"{number} 本が{text}" for number, text in ((counts.fallen, "倒れた"), (counts.loose, "外れた")) if number]
+    since = "" if first is None else f"（{first:.1f} 秒から）"
+    return f"柱 {counts.total} 本のうち{'、'.join(lost)}{since}" if lost else ""
+
+
+def snow(summary):
+    """Time from which snow has fallen from the roofs; empty without."""
+    first = summary.first_time("snow_fallen") if summary.snow else None
+    return "" if first is None else f"雪は {first:.1f} 秒から落下"
+
+
+def early(summary):
+    """Remark on a run that ends before the strong shaking; empty for others."""
+    onset = summary.missed_onset
+    return "" if onset is None else f"強い揺れ（{onset:.1f} 秒）の前で計算を終了"
+
+
+def ensemble(summary):
+    """'16 回の計算の 7 番目（危険 12 回、倒壊 4 回）。' of a run that is shown for an ensemble, else empty."""
+    if not summary.ensemble:
+        return ""
+    outcomes = "、".join(f"{OUTCOMES.get(state, state)} {number} 回" for state, number in summary.ensemble.outcomes.items())
+    return f"{place_in_ensemble(summary.ensemble)}（{outcomes}）。"
+
+
+def place_in_ensemble(place):
+    """'16 回の計算の 7 番目'. place: summary.Ensemble"""
+    return f"{place.runs} 回の計算の {place.run} 番目"
+
+
+# --- events -----------------------------------------------------------------------------------------------------------
+
+
+def event(one):
+    """Clause on an Event; of a town with its lot."""
+    text = PHRASES[one.kind](one.facts)
+    return text if one.lot is None else f"{one.lot}：{text}"
+
+
+def own_weight(facts):
+    """'揺れの前に自重で損傷：接合部 12 か所が破断、最大層間変形角 1/45'."""
+    main = next(iter(facts.structures), None)
+    damaged = [(name, one) for name, one in facts.structures.items() if one.verdict != UNDAMAGED]
+    parts = [("" if name == main else f"{structure_name(name)}は") + _damage(one) for name, one in damaged]
+    return f"揺れの前に自重{'と雪' * facts.snow}で損傷：{'、'.join(parts)}"
+
+
+def _damage(facts):
+    if facts.collapsed:
+        return "倒壊"
+    counts = ((facts.broken, "接合部 {} か所が破断"), (facts.partly_broken, "接合部 {} か所が一部破断"), (facts.columns_lost, "柱 {} 本が倒れるか外れた"))
+    return "、".join([*(text.format(number) for number, text in counts if number), f"最大層間変形角 {below(facts.peak_drift)}"])
+
+
+def level(facts):
+    limit = passed(facts.drift)
+    return f"層間変形角が {ratio(limit.drift)} を超える（{LEVELS[limit.name]}）"
+
+
+PHRASES = {
+    "first_break": lambda facts: "最初のばねの破断" + (f"（{facts.force_n / 1000:.1f} kN）" if facts.force_n else ""),
+    "tilt": lambda facts: f"層間変形角が 1/10 を超える（{direction_name(facts.direction)}）",
+    "collapse": lambda facts: "倒壊：床が階高の半分以上落ちた",
+    "own_weight": own_weight,
+    "structure_fallen": lambda facts: f"{structure_name(facts.structure)}が倒れた",
+    "columns_lost": lambda facts: f"柱 {facts.total} 本のうち {facts.number} 本が倒れるか外れた",
+    "snow_fallen": lambda facts: f"{SIDES[facts.side]}の屋根の雪が落ちる" if facts.side in SIDES else "屋根の雪が落ちる",
+    "shaking_begins": lambda facts: "揺れの始まり",
+    "strongest_shaking": lambda facts: "最大の揺れ",
+    "level": level,
+}
+
+
+# --- words ------------------------------------------------------------------------------------------------------------
+
+
+def direction_name(key):
+    return DIRECTIONS.get(key, key)
+
+
+def structure_name(name):
+    return STRUCTURES.get(name, name)
+
+
+def below(drift):
+    """A drift in the notation of engineers: 1/85, 1/1000 未満."""
+    return f"{ratio(drift, '')}{' 未満' if drift < SMALL else ''}"
