@@ -99,7 +99,7 @@ def test_an_earlier_state(tmp_path):
     O.run(run.steps - O.iter)
     wait_for(lambda: not lock.is_locked(tmp_path))
     made = frames.load(tmp_path / frames.NAME)
-    assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary["steps"] == 1500
+    assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary.steps == 1500
 
 
 def test_removed_members(tmp_path):
@@ -110,7 +110,7 @@ def test_removed_members(tmp_path):
         O.bodies.erase(body)
     O.run(run.steps - O.iter)
     wait_for(lambda: not lock.is_locked(tmp_path))
-    assert frames.load(tmp_path / frames.NAME).summary["columns"]["total"] == len(run.model.of_kind("column")) - 1
+    assert frames.load(tmp_path / frames.NAME).summary.columns.total == len(run.model.of_kind("column")) - 1
 
 
 @pytest.fixture(autouse=True)
