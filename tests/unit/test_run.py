@@ -21,6 +21,7 @@ import pytest
 from ports import listening_ports
 from yade_timber.base import lock
 from yade_timber.recording import frames
+from yade_timber.recording.summary import Summary
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import GroundMotion, write_csv
 from yade_timber.motion.record import MAX_ACCELERATION
