@@ -17,7 +17,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, machine, markdown_table, parser, publish, resident_memory  # noqa: E402
+from bench_tools import BARE_MEMORY, machine, parser, publish, resident_memory  # noqa: E402
+from tables import markdown_table  # noqa: E402
 from yade_timber import _plugin  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
