@@ -146,6 +146,8 @@ def test_faster_module_that_is_damaged(tmp_path, attempts):
 
 def test_servers_are_closed(monkeypatch):
     """YADE's Python prompt and XML-RPC server; a job of yade-batch keeps the latter."""
+    for thread in host.close_servers():  # those of this process, which the import may still be closing
+        thread.join()
     yade.remote.runServers()
     prompt, information = listening_ports()
     monkeypatch.setenv("PARAM_TABLE", "table:1")
