@@ -256,7 +256,7 @@ def section_rows(rows):
     entries = []
     for section, (title, subject) in SECTIONS.items():
         checks = bounded(rows, section)
-        entries.append((title, subject, len(checks), sum(error <= bound for error, bound in checks), f"{max(share(*check) for check in checks):.2f}"))
+        entries.append((title, subject, len(checks), sum(error <= bound for error, bound in checks), f"{max(share(*check) for check in checks):.2g}"))
     return entries
 
 
