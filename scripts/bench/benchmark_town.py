@@ -18,7 +18,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 from bench_tools import BARE_MEMORY, machine, markdown_table, parser, publish, resident_memory  # noqa: E402
-from yade_timber import _plugin  # noqa: E402
+from yade_timber.plugin import compiled  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.run import cli, town  # noqa: E402
@@ -73,7 +73,7 @@ def single(options):
         elements = sum(len(one.model.elements) for one in run.runs)
         memory = resident_memory() - BARE_MEMORY
     times = {key: statistics.median(values) for key, values in found.items()}
-    return {"houses": houses, "threads": _plugin.thread_count(), "elements": elements, "memory": memory, **times}
+    return {"houses": houses, "threads": compiled.thread_count(), "elements": elements, "memory": memory, **times}
 
 
 def measure(options, houses, threads):

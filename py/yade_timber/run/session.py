@@ -6,11 +6,11 @@ from contextlib import ExitStack, contextmanager
 import yade.runtime
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
 from ..base.interrupt import deferred_interrupt
 from ..base.lock import locked
+from ..plugin import compiled
 from .cli import prepare_folder
 from .live import LiveRun
 from .runner import Run
@@ -28,7 +28,7 @@ def complete(scenario, output):
 def complete_town(plan, output):
     """Run a town to its end, on all processors unless YADE's -j says otherwise; returns the TownRun. Raises InputError, runner.Interrupted."""
     if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
-        _plugin.set_thread_count(len(os.sched_getaffinity(0)))
+        compiled.set_thread_count(len(os.sched_getaffinity(0)))
     with ExitStack() as stack:
         run = _built(lambda *_: TownRun(plan.town, plan.lots, output), plan, output, stack)
         run.complete()

@@ -10,12 +10,12 @@ from contextlib import contextmanager
 
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.atomic_write import remove, remove_parts, write_text
 from ..base.errors import InputError, RunError
 from ..base.table import csv_text
 from ..house.town import check_places
 from ..pictures import all_pictures
+from ..plugin import compiled
 from ..recording import frames
 from ..recording import town as recording
 from ..recording.sentences import joints_and_sheets, largest_drift, sentence
@@ -57,12 +57,12 @@ class TownRun:
     @contextmanager
     def _of(self, number):
         """Context in which the scene of a lot is YADE's current one; gives its Run."""
-        before = _plugin.swap_scene(self.scenes[number])
+        before = compiled.swap_scene(self.scenes[number])
         try:
             with named(self.town.lots[number]):
                 yield self.runs[number]
         finally:
-            _plugin.swap_scene(before)
+            compiled.swap_scene(before)
 
     # --- steps --------------------------------------------------------------------------------------------------------
 
@@ -99,7 +99,7 @@ class TownRun:
             with self._of(number) as run:
                 stops.append(run.next_stop())
         since = time.perf_counter()
-        made = _plugin.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
+        made = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
         self.wall_s += time.perf_counter() - since
         left = []
         for number, (seconds, error) in zip(active, made):
