@@ -22,6 +22,7 @@ from yade_timber.plugin import compiled  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.run import cli, town  # noqa: E402
+from yade_timber.run.plan import planned  # noqa: E402
 from yade_timber.study.driver import command  # noqa: E402
 from yade_timber.study.options import count, run_script  # noqa: E402
 
@@ -58,8 +59,9 @@ def single(options):
     with tempfile.TemporaryDirectory() as folder:
         path = town_file(folder, options.house, houses)
         given = ["town.py", str(path), "--quake", "--start", str(START), "--snow", "0", "--out", folder, "--checkpoint", "0", "--quiet", "--no-views"]
-        plan, output = cli.read_town(given)
-        run = town.TownRun(plan.town, plan.lots, output)
+        chosen = cli.read_town(given)
+        plan = planned(chosen)
+        run = town.TownRun(plan.town, plan.lots, chosen)
         active = run._first_steps()
         for _ in range(WARM_UP):
             active = run._chunk(active)

@@ -126,7 +126,7 @@ def test_an_import_of_research_is_found(tmp_path, line):
         ("from yade import O", "yade"),
         ("from ..plugin import compiled", "plugin"),
         ("from ..scene import engines", "scene"),
-        ("from ..run.cli import Output", "run"),
+        ("from ..run.options import RunOptions", "run"),
         ("import yade_timber.study.driver", "study"),
         ("from yade_timber import scene", "scene"),
         ("def f():\n    from ..scene.bodies import box", "scene"),
