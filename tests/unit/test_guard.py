@@ -14,7 +14,7 @@ from ports import listening_ports
 from yade_timber import host
 
 MODULE = Path(yade_timber.__path__[0]) / "_yade_timber.so"
-PLUGIN = yade_timber._plugin
+PLUGIN = yade_timber.plugin.compiled
 FIELDS = PLUGIN.layout_fields()
 
 

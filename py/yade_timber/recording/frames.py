@@ -35,6 +35,7 @@ import numpy as np
 from ..base.atomic_write import written_from_memory
 from ..base.errors import RunError
 from ..base.input_file import require_regular
+from ..base.time_step import rest_stride
 from .history import History
 from .sentences import sentence
 
@@ -47,8 +48,9 @@ ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
 def steps_between(dt):
-    """Number of steps of dt [s] between two frames."""
-    return max(1, round(1 / (FRAMES_PER_SECOND * dt)))
+    """Number of steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
+    stride = rest_stride(dt)
+    return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
 
 
 class _ShortRepr:

@@ -6,12 +6,12 @@ import math
 import numpy as np
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..motion import constant_note, interpolation_error, onset
+from ..plugin import compiled
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
@@ -66,7 +66,7 @@ def summary(scenario, observed, tables, wall_s, other_walls=None, cut_off=None):
         "wall_s": round(wall_s, 3),
         "skipped_s": round(skipper.skipped if skipper else 0.0, 3),
         "real_time_factor": round(simulated / wall_s, 6) if wall_s > 0 else None,
-        "threads": _plugin.thread_count(),
+        "threads": compiled.thread_count(),
         "elements": len(O.bodies),
         "joints": survey.count_all(),
         "broken": survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from timber_research import SCRIPTS, claims
+from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task, run_missing
 
 GOLDEN = Path(__file__).resolve().with_name("paper_runs.json")
@@ -24,7 +25,7 @@ the vertices changed peak drifts by up to 55 %."""
 
 @pytest.fixture(scope="module")
 def runs():
-    tasks = [Task(run, Path("results").absolute() / run) for run in claims.RUNS]
+    tasks = [Task(run, Path("results").absolute() / run, scripted(run, *claims.parse_run(run))) for run in claims.RUNS]
     found = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS).items()}
     if os.environ.get("YADE_TIMBER_UPDATE_GOLDEN"):
         write(found)
