@@ -46,15 +46,14 @@ def _with_other_walls(script, scenario, output):
 
 def _ensemble(script, scenario, output):
     """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
-    from ..recording import frames
-    from ..run import checkpoint, runner, session
+    from ..run import runner, session
     from ..study import ensemble
     from .result import RunResult
 
     scenario.build_model()  # a fault of the house is reported once
     try:
         with session.reserved(output.folder):
-            runner.clear(output.folder, frames.NAME, checkpoint.NAME)
+            runner.clear(output.folder, *runner.RECORDED, *runner.STATE)
             ensemble.complete(script, scenario.house, output)
     except KeyboardInterrupt:
         leave("stopped; the same command continues", 128 + signal.SIGINT)
