@@ -60,7 +60,7 @@ def parser(script):
     made.add_argument("--dt", type=float, default=DEFAULT_DT, metavar="S", help=f"time step [s], {MIN_DT:g} to {MAX_DT:g} (default {DEFAULT_DT:g})")
     made.add_argument("--out", metavar="DIR", help="folder of the results")
     made.add_argument("--resume", action="store_true",
-                      help="continue from the last checkpoint in the folder of the results, if there is one; a checkpoint is code: only from those you trust")
+                      help="continue from the last checkpoint in the folder of the results, if there is one")
     made.add_argument("--or-anew", action="store_true",
                       help="with --resume: start anew when the checkpoint is damaged or of another run, instead of ending with an error")
     made.add_argument("--checkpoint", type=float, default=CHECKPOINT_INTERVAL, metavar="S",

@@ -49,7 +49,8 @@ class Recorder:
         if earlier.run != self.frames.run or earlier.position.shape[1:] != (len(self.frames.elements.name), 3):
             raise RunError(f"{self.path}: frames of another run than the checkpoint; {REMEDY}")
         self.times, expected = list(earlier.time), O.iter // frames.steps_between(O.dt) + 1
-        if earlier.summary is not None:  # the frames are in the file itself
+        self.described = earlier.summary is None
+        if not self.described:  # the frames are in the file itself
             remove(self.log.path)
             frame_log.log_frames(self.log, earlier)
         self._cut(O.time)
