@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yade.system as system
+import yade.wrapper as yw
 from yade_timber.base.errors import RunError
 from yade_timber.base.options import options
 from yade_timber.run import checkpoint
@@ -13,6 +15,7 @@ from yade_timber.run import identity as identities
 from yade_timber.run.options import RunOptions
 from yade_timber.motion import GroundMotion
 
+O = yw.Omega()
 SHOVE = GroundMotion(0.01, np.ones((9, 3)), "shove")
 RUN = RunOptions(house="A", ground_motion=SHOVE, snow=0.5, scale=0.8, duration=3.0)
 OTHER = {bool: True, int: 3, float: 0.25, str: "mean"}
@@ -107,13 +110,46 @@ def test_files_that_decide_results(package, name, decides):
 
 
 def test_another_users_checkpoint_is_not_loaded(tmp_path, monkeypatch):
-    """It can run code."""
+    """It could harm the process."""
+    O.reset()
     checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {"wall_s": 1.0})
     assert checkpoint.load(tmp_path / "a.yade", {"name": "x"}) == {"wall_s": 1.0}
     owner = (tmp_path / "a.yade").stat().st_uid
     monkeypatch.setattr(checkpoint.os, "geteuid", lambda: owner + 1)
-    with pytest.raises(RunError, match="another user.*run any code"):
+    with pytest.raises(RunError, match="another user; copy it"):
         checkpoint.load(tmp_path / "a.yade", {"name": "x"})
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_a_forged_checkpoint_is_refused_before_it_is_loaded(tmp_path, monkeypatch, nested):
+    """A PyRunner in the list of engines or in an engine; its command runs where nothing refuses it."""
+    path, marker = tmp_path / "a.yade", tmp_path / "marker"
+    runner = yw.PyRunner(command=f"open({str(marker)!r}, 'w')", iterPeriod=1, initRun=True)
+    O.reset()
+    O.engines = [yw.ParallelEngine([runner]) if nested else runner]
+    checkpoint.save(path, {"name": "x"}, {})
+    O.reset()
+    with pytest.raises(RunError, match="a.yade: holds P.*, which no run of this package saves; run without --resume"):
+        checkpoint.load(path, {"name": "x"})
+    assert O.engines == [] and not marker.exists()
+    monkeypatch.setattr(checkpoint, "CLASSES", checkpoint.CLASSES | {"PyRunner", "ParallelEngine"})
+    checkpoint.load(path, {"name": "x"})
+    O.step()
+    assert marker.exists()
+    O.reset()
+
+
+def test_every_class_of_yade_has_a_name_that_is_checked(tmp_path):
+    """An object of each kind of engine, in a binary file, is named with its namespace."""
+    O.reset()
+    for name in system.childClasses("Engine"):
+        try:
+            O.engines = [getattr(yw, name)()]
+            O.save(str(tmp_path / "a.yade"), quiet=True)
+        except Exception:  # an engine that needs arguments
+            continue
+        assert f"yade::{name}".encode() in (tmp_path / "a.yade").read_bytes(), name
+    O.reset()
 
 
 def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch):

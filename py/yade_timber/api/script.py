@@ -47,15 +47,14 @@ def _planned(script, options):
 
 def _ensemble(script, scenario, options):
     """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
-    from ..recording import frames
-    from ..run import checkpoint, runner, session
+    from ..run import runner, session
     from ..study import ensemble
     from .result import RunResult
 
     scenario.build_model()  # a fault of the house is reported once
     try:
         with session.reserved(options):
-            runner.clear(options, frames.NAME, checkpoint.NAME)
+            runner.clear(options, *runner.RECORDED, *runner.STATE)
             ensemble.complete(script, options)
     except KeyboardInterrupt:
         leave("stopped; the same command continues", 128 + signal.SIGINT)

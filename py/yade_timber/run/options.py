@@ -60,7 +60,7 @@ class RunOptions(MotionRequest):
         float, f"simulated time [s] (default: the motion's, or {QUIET_DURATION:g})", "S", 0, MAX_DURATION, group="main")
     until_collapse: bool = option(bool, "end the run when the house has collapsed", group="main")
     out: Path = option(Path, "folder of the results (default: results/NAME)", "DIR", group="main", decides=False)
-    resume: bool = option(bool, "continue from the checkpoint there; it can run code", group="main", decides=False)
+    resume: bool = option(bool, "continue from the checkpoint there", group="main", decides=False)
     report: bool = option(bool, "write a report of one page, too", group="main", decides=False)
     ensemble: int = option(int, "run it N times, disturbed, and report ranges", "N", 2, MOST_RUNS, group="main", decides=False)
     jobs: int = option(int, "with --ensemble: runs at a time (default: one per core)", "N", 1, MOST_RUNS, group="run", decides=False)

@@ -10,18 +10,21 @@ import yade.wrapper as yw
 from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..pictures import REPORT, all_pictures
-from ..recording import ensemble, frames
+from ..recording import ensemble, frame_log, frames
 from ..recording.sentences import sentence
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
-from . import checkpoint, quantities, summary
+from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Progress
 from .recorder import Recorder
+from .samples import Samples
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
+"""Files of the frames, and of what a resumed run continues from."""
 
 O = yw.Omega()
 
@@ -67,7 +70,7 @@ class Run:
             self._export()
         if self.only_export:
             return
-        clear(self.options, frames.NAME, checkpoint.NAME)
+        clear(self.options, *RECORDED, *STATE)
         self._observe()
         self.observer.observe(O.time)
         if self.recorder:
@@ -84,9 +87,7 @@ class Run:
                 raise
             self.wall_s, self.last_saved = 0.0, 0
             return False
-        if self.recorder:
-            self.recorder.save(self.frames_path)  # without the results of an earlier end
-        clear(self.options, *([] if self.recorder else [frames.NAME]))
+        clear(self.options, *([] if self.recorder else RECORDED))
         self.report(f"resuming from {O.time:.2f} s")
         return True
 
@@ -97,14 +98,21 @@ class Run:
             raise RunError(f"{self.options.named('duration')} {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
         self._observe(saved)
-        if self.recorder:
-            self.recorder.restore(self.frames_path)
+        try:
+            self.samples.resume(saved["samples"], checkpoint.REMEDY)
+            if self.recorder:
+                self.recorder.resume()
+        except OSError as problem:
+            raise RunError(f"{self.options.folder}: the run cannot be continued ({problem.strerror})") from None
 
     def _observe(self, known=None):
         """Attach observer and recorder to the scene. known: `progress` of a checkpoint."""
         self.identity = identity(self.origin)
         self.observer = Observer(self.model, known)
-        self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if not self.options.no_frames else None
+        run, folder = of_values(self.identity), self.options.folder
+        self.samples = Samples(folder / samples.NAME, run)
+        titled = title(self.scenario, self.model)
+        self.recorder = None if self.options.no_frames else Recorder(self.frames_path, self.scenario, self.model, titled, run)
 
     def _export(self):
         try:
@@ -216,8 +224,9 @@ class Run:
         if self.options.checkpoint > 0:
             try:
                 if self.recorder:
-                    self.recorder.save(self.frames_path)
-                checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, **self.observer.progress()})
+                    self.recorder.save()
+                progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
+                checkpoint.save(self.checkpoint_path, self.identity, progress)
             except OSError as problem:
                 remedy = "the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists() else "there is no earlier one"
                 fault = f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
@@ -236,6 +245,7 @@ class Run:
             return
         if cut_off is None:
             self.take(O.time, last=True)
+        self.samples.restore()
         tables = quantities.tables(self.observer)
         numbers = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.scenario.other_walls, cut_off)
         found = self.summary = {**numbers, "made_from": self.origin}
@@ -251,7 +261,7 @@ class Run:
         written = []
         try:
             if self.recorder:
-                self.recorder.finish(self.frames_path, found)
+                self.recorder.finish(found)
                 written.append(self.frames_path)
             return written + summary.write(self.options.folder, found, tables, self.observer.model)
         except OSError as problem:
