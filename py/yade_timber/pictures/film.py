@@ -30,6 +30,8 @@ SLOW, BEFORE_FALL, AFTER_FALL = 0.25, 0.7, 1.8
 """Speed around the first fall [-], from and to these times before and after it [s]."""
 HOLD = 2.0
 """Time for which the last picture stays. [s]"""
+ROUNDING = 1e-6
+"""Of sums of time steps. [s]"""
 LONGEST = 36000
 """Largest number of pictures in a film. [-]"""
 
@@ -70,7 +72,7 @@ def picture_times(runs, form, begin, end):
     """Times of the pictures from `begin` to `end`. [s]"""
     fall = min((time for run in runs for time in (collapse_time(run.summary or {}),) if time is not None), default=np.inf)
     times = [begin]
-    while times[-1] < end and len(times) <= LONGEST:
+    while times[-1] < end - ROUNDING and len(times) <= LONGEST:
         slow = form.speed is None and fall - BEFORE_FALL <= times[-1] < fall + AFTER_FALL
         times.append(times[-1] + (SLOW if slow else form.speed or 1.0) / form.rate)
     if len(times) > LONGEST:
