@@ -92,12 +92,13 @@ class Strip:
         self.run, self.pen = run, Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
         self.span = first_shown(run), float(run.time[-1])
         self.left = round(CLOCK * self.pen.scale)
-        self.still = self.pen.sheet(TRACE * bool(run.motion) + 1.7 * SMALL + (0 if run.motion else TEXT))
+        top, small = TRACE if run.motion else 1.5 * TEXT, max(SMALL, SMALLEST / self.pen.scale)
+        self.still = self.pen.sheet(top + 1.5 * small)
         self.width, self.height = self.still.size
         if run.motion:
             self._draw_trace()
         curve = "Ground acceleration, N-S blue, E-W orange: " * bool(run.motion)
-        self.pen.write(self.still, (self.height / self.pen.scale) - 1.5 * SMALL, curve + drawable(origin), SMALL, SOFT)
+        self.pen.write(self.still, top, curve + drawable(origin), small, SOFT)
         self.still = self.still.convert("RGB")
 
     def at(self, time):
