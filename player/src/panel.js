@@ -29,7 +29,7 @@ export class Panel {
       this.section.setAttribute("aria-label", this.title);
       this.view.setAttribute("aria-label", `${this.title}: ${tr("the house in 3D. Drag to turn it, or use Shift and the arrow keys.")}`);
       for (const name of ["result", "origin"]) part(name).textContent = either(run.info[name], run.info.japanese?.[name]);
-      part("origin").title = part("origin").textContent;
+      for (const name of ["result", "origin"]) part(name).title = part(name).textContent;
     });
   }
 
@@ -47,9 +47,12 @@ export class Panel {
     const over = t > this.run.end + 1e-6;
     const fallen = this.run.countFallen();
     const columns = this.run.columns.length;
-    const english = `${over ? `recorded up to ${end} s: ` : ""}${down ? "collapsed, " : ""}${fallen ? `${fallen} of ${columns} columns fallen, ` : drift && `storey drift ${drift}, `}${broken.english}`;
-    const japanese = `${over ? `記録は ${end} 秒まで：` : ""}${down ? "倒壊、" : ""}${fallen ? `柱 ${columns} のうち ${fallen} が倒れた、` : drift && `層間変形角 ${drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上")}、`}${broken.japanese}`;
-    setText(this.now, current() === "ja" ? japanese : english);
+    const texts = (...parts) => parts.filter(Boolean);
+    const english = texts(down && "collapsed", fallen ? `${fallen} of ${columns} columns fallen` : !down && drift && `storey drift ${drift}`, broken?.english);
+    const short = drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上");
+    const japanese = texts(down && "倒壊", fallen ? `柱 ${columns} のうち ${fallen} が倒れた` : !down && drift && `層間変形角 ${short}`, broken?.japanese);
+    const [until, now] = current() === "ja" ? [`記録は ${end} 秒まで：`, japanese.join("、")] : [`recorded up to ${end} s: `, english.join(", ")];
+    setText(this.now, (over ? until : "") + now);
     setText(this["camera-name"], tr(view.title));
     this.needle.style.transform = `rotate(${(view.azimuth + Math.PI / 2).toFixed(3)}rad)`;
     this.mark(this.events.findLastIndex(({ time }) => time <= t + 1e-6));
@@ -70,10 +73,11 @@ export class Panel {
   }
 }
 
-/** Texts about the broken joints and wall sheets of a run at its current time, as recording/sentences.py has them: { english, japanese }. */
+/** Texts about the broken joints and wall sheets of a run at its current time: { english, japanese }, or null when none is broken. */
 function brokenParts(run) {
   const [joints, broken, sheets, torn] = [run.joints - run.apart.size, run.count(STATE.broken), run.sheets.length, run.countSheets()];
   const partly = run.count(STATE.partly) + run.countSheetsPartly();
+  if (!broken && !torn && !partly) return null;
   const walls = sheets ? ` and ${torn} of ${sheets} wall sheet${sheets === 1 ? "" : "s"}` : "";
   const wallsJapanese = sheets ? `、壁面 ${sheets} のうち ${torn}` : "";
   return {
