@@ -68,11 +68,11 @@ class Caption:
         """'storey drift 1/85', or '42 of 90 columns fallen, 49 of 206 joints broken'; a drift only while every column stands."""
         run, shown = self.run, min(time, self.run.time[-1])
         frame = frame_before(run, shown)
-        columns = self.survey.count_columns(State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken))))
+        fallen = self.survey.fallen_columns(State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken))))
         broken = run.joint_states(frame) == "broken"
         parts = [broken_of(*count_apart(run.joints, broken))] if broken.any() else []
-        if columns["fallen"]:
-            return ", ".join([f"{columns['fallen']} of {columns['total']} columns fallen", *parts])
+        if fallen.any():
+            return ", ".join([f"{fallen.sum()} of {len(fallen)} columns fallen", *parts])
         if self.drifts is not None:
             drift = self.drifts[max(0, np.searchsorted(run.history.time, shown, side="right") - 1)]
             most = DRIFT_LINES[-1][0]
