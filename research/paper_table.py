@@ -11,7 +11,7 @@ from timber_research import SCRIPTS, report
 from timber_research.claims import RUNS, judge, parse_run
 from yade_timber.base.errors import RunError
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, add_run_options, run_options, run_script
+from yade_timber.study.options import Parser, add_driver_options, add_run_options, run_of, run_options, run_script
 
 
 def main():
@@ -19,7 +19,8 @@ def main():
     add_driver_options(parser, "results")
     add_run_options(parser)
     options = parser.parse_args()
-    tasks = [Task(run, options.out / run, run_options(options, earthquake=parse_run(run)[1])) for run in RUNS]
+    given = run_options(options)
+    tasks = [Task(run, options.out / run, run_of(run, *parse_run(run), given)) for run in RUNS]
     summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items() if summary is not None}
     results = judge(summaries)
     print(report.markdown(results, summaries))

@@ -13,6 +13,7 @@ from pathlib import Path
 from timber_research import SCRIPTS, comparison
 from timber_research.claims import RUNS, parse_run
 from yade_timber.base.errors import RunError
+from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task, run_missing
 from yade_timber.study.options import Parser, add_driver_options, list_of, record, run_script, seed
 
@@ -20,15 +21,15 @@ SHIPPED = "shipped"
 
 
 def all_cases(seeds, records):
-    """{motion: (description, options of the run scripts)}."""
-    cases = {SHIPPED: ("the shipped motion", ())}
-    cases |= {f"seed-{number}": (f"synthetic motion of seed {number}", ("--seed", number)) for number in seeds}
-    return cases | {Path(name).name: ("recorded motion", ("--record", name)) for name in records}
+    """{motion: (description, options of a run)}."""
+    cases = {SHIPPED: ("the shipped motion", {})}
+    cases |= {f"seed-{number}": (f"synthetic motion of seed {number}", {"seed": number}) for number in seeds}
+    return cases | {Path(name).name: ("recorded motion", {"record": name}) for name in records}
 
 
 def tasks_of(case, options, folder):
     """{run: task} of a motion. Only the shipped case has the runs without an earthquake."""
-    return {run: Task(run, folder / case / run, options) for run in RUNS if case == SHIPPED or parse_run(run)[1]}
+    return {run: Task(run, folder / case / run, scripted(run, *parse_run(run), **options)) for run in RUNS if case == SHIPPED or parse_run(run)[1]}
 
 
 def main():

@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, load_house  # noqa: E402
-from yade_timber.motion import RecordError, add_motion_options, motion_request, read_motion  # noqa: E402
+from yade_timber.base.errors import InputError  # noqa: E402
+from yade_timber.house import build_house, load_house  # noqa: E402
+from yade_timber.motion import add_motion_options, motion_request, read_motion  # noqa: E402
 
 SECONDS = 5
 """Processor time of one example. [s]"""
@@ -218,7 +219,7 @@ def _refusal(use):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             use()
-    except (HouseError, RecordError, _Stopped) as refusal:
+    except (InputError, _Stopped) as refusal:
         message = str(refusal)
         assert isinstance(refusal, _Stopped) or message and message.isprintable() and len(message) < 4000, repr(message)
     finally:

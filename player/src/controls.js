@@ -13,7 +13,7 @@ const find = (id) => document.getElementById(id);
 export function connect(player) {
   const { clock, view, options } = player;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event"), slow: find("slow"), factor: find("factor"), film: find("film"), full: find("full"), language: find("language"), more: find("more") };
+  const part = { play: find("play"), scrub: find("scrub"), time: find("time"), speed: find("speed"), shaken: find("shaken"), joints: find("joints"), help: find("help"), event: find("event"), slow: find("slow"), film: find("film"), full: find("full"), language: find("language"), more: find("more") };
   const cameras = CAMERA_NAMES.map((name) => find(`camera-${name}`));
   const several = player.runs.length > 1;
   const said = ({ info }, text, japanese) => either(several ? `${info.title}: ${text}` : text, several ? `${info.japanese?.title ?? info.title}：${japanese}` : japanese);
@@ -46,8 +46,6 @@ export function connect(player) {
   }
   for (const name of ["shaken", "joints", "ghost", "walls", "person"]) part[name].addEventListener("change", () => change(name, part[name].checked));
   CAMERA_NAMES.forEach((name, k) => cameras[k].addEventListener("click", () => camera(name)));
-  part.factor.closest("label").hidden = !player.runs.some((run) => run.info.collapse === null);
-  part.factor.addEventListener("change", () => player.exaggerate(Number(part.factor.value)));
   part.slow.closest("label").hidden = clock.main === null;
   part.slow.addEventListener("change", () => (clock.slows = part.slow.checked));
   part.full.hidden = !document.documentElement.requestFullscreen;

@@ -4,10 +4,9 @@ import { element, svg } from "./dom.js";
 import { rowAt } from "./run.js";
 import { either, storeyName, tr, translated } from "./texts.js";
 
-/** Okabe and Ito (2008); storeys differ by dashes, too. */
+/** Okabe and Ito (2008) */
 export const COLORS = { ns: "#0072b2", ew: "#d55e00", ud: "#8a8a8a" };
 const NAMES = { ns: "N–S", ew: "E–W", ud: "up–down" };
-const DASHES = [[], [5, 3], [2, 2]];
 const MOST_DRIFT = 1 / 5; // larger drifts, of a falling house, are drawn at the border
 const LEFT = 42; // width of the labels [pixel]
 const AXIS = 14; // height of the labels of the time axis [pixel]
@@ -20,7 +19,9 @@ const FONT = "11px system-ui, sans-serif";
 export class Curves {
   constructor(place, run, scales, seek) {
     Object.assign(this, { place, run });
-    this.charts = [run.info.motion && motionChart(run, scales.acceleration), run.info.drifts.length && driftChart(run, scales.drifts)].filter(Boolean);
+    const storeys = [...new Set(run.info.drifts.map(({ storey }) => storey))];
+    this.charts = [...(run.info.motion ? [motionChart(run, scales.acceleration)] : []), ...storeys.map((storey) => driftChart(run, scales.drifts, storey))];
+    if (this.charts.length) this.charts.at(-1).axis = AXIS;
     for (const chart of this.charts) place.append(this.figure(chart));
     this.cursor = element("div", { className: "cursor" });
     place.append(this.cursor);
@@ -40,7 +41,7 @@ export class Curves {
   listen(seek) {
     const go = (event) => {
       const { left, width } = this.place.getBoundingClientRect();
-      seek(Math.min(Math.max((event.clientX - left - LEFT) / (width - LEFT), 0), 1) * this.span);
+      seek(Math.min(Math.max((event.clientX - left - LEFT) / (width - LEFT), 0), 1) * (this.span - this.first) + this.first);
     };
     let start = null; // of a touch that may yet become a scroll
     this.place.addEventListener("pointerdown", (event) => {
@@ -61,14 +62,14 @@ export class Curves {
     this.place.addEventListener("pointercancel", () => (start = null)); // the browser scrolls the page
   }
 
-  /** Redraw all at the current size. span: time at the right end [s]. */
-  resize(span) {
-    this.span = span;
-    for (const chart of this.charts) paint(chart, this.run, span);
+  /** Redraw all at the current size. first, span: times at the left and the right end [s]. */
+  resize(first, span) {
+    Object.assign(this, { first: Math.min(first, 0.9 * span), span });
+    for (const chart of this.charts) paint(chart, this.run, this.first, span);
   }
 
   update(t) {
-    const x = LEFT + (Math.min(t / this.span, 1) || 0) * (this.place.clientWidth - LEFT);
+    const x = LEFT + (Math.min(Math.max((t - this.first) / (this.span - this.first), 0), 1) || 0) * (this.place.clientWidth - LEFT);
     this.cursor.style.transform = `translateX(${x}px)`;
   }
 }
@@ -82,7 +83,7 @@ export function largest(runs) {
 function motionChart(run, most) {
   const { dt, start } = run.info.motion;
   const count = run.acceleration.length / 3;
-  const lines = ["ew", "ns", "ud"].map((key, k) => ({ key, k, dash: [] })).reverse();
+  const lines = ["ew", "ns", "ud"].map((key, k) => ({ key, k })).reverse();
   return {
     name: "motion",
     caption: () => [element("span", {}, tr("Ground acceleration, m/s²")), ...["ns", "ew", "ud"].map(direction)],
@@ -94,21 +95,19 @@ function motionChart(run, most) {
   };
 }
 
-/** Scaled by signed square roots, so that small drifts are visible beside large ones. */
-function driftChart(run, most) {
+/** Drifts of a storey, scaled by signed square roots, so that small ones are visible beside large ones. */
+function driftChart(run, most, storey) {
   const columns = run.info.drifts;
   const width = columns.length;
   const rows = run.history_time.length;
   const full = Math.sqrt(Math.min(Math.max(1.1 * most, 1 / 8), MOST_DRIFT));
-  const storeys = Math.max(...columns.map(({ storey }) => storey));
-  const dashes = () => (storeys > 1 ? Array.from({ length: storeys }, (_, k) => swatch("#555", DASHES[k % DASHES.length], storeyName(k + 1))) : []);
+  const title = () => `${tr("Storey drift")}, ${storeyName(storey)}`;
   return {
     name: "drift",
-    caption: () => [element("span", {}, tr("Storey drift")), ...["ns", "ew"].map(direction), ...dashes()],
-    description: () => `${tr("Storey drift")}. ${either(run.info.result, run.info.japanese?.result)}`,
-    lines: columns.map(({ key, storey }, k) => ({
+    caption: () => [element("span", {}, title()), ...["ns", "ew"].map(direction)],
+    description: () => `${title()}. ${either(run.info.result, run.info.japanese?.result)}`,
+    lines: columns.flatMap((column, k) => (column.storey === storey ? [{ key: column.key, k }] : [])).map(({ key, k }) => ({
       key,
-      dash: DASHES[(storey - 1) % DASHES.length],
       value: (i) => run.drifts[i * width + k],
       time: (i) => run.history_time[i],
       count: rows,
@@ -120,38 +119,40 @@ function driftChart(run, most) {
 }
 
 const round = (v) => Number((v >= 2 ? Math.floor(v) : v).toPrecision(2));
-const direction = (key) => swatch(COLORS[key], [], tr(NAMES[key]));
+const direction = (key) => swatch(COLORS[key], tr(NAMES[key]));
 
-function swatch(color, dash, name) {
-  const line = svg("path", { d: "M0 4H18", stroke: color, "stroke-width": 2.5, "stroke-dasharray": dash.join(" ") });
+function swatch(color, name) {
+  const line = svg("path", { d: "M0 4H18", stroke: color, "stroke-width": 2.5 });
   return element("span", { className: "key" }, svg("svg", { width: 18, height: 8, "aria-hidden": "true" }, line), name);
 }
 
-function paint(chart, run, span) {
+function paint(chart, run, first, span) {
   const { canvas } = chart;
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = devicePixelRatio;
   Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
   const pen = canvas.getContext("2d");
   pen.scale(ratio, ratio);
-  const x = (t) => LEFT + (t / span) * (width - LEFT);
-  const y = (value) => (height - AXIS) * (0.5 - 0.5 * chart.scale(value)) + 0.5;
-  axes(pen, chart, x, y, width, height, span);
-  for (const { time } of run.info.events) stroke(pen, [[x(time), 0], [x(time), height - AXIS]], "#b8b2a4", 1, [1, 3]);
-  for (const line of chart.lines) curve(pen, line, x, y, span);
+  const x = (t) => LEFT + ((t - first) / (span - first)) * (width - LEFT);
+  const low = height - (chart.axis ?? 0);
+  const y = (value) => low * (0.5 - 0.5 * chart.scale(value)) + 0.5;
+  axes(pen, chart, x, y, width, height, first, span);
+  for (const { time } of run.info.events) if (time >= first) stroke(pen, [[x(time), 0], [x(time), low]], "#b8b2a4", 1, [1, 3]);
+  for (const line of chart.lines) curve(pen, line, x, y, first, span);
 }
 
-function axes(pen, chart, x, y, width, height, span) {
+function axes(pen, chart, x, y, width, height, first, span) {
+  const low = height - (chart.axis ?? 0);
   Object.assign(pen, { font: FONT, fillStyle: INK, textBaseline: "middle", textAlign: "right" });
   stroke(pen, [[LEFT, y(0)], [width, y(0)]], "#9b9789", 1);
   for (const value of chart.levels) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
   for (const { place, text } of apart(chart.marks.map(({ value, text }) => ({ place: y(value), text })))) pen.fillText(text, LEFT - 5, place);
   Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
-  const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / span) * (width - LEFT) > 44) ?? 120;
-  for (let k = 0; k * gap <= span; k++) {
+  const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / (span - first)) * (width - LEFT) > 44) ?? 120;
+  for (let k = Math.ceil(first / gap); k * gap <= span; k++) {
     const t = k * gap;
-    stroke(pen, [[x(t), 0], [x(t), height - AXIS]], PALE, 1);
-    if (x(t) < width - 16) pen.fillText(k === 0 ? "0 s" : `${Number(t.toFixed(1))}`, Math.max(x(t), LEFT + 8), height);
+    stroke(pen, [[x(t), 0], [x(t), low]], PALE, 1);
+    if (chart.axis && x(t) < width - 16) pen.fillText(`${Number(t.toFixed(1))} s`, Math.max(x(t), LEFT + 8), height);
   }
 }
 
@@ -171,11 +172,11 @@ function stroke(pen, points, color, width, dash = []) {
   pen.stroke();
 }
 
-function curve(pen, { key, dash, value, time, count }, x, y, span) {
+function curve(pen, { key, value, time, count }, x, y, first, span) {
   Object.assign(pen, { strokeStyle: COLORS[key], lineWidth: 1.2, lineJoin: "round" });
-  pen.setLineDash(dash);
+  pen.setLineDash([]);
   pen.beginPath();
-  for (let i = 0; i < count && time(i) <= span; i++) if (time(i) >= 0) pen.lineTo(x(time(i)), y(value(i)));
+  for (let i = 0; i < count && time(i) <= span; i++) if (time(i) >= first) pen.lineTo(x(time(i)), y(value(i)));
   pen.stroke();
 }
 

@@ -8,12 +8,13 @@ import { Curves, largest } from "./curves.js";
 import { Panel, legend } from "./panel.js";
 import { unpack } from "./run.js";
 import { Stage } from "./stage.js";
+import { Tempo } from "./tempo.js";
 import { speak, tr, translated } from "./texts.js";
 import { View } from "./view.js";
 
 const BEFORE_FIRST = 2; // time from the opening of the page to the shaking, or to the first event when it is earlier [s]
 const SHORTEST = 0.1; // length of the time line for runs without a step [s]
-const NEAR = 6; // distance up to which wreckage stays in the picture [m]
+const NEAR = 1.5; // distance up to which wreckage stays in the picture [m]
 
 /** Draws the runs, only when something has changed. */
 class Player {
@@ -26,6 +27,7 @@ class Player {
     const box = new Box3().setFromPoints(start);
     this.view = new View(inPicture(start, runs), () => this.changed());
     const scales = largest(runs);
+    this.first = Math.min(...runs.map(({ info }) => info.first));
     const seek = (t) => this.seek(t);
     this.parts = runs.map((run) => {
       const panel = new Panel(run, seek);
@@ -39,6 +41,7 @@ class Player {
     for (const { panel } of this.parts) panel.view.addEventListener("webglcontextrestored", () => this.changed());
     this.tick = this.tick.bind(this);
     this.pending = 0;
+    this.tempo = new Tempo();
     new ResizeObserver(() => this.resize()).observe(document.body);
     for (const { panel } of this.parts) new ResizeObserver(() => this.resize()).observe(panel.stage);
   }
@@ -63,6 +66,7 @@ class Player {
     this.clock.advance(now);
     const turning = this.view.step(now);
     this.draw();
+    if (this.clock.playing && this.tempo.isSlow(now)) for (const { stage } of this.parts) stage?.simplify(this.view.fov);
     if (this.clock.playing || turning) this.changed();
     if (!this.clock.playing) this.ended?.();
   }
@@ -80,19 +84,13 @@ class Player {
     this.shown?.();
   }
 
-  /** Factor on displacements. */
-  exaggerate(factor) {
-    for (const { run } of this.parts) run.exaggeration = factor;
-    this.changed();
-  }
-
   resize() {
     const { clientWidth, clientHeight } = this.parts[0].panel.view;
     if (!clientHeight) return;
     this.view.resize(clientWidth / clientHeight);
     for (const { curves, stage } of this.parts) {
       stage?.resize(this.view.fov);
-      curves.resize(this.clock.end);
+      curves.resize(this.first, this.clock.end);
     }
     this.draw();
   }

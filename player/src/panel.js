@@ -14,7 +14,8 @@ export class Panel {
     this.section = copy.querySelector(".run");
     const part = (name) => this.section.querySelector(`.${name}`);
     for (const name of ["view", "stage", "curves", "camera-name", "needle", "now", "error"]) this[name] = part(name);
-    part("event-list").hidden = !run.info.events.length;
+    this.list = part("event-list");
+    this.list.hidden = !run.info.events.length;
     this.events = run.info.events.map(({ time, text, japanese }) => {
       const what = element("span");
       const button = element("button", { type: "button" }, element("b", {}, `${time.toFixed(1)} s`), " ", what);
@@ -28,7 +29,7 @@ export class Panel {
       this.section.setAttribute("aria-label", this.title);
       this.view.setAttribute("aria-label", `${this.title}: ${tr("the house in 3D. Drag to turn it, or use Shift and the arrow keys.")}`);
       for (const name of ["result", "origin"]) part(name).textContent = either(run.info[name], run.info.japanese?.[name]);
-      part("origin").title = part("origin").textContent;
+      for (const name of ["result", "origin"]) part(name).title = part(name).textContent;
     });
   }
 
@@ -44,20 +45,39 @@ export class Panel {
     const end = this.run.end.toFixed(1);
     const broken = brokenParts(this.run);
     const over = t > this.run.end + 1e-6;
-    const enlarged = this.run.exaggeration === 1 ? "" : `${tr("Movement")} ${this.run.exaggeration}×, `;
-    const english = `${enlarged}${over ? `recorded up to ${end} s: ` : ""}${down ? "collapsed, " : drift && `storey drift ${drift}, `}${broken.english}`;
-    const japanese = `${enlarged}${over ? `記録は ${end} 秒まで：` : ""}${down ? "倒壊、" : drift && `層間変形角 ${drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上")}、`}${broken.japanese}`;
-    setText(this.now, current() === "ja" ? japanese : english);
+    const fallen = this.run.countFallen();
+    const columns = this.run.columns.length;
+    const texts = (...parts) => parts.filter(Boolean);
+    const english = texts(down && "collapsed", fallen ? `${fallen} of ${columns} columns fallen` : !down && drift && `storey drift ${drift}`, broken?.english);
+    const short = drift.replace("below 1/1000", "1/1000 未満").replace("over 1/2", "1/2 以上");
+    const japanese = texts(down && "倒壊", fallen ? `柱 ${columns} のうち ${fallen} が倒れた` : !down && drift && `層間変形角 ${short}`, broken?.japanese);
+    const [until, now] = current() === "ja" ? [`記録は ${end} 秒まで：`, japanese.join("、")] : [`recorded up to ${end} s: `, english.join(", ")];
+    setText(this.now, (over ? until : "") + now);
     setText(this["camera-name"], tr(view.title));
     this.needle.style.transform = `rotate(${(view.azimuth + Math.PI / 2).toFixed(3)}rad)`;
-    for (const { time, button } of this.events) button.classList.toggle("past", time <= t + 1e-6);
+    this.mark(this.events.findLastIndex(({ time }) => time <= t + 1e-6));
+  }
+
+  /** Mark the events up to the current one (-1: none), and keep that one in view where the list scrolls. */
+  mark(current) {
+    if (current === this.current) return;
+    this.current = current;
+    this.events.forEach(({ button }, k) => {
+      button.classList.toggle("past", k <= current);
+      if (k === current) button.setAttribute("aria-current", "step");
+      else button.removeAttribute("aria-current");
+    });
+    if (current < 0) return void (this.list.scrollTop = 0);
+    const { offsetTop, offsetHeight } = this.events[current].button;
+    this.list.scrollTop = Math.min(Math.max(this.list.scrollTop, offsetTop + 2 * offsetHeight - this.list.clientHeight), offsetTop - offsetHeight);
   }
 }
 
-/** Texts about the broken joints and wall sheets of a run at its current time, as recording/sentences.py has them: { english, japanese }. */
+/** Texts about the broken joints and wall sheets of a run at its current time: { english, japanese }, or null when none is broken. */
 function brokenParts(run) {
   const [joints, broken, sheets, torn] = [run.joints - run.apart.size, run.count(STATE.broken), run.sheets.length, run.countSheets()];
   const partly = run.count(STATE.partly) + run.countSheetsPartly();
+  if (!broken && !torn && !partly) return null;
   const walls = sheets ? ` and ${torn} of ${sheets} wall sheet${sheets === 1 ? "" : "s"}` : "";
   const wallsJapanese = sheets ? `、壁面 ${sheets} のうち ${torn}` : "";
   return {
@@ -87,7 +107,7 @@ const MARKS = {
 export function legend(place, runs) {
   const kinds = new Map(runs.flatMap((run) => run.info.kinds.map(({ kind, color }) => [kind, color])));
   kinds.delete("ground");
-  const boxes = Array.from(kinds, ([kind, color]) => [kind, "rect", { x: 1, y: 1, width: 14, height: 14, rx: 2, fill: color, stroke: "#4a4a4a" }]);
+  const boxes = Array.from(kinds, ([kind, color]) => [kind === "snow" ? "snow, in rigid slabs" : kind, "rect", { x: 1, y: 1, width: 14, height: 14, rx: 2, fill: color, stroke: "#4a4a4a" }]);
   const marks = Object.keys(MARKS).filter((name) => runs.some((run) => run.occurs(STATE[name])));
   const walls = runs.some((run) => run.sheets.length);
   const bar = element("span", { className: "bar" });

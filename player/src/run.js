@@ -52,6 +52,7 @@ export class Run {
     Object.assign(this, arrays);
     this.info = info;
     this.elements = info.elements.length;
+    this.columns = info.elements.flatMap(({ kind }, k) => (kind === "column" ? [k] : []));
     this.joints = info.joints;
     this.sheets = info.sheets;
     this.apart = new Set(info.sheets.flat());
@@ -61,7 +62,6 @@ export class Run {
     this.joint = { place: new Float32Array(3 * this.joints), load: new Float32Array(this.joints), state: new Uint8Array(this.joints) };
     this.ground = [0, 0, 0]; // displacement of the ground [m]
     this.frame = 0;
-    this.exaggeration = 1; // factor on displacements and rotations since the start
   }
 
   /** Interpolate all elements and joints to a time [s]. Allocates nothing. */
@@ -70,7 +70,6 @@ export class Run {
     const next = Math.min(k + 1, this.time.length - 1);
     const weight = next > k ? Math.min(Math.max((t - this.time[k]) / (this.time[next] - this.time[k]), 0), 1) : 0;
     this.placeElements(k, next, weight);
-    if (this.exaggeration !== 1) this.exaggerate();
     this.placeJoints(k, next, weight);
     this.moveGround(t);
   }
@@ -83,22 +82,6 @@ export class Run {
     const c = k * orientation.length;
     const d = next * orientation.length;
     for (let i = 0; i < orientation.length; i += 4) Quaternion.slerpFlat(orientation, i, orientations, c + i, orientations, d + i, weight);
-  }
-
-  /** Enlarge displacements and rotations since the start; parts that fall are left as they are. */
-  exaggerate() {
-    const { position, orientation, positions, orientations } = this;
-    for (let e = 0; e < this.elements; e++) {
-      const moved = Math.hypot(...[0, 1, 2].map((i) => position[3 * e + i] - positions[3 * e + i]));
-      const factor = 1 + (this.exaggeration - 1) * Math.min(Math.max((FALLEN - moved) / FALLING, 0), 1);
-      for (let i = 3 * e; i < 3 * e + 3; i++) position[i] = positions[i] + factor * (position[i] - positions[i]);
-      first.fromArray(orientations, 4 * e);
-      turn.fromArray(orientation, 4 * e).multiply(inverse.copy(first).conjugate());
-      if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
-      const angle = 2 * Math.acos(Math.min(turn.w, 1));
-      if (angle > 1e-6) turn.setFromAxisAngle(axis.set(turn.x, turn.y, turn.z).normalize(), factor * angle);
-      turn.multiply(first).toArray(orientation, 4 * e);
-    }
   }
 
   placeJoints(k, next, weight) {
@@ -171,6 +154,15 @@ export class Run {
     return this.sheets.filter((sheet) => sheet.some((j) => this.joint.state[j] === STATE.broken)).length - this.countSheets();
   }
 
+  /** Current number of columns that have fallen. */
+  countFallen() {
+    const across = (q, k) => 2 * (q[k] * q[k + 2] - q[k + 3] * q[k + 1]);
+    const along = (q, k) => 2 * (q[k + 1] * q[k + 2] + q[k + 3] * q[k]);
+    const up = (q, k) => 1 - 2 * (q[k] ** 2 + q[k + 1] ** 2);
+    const upright = (k) => [across, along, up].reduce((sum, part) => sum + part(this.orientation, 4 * k) * part(this.orientations, 4 * k), 0);
+    return this.columns.filter((k) => upright(k) < FALLEN).length;
+  }
+
   moveGround(t) {
     const { dt, start } = this.info.motion ?? {};
     if (!dt) return;
@@ -185,8 +177,7 @@ export class Run {
   }
 }
 
-const [FALLEN, FALLING] = [0.8, 0.4]; // displacement from which on nothing is exaggerated, and the range before it [m]
-const [first, turn, inverse, axis] = [new Quaternion(), new Quaternion(), new Quaternion(), new Vector3()];
+const FALLEN = Math.cos(Math.PI / 4); // of the inclination beyond which a column has fallen, as in recording/damage.py
 
 /** States of a joint, as numbers for the shader of joints.js. */
 export const STATE = { whole: 0, partly: 1, broken: 2, before: 3 };

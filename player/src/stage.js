@@ -6,21 +6,26 @@ import { House } from "./house.js";
 import { Joints } from "./joints.js";
 import { Ghost, Glass, Person } from "./surroundings.js";
 
-const MOST_PIXELS = 2; // largest number of device pixels per pixel
+/** From the best to the fastest: pixels of the picture per pixel of the page, at most; whether there are shadows. */
+const QUALITIES = [[2, true], [1, true], [1, false], [0.7, false], [0.5, false]];
+const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i; // names of renderers on the processor
 const HORIZON = 0xe9eef0;
 
 /** Draws a run for the shared camera. Throws when the browser has no WebGL. */
 export class Stage {
   constructor(canvas, run, box) {
     Object.assign(this, { canvas, run });
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !drawsOnProcessor(), alpha: true, powerPreference: "high-performance" });
+    this.quality = 0;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.house = new House(run);
     this.joints = new Joints(run);
     Object.assign(this, { ghost: new Ghost(run), walls: new Glass(run), person: new Person(box) });
     this.moving = new Group().add(this.house, this.joints, this.ghost, this.walls, this.person, new Ground(box));
-    this.scene = new Scene().add(this.moving, ...lights(box));
+    const [sky, sun] = lights(box);
+    this.sun = sun;
+    this.scene = new Scene().add(this.moving, sky, sun, sun.target);
     this.scene.fog = new Fog(HORIZON);
   }
 
@@ -28,10 +33,19 @@ export class Stage {
   resize(fov) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.aspect = width / height;
-    const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
+    const [most, shadows] = QUALITIES[this.quality];
+    const ratio = Math.min(devicePixelRatio, most);
+    this.sun.castShadow = shadows;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.joints.resize(height * ratio, fov, ratio);
+  }
+
+  /** Draw faster, and less. */
+  simplify(fov) {
+    if (this.quality === QUALITIES.length - 1) return;
+    this.quality += devicePixelRatio <= QUALITIES[this.quality + 1][0] && QUALITIES[this.quality + 1][1] ? 2 : 1; // the next one that differs
+    this.resize(fov);
   }
 
   /** Draw the current state of the run. shaken: whether the ground moves relative to the camera; the other options: whether a thing is shown. */
@@ -67,9 +81,15 @@ function lights(box) {
   const away = Math.max(1, half / 20); // farther from a town
   sun.position.set(13, -5, 17).multiplyScalar(away).add(middle);
   sun.target.position.copy(middle);
-  sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
   Object.assign(sun.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 1, far: 60 * away });
   Object.assign(sun.shadow, { bias: -0.0006, normalBias: 0.02, radius: 2.5 });
-  return [sky, sun, sun.target];
+  return [sky, sun];
+}
+
+/** Whether WebGL has no graphics card: smoothing of edges then takes most of the time. */
+function drawsOnProcessor() {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  const names = probe?.getExtension("WEBGL_debug_renderer_info");
+  return !!names && SOFTWARE.test(probe.getParameter(names.UNMASKED_RENDERER_WEBGL));
 }

@@ -5,9 +5,9 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const FOV = 32; // [degree]
 const TRANSITION = 450; // [ms] from one camera to the next
-const SPARE = 1.12; // size of the picture by the size of the house
+const SPARE = 1.2; // size of the picture by the size of the house
 const NEAREST = 2; // distance of the camera [m]
-const LIFT = 0.012; // of the house above the middle, by the distance: the status line is below it
+const LIFT = -0.03; // of the house above the middle, by the distance: the title lies above it
 
 /** Azimuth from east to north and elevation [degree], and the title of the view. */
 const CAMERAS = {

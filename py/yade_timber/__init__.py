@@ -31,13 +31,14 @@ if _host.running():
 
     if not _host.has_prompt():
         _host.close_servers()
-    _plugin, _class_names = _host.load(__name__, __path__[0])
+    from .plugin import class_names as _class_names
+
     _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
     globals().update(_classes)
 
     from .scene import attributes as _attributes, background as _background  # noqa: E402
 
-    _background.guard(_plugin)
+    _background.guard()
     _attributes.guard(_classes.values())
 
     from .scene.bodies import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401

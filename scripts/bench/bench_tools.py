@@ -76,12 +76,6 @@ def machine():
     return f"{cpu.group(1) if cpu else platform.processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; {O.numThreads} thread(s)"
 
 
-def markdown_table(heads, rows):
-    """Rows of texts as a Markdown table."""
-    line = "| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|\n"
-    return line + "".join("| " + " | ".join(str(cell) for cell in row) + " |\n" for row in rows)
-
-
 def write_csv(path, heads, rows):
     """Write a CSV file with all digits."""
     with written_whole(path) as part, open(part, "w", newline="", encoding="utf-8") as file:

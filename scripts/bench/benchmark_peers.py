@@ -20,7 +20,8 @@ ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without sett
 sys.path.insert(0, str(ROOT / "scripts/bench"))
 
 import yade_timber as yt  # noqa: E402
-from bench_tools import cpu_per_step, interleaved, machine, markdown_table, parser, publish  # noqa: E402
+from bench_tools import cpu_per_step, interleaved, machine, parser, publish  # noqa: E402
+from tables import markdown_table  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.study.options import count, run_script  # noqa: E402

@@ -5,7 +5,6 @@
 
 Disk: files of the results by group.
 """
-import json
 import os
 import subprocess
 import sys
@@ -15,8 +14,10 @@ from pathlib import Path
 SCRIPTS = Path(sys.argv[0]).resolve().parents[1]  # YADE runs a script without setting __file__
 sys.path.insert(0, str(SCRIPTS / "bench"))
 
-from bench_tools import markdown_table, publish  # noqa: E402
+from bench_tools import publish  # noqa: E402
+from tables import markdown_table  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
+from yade_timber.recording.summary import Summary  # noqa: E402
 from yade_timber.study.options import Parser, positive, results_folder, run_script  # noqa: E402
 
 RUNS = {
@@ -56,8 +57,8 @@ def measure(name, command, duration):
         limit = ("--duration", f"{duration:g}") if duration else ()
         steps, memory = spent(["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder, "--quiet", "--no-views"])
         pictures, _ = spent([SCRIPTS / "show" / "show_run.py", folder])
-        summary = json.loads((Path(folder) / "summary.json").read_text())
-        return name, summary["elements"], summary["duration_s"], steps, pictures, memory, *sizes(Path(folder))
+        summary = Summary.read(folder)
+        return name, summary.elements, summary.duration_s, steps, pictures, memory, *sizes(Path(folder))
 
 
 def main():

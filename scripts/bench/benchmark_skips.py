@@ -17,7 +17,8 @@ import yade.wrapper as yw
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 import yade_timber as yt  # noqa: E402
-from bench_tools import machine, markdown_table, parser, publish  # noqa: E402
+from bench_tools import machine, parser, publish  # noqa: E402
+from tables import markdown_table  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.motion import default_motion  # noqa: E402
 from yade_timber.scene import engines, scenario  # noqa: E402

@@ -17,7 +17,8 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, cpu_per_step, interleaved, machine, markdown_table, parser, publish, resident_memory, wall_per_step  # noqa: E402
+from bench_tools import BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory, wall_per_step  # noqa: E402
+from tables import markdown_table  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.house import build_house, load_house  # noqa: E402

@@ -17,11 +17,13 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, machine, markdown_table, parser, publish, resident_memory  # noqa: E402
-from yade_timber import _plugin  # noqa: E402
+from bench_tools import BARE_MEMORY, machine, parser, publish, resident_memory  # noqa: E402
+from tables import markdown_table  # noqa: E402
+from yade_timber.plugin import compiled  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 from yade_timber.run import cli, town  # noqa: E402
+from yade_timber.run.plan import planned  # noqa: E402
 from yade_timber.study.driver import command  # noqa: E402
 from yade_timber.study.options import count, run_script  # noqa: E402
 
@@ -58,8 +60,9 @@ def single(options):
     with tempfile.TemporaryDirectory() as folder:
         path = town_file(folder, options.house, houses)
         given = ["town.py", str(path), "--quake", "--start", str(START), "--snow", "0", "--out", folder, "--checkpoint", "0", "--quiet", "--no-views"]
-        plan, output = cli.read_town(given)
-        run = town.TownRun(plan.town, plan.lots, output)
+        chosen = cli.read_town(given)
+        plan = planned(chosen)
+        run = town.TownRun(plan.town, plan.lots, chosen)
         active = run._first_steps()
         for _ in range(WARM_UP):
             active = run._chunk(active)
@@ -73,7 +76,7 @@ def single(options):
         elements = sum(len(one.model.elements) for one in run.runs)
         memory = resident_memory() - BARE_MEMORY
     times = {key: statistics.median(values) for key, values in found.items()}
-    return {"houses": houses, "threads": _plugin.thread_count(), "elements": elements, "memory": memory, **times}
+    return {"houses": houses, "threads": compiled.thread_count(), "elements": elements, "memory": memory, **times}
 
 
 def measure(options, houses, threads):

@@ -7,17 +7,17 @@ import statistics
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "py"), str(Path(__file__).resolve().parent)]
 
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+from tables import markdown_table  # noqa: E402
 from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
+from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
 
-STEP = 5e-4
-"""Default time step [s]"""
 TOLERATED = 0.01
 """Error up to which a time step is called exact [-]"""
 SHAKING, REST = "strong shaking", "at rest"
@@ -74,11 +74,6 @@ def number(rows, column, **at):
     return float(row[column])
 
 
-def markdown_table(heads, rows):
-    lines = ["| " + " | ".join(map(str, row)) + " |" for row in rows]
-    return "\n".join(["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|", *lines])
-
-
 def fill(page, name, text):
     """Replace what stands between the marks of a block of a page."""
     before, rest = page.read_text(encoding="utf-8").split(f"<!-- {name} -->\n")
@@ -100,17 +95,17 @@ def largest_exact_step(rows, case, variant):
         if (row["case"], row["variant"]) == (case, variant):
             errors.setdefault(float(row["dt [s]"]), []).append((float(row["error [-]"]), float(row["run time [s]"])))
     exact = None
-    for dt, found in sorted(errors.items()):
-        if max(error for error, _ in found) >= TOLERATED:
+    for dt, runs in sorted(errors.items()):
+        if max(error for error, _ in runs) >= TOLERATED:
             break
-        exact = dt, found[0][1]
+        exact = dt, runs[0][1]
     return exact
 
 
 def step_text(folder):
     rows = table(folder, "step")
     micro = {state: number(rows, "whole step [us]", state=state) for state in (SHAKING, REST)}
-    fast = STEP / micro[SHAKING] * 1e6
+    fast = DEFAULT_DT / micro[SHAKING] * 1e6
     return f"house C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time; {micro[REST]:.0f} us at rest"
 
 
@@ -138,7 +133,7 @@ def stability_text(folder):
 
 
 def balance_text(folder):
-    worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == STEP)
+    worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == DEFAULT_DT)
     return f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
 
 
@@ -248,8 +243,8 @@ def write_performance(folder):
 # --- accuracy ----------------------------------------------------------------------------------------------------------
 def bounded(rows, section):
     """[(error, bound)] of the rows of a section that have a bound."""
-    found = [(float(row["error"]), float(row["bound"])) for row in rows if row["section"] == section]
-    return [(error, bound) for error, bound in found if math.isfinite(bound)]
+    checks = [(float(row["error"]), float(row["bound"])) for row in rows if row["section"] == section]
+    return [(error, bound) for error, bound in checks if math.isfinite(bound)]
 
 
 def share(error, bound):
@@ -261,7 +256,7 @@ def section_rows(rows):
     entries = []
     for section, (title, subject) in SECTIONS.items():
         checks = bounded(rows, section)
-        entries.append((title, subject, len(checks), sum(error <= bound for error, bound in checks), f"{max(share(*check) for check in checks):.2f}"))
+        entries.append((title, subject, len(checks), sum(error <= bound for error, bound in checks), f"{max(share(*check) for check in checks):.2g}"))
     return entries
 
 

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-Reads the folders modelA_snow, modelA_quake and modelC2_snow in results. Writes DIR/modelC2_snow.png, DIR/l_house.png and
-DIR/gallery/*.png, and a film of two of the runs, DIR/gallery/film.webp; the picture of the player needs Chromium.
+Reads the folders modelA_snow, modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the last two are runs of
+scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Writes DIR/modelC2_snow.png, DIR/l_house.png and DIR/gallery/*.png,
+and two films of houses A and C under the same load, DIR/gallery/film.webp and film_snow.webp; the picture of the player needs Chromium.
 """
 import argparse
 import io
@@ -31,11 +32,12 @@ SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"
 LEAD = "modelC2_snow"
 HOUSE, EXAMPLE = "C2", "l_house"
-COMPARED = ("modelA_quake", "modelC2_snow")
+COMPARED = ("modelA_quake", "modelC_quake")
+FILMS = {"film.webp": COMPARED, "film_snow.webp": ("A_quake_snow", "C_quake_snow")}
 AFTER_COLLAPSE = 1.0
 """Time shown in the comparison, after the collapse of the first run. [s]"""
-FILM, SPAN = film.Format(width=720, height=330, rate=12, quality=36), (-5.0, 2.5)
-"""Film of the runs COMPARED, from and to these times after the collapse of the first [s]: below 2 MB."""
+FILM, SPAN = film.Format(width=640, height=370, rate=10, quality=30), (-3.0, 2.2)
+"""Films of the runs FILMS, from and to these times after the collapse of the first [s]: below 3 MB each."""
 CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
             "--window-size=1200,800", "--virtual-time-budget=5000")
 DPI = 130
@@ -102,7 +104,7 @@ def make(results, out):
     """All pictures; returns their paths."""
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
-    runs = {name: ended(results / name) for name in {*SHEETS, *COMPARED, HISTORY, LEAD}}
+    runs = {name: ended(results / name) for name in {*SHEETS, *sum(FILMS.values(), ()), HISTORY, LEAD}}
     written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
@@ -110,9 +112,10 @@ def make(results, out):
     written.append(write(gallery / "ground_motion.png", motion_sheet.page(default_motion(), 0.05, DPI)))
     if shutil.which(CHROMIUM[0]):
         written.append(save(gallery / "player.png", compared(runs, fallen_at(runs[COMPARED[0]]) + AFTER_COLLAPSE)))
-    begin, end = (fallen_at(runs[COMPARED[0]]) + time for time in SPAN)
-    film.write(gallery / "film.webp", [runs[name] for name in COMPARED], form=FILM, begin=begin, end=end)
-    written.append(gallery / "film.webp")
+    for name, pair in FILMS.items():
+        begin, end = (fallen_at(runs[pair[0]]) + time for time in SPAN)
+        film.write(gallery / name, [runs[run] for run in pair], form=FILM, begin=begin, end=end)
+        written.append(gallery / name)
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
     return written
 

@@ -3,9 +3,10 @@
 """Make a film of a recorded run, or of two runs side by side. Needs no YADE.
 
     make_film.py results/modelA_quake
-    make_film.py results/modelA_quake --compare results/modelC_quake --speed 0.25 --out fall.mp4
+    make_film.py results/modelA_quake --compare results/modelC_quake --out fall.mp4
 
-MP4 needs ffmpeg; a name that ends in .webp gives an animated picture for a web page.
+Real time, a quarter of it around the first collapse; the last picture stays for 2 s. MP4 needs ffmpeg; a name that ends in .webp gives an
+animated picture for a web page.
 """
 import argparse
 import math
@@ -53,10 +54,10 @@ def arguments():
     parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
     parser.add_argument("--compare", type=path, metavar="RUN", help="a second run, shown at the right")
     parser.add_argument("--view", choices=tuple(camera.CAMERAS), default="space", help="from the east, from the north, or from the north-east above (default)")
-    parser.add_argument("--speed", type=number(0.01, 20), default=form.speed, help="simulated seconds in a second of the film (default %(default)g)")
+    parser.add_argument("--speed", type=number(0.01, 20), help="simulated seconds in a second of the film (default: 1, and 0.25 around the first collapse)")
     parser.add_argument("--start", type=instant, help="begin at this time [s] (default: 1 s before the shaking)")
-    parser.add_argument("--end", type=instant, help="end at this time [s] (default: end of the run)")
-    parser.add_argument("--size", type=size, default=(form.width, form.height), metavar="WIDTHxHEIGHT", help="[pixel] (default 1280x720)")
+    parser.add_argument("--end", type=instant, help="end at this time [s] (default: when no picture differs visibly from the last one)")
+    parser.add_argument("--size", type=size, default=(form.width, form.height), metavar="WIDTHxHEIGHT", help="[pixel] (default 1920x1080)")
     parser.add_argument("--rate", type=number(1, 120), default=form.rate, help="pictures per second (default %(default)g)")
     parser.add_argument("--quality", type=number(1, 100, int), default=form.quality, help="of WebP (default %(default)d)")
     parser.add_argument("--out", type=film_path, help="film to write, .mp4 or .webp (default: film.mp4 in the folder of the run; film.webp without ffmpeg)")
@@ -72,7 +73,7 @@ def main():
     with errors_in_a_line(out):
         runs = [frames.load(file) for file in files]
         count = film.write(out, runs, options.view, form, options.start, options.end)
-    print(f"{out}: {count / form.rate:.1f} s, {count} pictures, {out.stat().st_size / 1e6:.1f} MB, made in {time.perf_counter() - since:.1f} s")
+    print(f"{out}: {count / form.rate + film.HOLD:.1f} s, {count} pictures, {out.stat().st_size / 1e6:.1f} MB, made in {time.perf_counter() - since:.1f} s")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ from yade_timber.study.options import Parser, count, results_folder, run_script 
 
 
 def arguments():
-    columns = "\n".join(f"  {name:11} {about}" for name, (_, about) in COLUMNS.items())
+    columns = "\n".join(f"  {name:14} {each.metadata['help']}" for name, each in COLUMNS.items())
     parser = Parser(__doc__, epilog=f"columns of a table:\n{columns}")
     parser.add_argument("table", type=Path, help="parameter table: a line with the names of the columns, then one line per run")
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")

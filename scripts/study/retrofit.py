@@ -10,6 +10,7 @@ give their strength. Writes index.html (overview with links to the runs) and ret
 time: the same command continues.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 from study_common import SCRIPTS, house_name
@@ -84,7 +85,7 @@ def pictures(ranking, results, number):
     tasks = []
     for entry in chosen:
         task = ranking.task(entry, worst)
-        tasks.append(Task(task.script, ranking.folder / "pictures" / entry.candidate.name, task.options))
+        tasks.append(Task(task.script, ranking.folder / "pictures" / entry.candidate.name, replace(task.options, no_frames=False)))
     done = run_missing(tasks, SCRIPTS, ranking.jobs)
     for task in (task for task in tasks if done[task]):
         all_pictures.write(task.folder)

@@ -38,6 +38,7 @@ from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.table import csv_text  # noqa: E402
 from yade_timber.house import LEVELS, build_house, load_house  # noqa: E402
 from yade_timber.motion import processing, read_motion, write_csv  # noqa: E402
+from yade_timber.run.options import RunOptions  # noqa: E402
 from yade_timber.study.driver import Task, run_missing  # noqa: E402
 from yade_timber.study.options import (  # noqa: E402
     Parser, add_driver_options, count, non_negative, positive, record, results_folder, run_script, seed, selected,
@@ -47,27 +48,25 @@ GRADES = (1.0, 1.25, 1.5)
 TEST = {1.0: "storey 1 collapses", 1.25: "stands, joints loosened", 1.5: "stands, 1/26"}
 
 
-def tasks(files, motion_words, seeds, folder):
+def tasks(files, shaking, seeds, folder):
     """{(grade, level): [Task]}; seed 1 is the undisturbed house."""
     runs = {}
     for (grade, level), path in files.items():
         for number in range(1, seeds + 1):
-            disturbed = ("--disturb", number) if number > 1 else ()
-            words = (path.resolve(), *motion_words, "--until-collapse", *disturbed)
-            task = Task("house", folder / path.stem / f"{number:03d}", words, frames=False)
+            options = RunOptions(house=str(path.resolve()), **shaking, until_collapse=True, disturb=number if number > 1 else None, no_frames=True)
+            task = Task("house", folder / path.stem / f"{number:03d}", options)
             runs.setdefault((grade, level), []).append(task)
     return runs
 
 
 def motion_of(given, folder):
-    """(GroundMotion, options of a run's command line for it)."""
+    """(GroundMotion, options of a run for it)."""
     path = given.record
     if path is None:
         path = (folder / "kobe_like.csv").resolve()
         write_csv(kobe_like(given.seed), path)
-    words = {"--record": path, "--start": given.start, "--end": given.end, "--scale": given.scale}
+    stated = {"record": str(path), "start": given.start, "end": given.end, "scale": given.scale}
     motion = processing.trim(read_motion(path), given.start or 0.0, given.end)
-    stated = tuple(word for name, value in words.items() if value is not None for word in (name, value))
     return processing.scaled(motion, given.scale), stated
 
 
@@ -156,10 +155,10 @@ def main():
     to = given.to or given.out
     for folder in (given.out, to):
         folder.mkdir(parents=True, exist_ok=True)
-    motion, words = motion_of(given, given.out)
+    motion, shaking = motion_of(given, given.out)
     levels = selected(given.levels, LEVELS, "--levels")
     files = {(grade, level): house_file(given.out, grade, level) for level in levels for grade in GRADES}
-    runs = tasks(files, words, given.seeds, given.out)
+    runs = tasks(files, shaking, given.seeds, given.out)
     run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
     rows = []
     for key, each in runs.items():

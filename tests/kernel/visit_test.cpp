@@ -104,9 +104,13 @@ TEST(Visit, RespectsItsLimits)
 		const PointStep c = randomPoint(random);
 		const double a = c.response(), base = uniform(random, -2, 2) * std::abs(c.before[0]), p = impulseAt(c, base, 0), after = base + a * p;
 		EXPECT_GE(p, 0);
-		if (c.energy < 1e300) EXPECT_LE(p * (c.before[0] + after) / 2, c.energy * (1 + 1e-9) + 1e-9 * p * std::abs(base)) << trial; // (5)
+		if (c.energy < 1e300) { // (5)
+			EXPECT_LE(p * (c.before[0] + after) / 2, c.energy * (1 + 1e-9) + 1e-9 * p * std::abs(base)) << trial;
+		}
 		const double bound = c.rebound + reboundSoftness * std::max(0., c.rebound - c.velocity[0] - a * p);
-		if (p > 0 && c.rebound < noRebound) EXPECT_LE(after, bound + 1e-9 * (std::abs(base) + bound)) << trial; // (6)
+		if (p > 0 && c.rebound < noRebound) { // (6)
+			EXPECT_LE(after, bound + 1e-9 * (std::abs(base) + bound)) << trial;
+		}
 	}
 }
 

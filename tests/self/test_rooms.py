@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "py" / "yade_timber"
 RESEARCH = "timber_research"
 """Package beside the installed one."""
-YADE = {"yade", "_plugin", "host"}
+YADE = {"yade", "plugin", "host"}
 """YADE itself, the compiled module, and the module that loads it."""
 ALL = {"house", "motion", "scene", "run", "recording", "text", "pictures", "study", "api"}
 FORBIDDEN = {
@@ -125,9 +125,9 @@ def test_an_import_of_research_is_found(tmp_path, line):
     [
         ("import yade.wrapper as yw", "yade"),
         ("from yade import O", "yade"),
-        ("from .. import _plugin", "_plugin"),
+        ("from ..plugin import compiled", "plugin"),
         ("from ..scene import engines", "scene"),
-        ("from ..run.cli import Output", "run"),
+        ("from ..run.options import RunOptions", "run"),
         ("import yade_timber.study.driver", "study"),
         ("from yade_timber import scene", "scene"),
         ("def f():\n    from ..scene.bodies import box", "scene"),

@@ -9,6 +9,7 @@ import pytest
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
 from yade_timber.house import load_house  # noqa: E402
+from yade_timber.run.options import RunOptions  # noqa: E402
 from yade_timber.study.batch import BatchError, check_rows, read_table  # noqa: E402
 from yade_timber.study.batch.tasks import task_of  # noqa: E402
 
@@ -25,23 +26,22 @@ def row(tmp_path):
 
 def test_every_column_becomes_an_option(row, tmp_path):
     shaken = task_of(row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest", "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
-    assert (shaken.script, shaken.frames) == ("house", False)
-    assert shaken.options[:2] == ("C2", "--quake") and shaken.options.count("--resample") == shaken.options.count("--until-collapse") == 1 and "--shortest" not in shaken.options
-    values = {"--snow": "0.4", "--joint-damping": "0.03", "--dt": "5e-05", "--duration": "3.0", "--seed": "0", "--start": "14.0", "--azimuth": "90.0", "--scale": "1.5"}
-    assert {option: shaken.options[shaken.options.index(option) + 1] for option in values} == values
-    assert task_of(row("house record snow", "A none 1"), tmp_path).options == ("A", "--snow", "1.0")
-    assert task_of(row("house", "A"), tmp_path).options == ("A", "--quake")
+    assert shaken.script == "house" and shaken.options == RunOptions(
+        house="C2", quake=True, snow=0.4, joint_damping=0.03, scale=1.5, dt=5e-5, duration=3.0, until_collapse=True, seed=0, start=14.0, azimuth=90.0,
+        resample=True, no_frames=True)
+    assert task_of(row("house record snow", "A none 1"), tmp_path).options == RunOptions(house="A", snow=1.0, no_frames=True)
+    assert task_of(row("house", "A"), tmp_path).options == RunOptions(house="A", quake=True, no_frames=True)
 
 
 def test_paths_are_those_beside_the_table(row, tmp_path):
     options = task_of(row("house record", "mine.yaml a.csv,b.csv"), tmp_path).options
-    assert options == (str(tmp_path / "mine.yaml"), "--quake", "--record", f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
+    assert (options.house, options.record) == (str(tmp_path / "mine.yaml"), f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
 
 
 def test_changed_houses_are_written(row, tmp_path):
     changed = row("house set braces strength", "B plumb.drift=0.002 main.brace1.EW.y0.3-4 0.5")
     check_rows([changed], tmp_path)
-    house = load_house(task_of(changed, tmp_path).options[0]).data
+    house = load_house(task_of(changed, tmp_path).options.house).data
     assert house["plumb"]["drift"] == 0.002 and house["joint_types"]["corner_fitting"]["strength"] == 2940
     assert house["structures"]["main"]["braces"]["lines"][-1]["runs"] == [[3, 4]]
 
@@ -58,6 +58,7 @@ def test_changed_houses_are_written(row, tmp_path):
         ("house record scale", "A none 2", ["runs.txt:2, column scale"]),
         ("house record", "A nowhere", ["runs.txt:2", "nowhere"]),
         ("house pga", "A -3", ["runs.txt:2, column pga"]),
+        ("house walls", "A weak", ["runs.txt:2, column walls", "mean", "design"]),
         ("house set", "A plumb.drft=1", ["runs.txt:2, column set", "plumb", "drft"]),
         ("house braces", "A main.brace9.EW.y0.3-4", ["runs.txt:2"]),
         ("house strength", "A 0", ["runs.txt:2, column strength"]),

@@ -1,91 +1,76 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Identity of a run: everything that decides its results and nothing else. Damaged checkpoints: test_cli_errors; whole runs: test_run."""
-import copy
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yade.system as system
+import yade.wrapper as yw
 from yade_timber.base.errors import RunError
+from yade_timber.base.options import options
 from yade_timber.run import checkpoint
 from yade_timber.run import identity as identities
-from yade_timber.house import build_house, load_house
+from yade_timber.run.options import RunOptions
 from yade_timber.motion import GroundMotion
-from yade_timber.scene.scenario import Scenario
 
-SCENARIO = Scenario("run", "A", GroundMotion(0.01, np.ones((9, 3)), "shove"), 0.5, scale=0.8, duration=3.0)
-
-
-@pytest.fixture(scope="module")
-def model():
-    return build_house(load_house("A"), snow_depth=0.5)
+O = yw.Omega()
+SHOVE = GroundMotion(0.01, np.ones((9, 3)), "shove")
+RUN = RunOptions(house="A", ground_motion=SHOVE, snow=0.5, scale=0.8, duration=3.0)
+OTHER = {bool: True, int: 3, float: 0.25, str: "mean"}
+"""A value of each kind of option that differs from its default."""
 
 
-def identity(model, scenario=SCENARIO):
-    return identities.identity(scenario, model)
+def identity(given=RUN):
+    return identities.identity(identities.made_from(given))
 
 
-@pytest.mark.parametrize(
-    "key, change",
-    [
-        ("name", {"name": "other"}),
-        ("house", {"house": "B"}),
-        ("motion", {"motion": None}),
-        ("motion", {"motion": GroundMotion(0.01, 2 * np.ones((9, 3)), "shove")}),
-        ("motion", {"motion": GroundMotion(0.02, np.ones((9, 3)), "shove")}),
-        ("snow_depth", {"snow_depth": 0.6}),
-        ("scale", {"scale": 0.9}),
-        ("dt", {"dt": 1e-4}),
-        ("options", {"options": {"skip_rest": 0}}),
-    ],
-)
-def test_another_scenario(model, key, change):
-    one, other = identity(model), identity(model, replace(SCENARIO, **change))
-    assert [name for name in one if one[name] != other[name]] == [key]
+def differences(given):
+    """Properties in which the identities of two runs differ."""
+    one, other = identity(), identity(given)
+    return sorted(key for key in one.keys() | other.keys() if one.get(key) != other.get(key))
 
 
-def move_vertex(model):
-    model.elements[3].vertices = model.elements[3].vertices + [1e-13, 0, 0]
-
-
-def move_spring(model):
-    model.joints[5].points = model.joints[5].points + [1e-13, 0, 0]
-
-
-def joint_change(name, value):
-    return lambda model: setattr(model.joints[5], name, value)
+@pytest.mark.parametrize("name, option", [(name, option) for name, option in options(RunOptions).items() if name not in ("house", "record", "then", "quake")])
+def test_another_option(name, option):
+    """Each option that decides results is part of the identity, no other; the duration may be lengthened."""
+    decides = option.metadata["decides"] and name != "duration"
+    assert differences(replace(RUN, **{name: OTHER.get(option.metadata["kind"], Path("x"))})) == ([name] if decides else [])
 
 
 @pytest.mark.parametrize(
-    "key, change",
+    "keys, change",
     [
-        ("elements", move_vertex),
-        ("joints", move_spring),
-        ("element values", lambda model: setattr(model.elements[3], "density", 1.0)),
-        ("element values", lambda model: setattr(model.elements[-1], "fixed", not model.elements[-1].fixed)),
-        *(("joint values", joint_change(name, value)) for name, value in (("kn", 1.0), ("ks", 1.0), ("strength", 1.0), ("per", "spring"), ("damping_ratio", 0.1), ("broken", True), ("law", "slip"), ("ultimate_stretch", 0.1))),
-        ("materials", lambda model: model.materials["timber"].update(density=1.0)),
-        ("materials", lambda model: model.friction.append(("timber", "snow", 0.1))),
-        ("law", lambda model: model.law.update(hertz="increment")),
+        (["name"], {"name": "other"}),
+        (["content of files", "house"], {"house": "B"}),
+        (["ground_motion", "quake"], {"ground_motion": None}),
+        (["ground_motion"], {"ground_motion": replace(SHOVE, acceleration=2 * SHOVE.acceleration)}),
+        (["ground_motion"], {"ground_motion": replace(SHOVE, dt=0.02)}),
     ],
 )
-def test_another_house(model, key, change):
-    other = copy.deepcopy(model)
-    change(other)
-    one, two = identity(model), identity(other)
-    assert [name for name in one if one[name] != two[name]] == [key]
+def test_another_run(keys, change):
+    assert differences(replace(RUN, **change)) == keys
 
 
-def test_what_may_differ(model, tmp_path):
-    """The duration, and the folder of the house file."""
-    assert identity(model) == identity(model, replace(SCENARIO, duration=9.0)) == identity(model, replace(SCENARIO, house=str(tmp_path / "A.yaml")))
+def test_content_of_files_counts_not_their_place(tmp_path):
+    """House, the file that it extends, record, records that follow with their factors."""
+    def written(folder, density=340, letter="x", factor=1):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "base.yaml").write_text(f"extends: A\nmaterials: {{timber: {{density: {density}}}}}\n")
+        (tmp_path / folder / "mine.yaml").write_text("extends: base.yaml\n")
+        (tmp_path / folder / "one.csv").write_text(letter)
+        return identity(RunOptions(house=str(tmp_path / folder / "mine.yaml"), record=str(tmp_path / folder / "one.csv"), then=f"{tmp_path}/a/one.csv@{factor}"))
+
+    one = written("a")
+    assert written("b") == one
+    assert "content of files" in one and len({str(each) for each in (one, written("c", density=341), written("d", letter="y"), written("e", factor=2))}) == 4
 
 
-def test_another_package(model, monkeypatch):
-    one = identity(model)
+def test_another_package(monkeypatch):
+    one = identity()
     monkeypatch.setattr(identities, "package", lambda: "another")
-    assert [key for key in one if one[key] != identity(model)[key]] == ["package"]
+    assert [key for key in one if one[key] != identity()[key]] == ["package"]
 
 
 @pytest.fixture(scope="module")
@@ -125,13 +110,46 @@ def test_files_that_decide_results(package, name, decides):
 
 
 def test_another_users_checkpoint_is_not_loaded(tmp_path, monkeypatch):
-    """It can run code."""
+    """It could harm the process."""
+    O.reset()
     checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {"wall_s": 1.0})
     assert checkpoint.load(tmp_path / "a.yade", {"name": "x"}) == {"wall_s": 1.0}
     owner = (tmp_path / "a.yade").stat().st_uid
     monkeypatch.setattr(checkpoint.os, "geteuid", lambda: owner + 1)
-    with pytest.raises(RunError, match="another user.*run any code"):
+    with pytest.raises(RunError, match="another user; copy it"):
         checkpoint.load(tmp_path / "a.yade", {"name": "x"})
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_a_forged_checkpoint_is_refused_before_it_is_loaded(tmp_path, monkeypatch, nested):
+    """A PyRunner in the list of engines or in an engine; its command runs where nothing refuses it."""
+    path, marker = tmp_path / "a.yade", tmp_path / "marker"
+    runner = yw.PyRunner(command=f"open({str(marker)!r}, 'w')", iterPeriod=1, initRun=True)
+    O.reset()
+    O.engines = [yw.ParallelEngine([runner]) if nested else runner]
+    checkpoint.save(path, {"name": "x"}, {})
+    O.reset()
+    with pytest.raises(RunError, match="a.yade: holds P.*, which no run of this package saves; run without --resume"):
+        checkpoint.load(path, {"name": "x"})
+    assert O.engines == [] and not marker.exists()
+    monkeypatch.setattr(checkpoint, "CLASSES", checkpoint.CLASSES | {"PyRunner", "ParallelEngine"})
+    checkpoint.load(path, {"name": "x"})
+    O.step()
+    assert marker.exists()
+    O.reset()
+
+
+def test_every_class_of_yade_has_a_name_that_is_checked(tmp_path):
+    """An object of each kind of engine, in a binary file, is named with its namespace."""
+    O.reset()
+    for name in system.childClasses("Engine"):
+        try:
+            O.engines = [getattr(yw, name)()]
+            O.save(str(tmp_path / "a.yade"), quiet=True)
+        except Exception:  # an engine that needs arguments
+            continue
+        assert f"yade::{name}".encode() in (tmp_path / "a.yade").read_bytes(), name
+    O.reset()
 
 
 def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch):

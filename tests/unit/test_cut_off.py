@@ -11,7 +11,7 @@ from yade_timber.base.errors import RunError
 from yade_timber.recording import frames
 from yade_timber.recording.summary import Summary
 from yade_timber.run import runner, summary
-from yade_timber.run.cli import Output
+from yade_timber.run.options import RunOptions
 from yade_timber.scene.engines import find_engine
 from yade_timber.scene.scenario import Scenario
 from yade_timber.text.english import sentence, unconverged
@@ -19,7 +19,7 @@ from yade_timber.text.english import sentence, unconverged
 
 def run_with(folder, change):
     """Folder of a run of house A for 0.3 s, in which change() is called at 0.15 s. The run must fail."""
-    run = runner.Run(Scenario("cut", "A", duration=0.3), Output(folder, views=False, quiet=True))
+    run = runner.Run(Scenario("cut", "A", duration=0.3), RunOptions(house="A", out=folder, no_views=True, quiet=True))
     after = run.after_chunk
 
     def changed():

@@ -7,9 +7,10 @@ import sys
 from yade_timber.recording.summary import Summary
 from yade_timber.run import identity
 from yade_timber.run.identity import made_from
+from yade_timber.run.options import RunOptions
 from yade_timber.study import driver
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import run_options
+from yade_timber.study.options import run_of, run_options
 
 
 def fake_script(folder, body):
@@ -18,26 +19,25 @@ def fake_script(folder, body):
     return folder
 
 
-WRITES = """import sys, pathlib
+WRITES = """import sys
 from yade_timber.recording.summary import Summary
-from yade_timber.run.identity import made_from
-folder = pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
-words = sys.argv[1:]
-Summary.sample(scenario=' '.join(words), made_from=made_from(words[:words.index('--out')])).write(folder)
+from yade_timber.run import cli, identity
+options = cli.read_house(sys.argv)
+Summary.sample(scenario=' '.join(sys.argv), made_from=identity.made_from(options)).write(options.folder)
 """
 
 
 def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     """Options reach the script; a run with a summary of the same options is kept; a failed run records its error and does not stop the others."""
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
-    scripts = fake_script(tmp_path, "import sys\nif '--fail' in sys.argv: sys.exit('error: no')\n" + WRITES)
-    tasks = [Task("run", tmp_path / name, options) for name, options in (("a", ("--dt", 2e-4)), ("b", ("--fail",)), ("c", ()))]
+    scripts = fake_script(tmp_path, "import sys\nif '--seed=7' in sys.argv: sys.exit('error: no')\n" + WRITES)
+    tasks = [Task("run", tmp_path / name, RunOptions(house="A", **given)) for name, given in (("a", {"dt": 2e-4}), ("b", {"seed": 7}), ("c", {}))]
     tasks[2].folder.mkdir()
-    old = Summary.sample(made_from=made_from(()))
+    old = Summary.sample(made_from=made_from(RunOptions(house="A")))
     old.write(tasks[2].folder)
     said = []
     done = run_missing(tasks, scripts, 2, said.append)
-    assert "--dt 0.0002" in done[tasks[0]].scenario
+    assert "--dt=0.0002" in done[tasks[0]].scenario
     assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
     assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
 
@@ -51,24 +51,25 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     beside.write_text("name: one\n")
     record.write_text("1\n")
 
-    def runs_done(seed=1):
-        task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", seed))
+    def runs_done(scale=1.0):
+        task = Task("run", tmp_path / "a", RunOptions(house=str(house), record=str(record), scale=scale))
         del said[:]
-        assert run_missing([task], scripts, 1, said.append)[task].made_from["options"][-1] == str(seed)
+        assert run_missing([task], scripts, 1, said.append)[task].made_from["options"]["scale"] == scale
         return len(said) and "again" in said[-1]
 
     assert runs_done() is False and runs_done() == 0
-    assert runs_done(seed=2) and runs_done(seed=2) == 0
+    assert runs_done(scale=2.0) and runs_done(scale=2.0) == 0
     for file in (house, beside, record):
         file.write_text(file.read_text() + "# changed\n")
-        assert runs_done(seed=2) and runs_done(seed=2) == 0
+        assert runs_done(scale=2.0) and runs_done(scale=2.0) == 0
     monkeypatch.setattr(identity, "package", lambda: "another")
-    task = Task("run", tmp_path / "a", (house, "--record", record, "--seed", 2))
+    task = Task("run", tmp_path / "a", RunOptions(house=str(house), record=str(record), scale=2.0))
     assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
     assert task.status == "failed" and "another yade_timber" in task.error and task.error in said[-1]
 
 
 def test_only_runs_with_an_earthquake_get_motion_options():
-    given = argparse.Namespace(record=None, seed=3, scale=0.5, start=None, end=None, dt=1e-4, duration=None)
-    assert run_options(given, earthquake=True) == ("--dt", 1e-4, "--seed", 3, "--scale", 0.5)
-    assert run_options(given, earthquake=False) == ("--dt", 1e-4)
+    given = run_options(argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None, dt="1e-4", duration=None))
+    assert given == {"dt": 1e-4, "seed": 3, "scale": 0.5}
+    assert run_of("modelA_quake", "A", True, False, given).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
+    assert run_of("modelA_snow", "A", False, True, given).words() == ["--dt=0.0001"]

@@ -6,7 +6,6 @@ import io
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,6 +24,7 @@ from yade_timber.recording import ensemble, frames  # noqa: E402
 from yade_timber.recording.history import History  # noqa: E402
 from yade_timber.recording.summary import Ensemble, Summary  # noqa: E402
 from yade_timber.run.identity import made_from  # noqa: E402
+from yade_timber.run.options import RunOptions, scripted  # noqa: E402
 from yade_timber.study import driver  # noqa: E402
 from yade_timber.study.ensemble import results, runs, statistics  # noqa: E402
 from yade_timber.text import japanese  # noqa: E402
@@ -133,9 +133,9 @@ def test_the_run_that_is_shown(found, number):
 
 @pytest.fixture
 def finished(tmp_path):
-    """(output, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
-    output = SimpleNamespace(folder=tmp_path, ensemble=3, jobs=None, report=False, quiet=True, views=True, frames=True, options=("--scale", "2"))  # run.cli.Output
-    planned = runs.tasks("modelA_quake", "A", tmp_path, output.options, 3)
+    """(RunOptions, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
+    options = scripted("modelA_quake", "A", True, out=tmp_path, ensemble=3, quiet=True, scale=2.0)
+    planned = runs.tasks("modelA_quake", options)
     found = [summary(drift=0.1), summary(drift=0.12), summary("collapsed", 1.3, 2.9)]
     found = [replace(one, made_from=made_from(task.options)) for task, one in zip(planned, found)]
     for number, (task, one) in enumerate(zip(planned, found)):
@@ -147,26 +147,25 @@ def finished(tmp_path):
         frames.save(task.folder / frames.NAME, recorded)
         recorded.history.write(task.folder / "history.csv")
         one.write(task.folder)
-    return output, planned, dict(enumerate(found, 1))
+    return options, planned, dict(enumerate(found, 1))
 
 
 def test_tasks_are_disturbed_but_the_first(finished):
     """Run k has the seed k, whatever the number of runs: an ensemble can be extended."""
-    output, planned, _ = finished
-    assert [task.options for task in planned] == [("--scale", "2"), ("--scale", "2", "--disturb", "2"), ("--scale", "2", "--disturb", "3")]
-    assert [task.folder.relative_to(output.folder).as_posix() for task in planned] == ["runs/001", "runs/002", "runs/003"]
-    assert runs.tasks("modelA_quake", "A", output.folder, output.options, 5)[:3] == planned
+    options, planned, _ = finished
+    assert [(task.options.scale, task.options.disturb) for task in planned] == [(2.0, None), (2.0, 2), (2.0, 3)]
+    assert [task.folder.relative_to(options.folder).as_posix() for task in planned] == ["runs/001", "runs/002", "runs/003"]
+    assert [task.words() for task in runs.tasks("modelA_quake", replace(options, ensemble=5))[:3]] == [task.words() for task in planned]
 
 
 def test_a_changed_house_file_outdates_its_runs(tmp_path):
     """A house file of any name, on the command line or given by the script."""
     path = tmp_path / "mine.txt"
-    for options, house in (((str(path),), None), ((), str(path)), ((str(path),), str(path))):
+    for options in (RunOptions(house=str(path)), scripted("mine", path)):
         path.write_text("extends: A\nname: mine\n")
-        before = made_from(options, house)
+        before = made_from(options)
         path.write_text("extends: B\nname: mine\n")
-        assert made_from(options, house) != before
-    assert made_from((), "A") == made_from(())  # shipped houses belong to the package
+        assert made_from(options) != before
 
 
 def test_reason_of_a_run_without_results(finished):
@@ -176,44 +175,44 @@ def test_reason_of_a_run_without_results(finished):
     assert [driver._signal(status) for status in (0, 1, -9, 139, 255)] == [None, None, "SIGKILL", "SIGSEGV", None]
 
 
-def complete(output, planned, monkeypatch):
+def complete(options, planned, monkeypatch):
     """`complete` in which no run is started."""
     monkeypatch.setattr(runs, "run_missing", lambda tasks, *_: {task: task.summary for task in tasks})
-    runs.complete(ROOT / "scripts" / "modelA_quake.py", "A", output)
+    runs.complete(ROOT / "scripts" / "modelA_quake.py", options)
 
 
 def test_files_of_an_ensemble(finished, monkeypatch):
     """One row a run; the folder has the results of the run that is shown, with its place in the ensemble."""
-    output, planned, _ = finished
-    complete(output, planned, monkeypatch)
-    found = ensemble.read(output.folder)
+    options, planned, _ = finished
+    complete(options, planned, monkeypatch)
+    found = ensemble.read(options.folder)
     assert (found["runs"], found["finished"], found["shown"], found["disturbance_m"]) == (3, [1, 2, 3], 1, LARGEST)
     assert found["outcomes"]["unsafe"]["runs"] == 2 and found["outcomes"]["collapsed"]["share"] == pytest.approx(1 / 3)
-    rows = list(csv.DictReader(io.StringIO((output.folder / "ensemble.csv").read_text())))
+    rows = list(csv.DictReader(io.StringIO((options.folder / "ensemble.csv").read_text())))
     assert [(row["run"], row["folder"], row["verdict"], row["collapse_time_s"]) for row in rows] == [
         ("1", "runs/001", "unsafe", ""), ("2", "runs/002", "unsafe", ""), ("3", "runs/003", "collapsed", "2.9")]  # fmt: skip
-    shown = Summary.read(output.folder)
+    shown = Summary.read(options.folder)
     assert shown.ensemble == Ensemble(1, 3, {"unsafe": 2, "collapsed": 1}, [0.1, 0.12])
-    assert frames.load(output.folder / frames.NAME).summary == shown
-    assert (output.folder / "history.csv").read_bytes() == (planned[0].folder / "history.csv").read_bytes()
-    assert (output.folder / "ensemble.png").stat().st_size > 10000 and (output.folder / "player.html").exists()
+    assert frames.load(options.folder / frames.NAME).summary == shown
+    assert (options.folder / "history.csv").read_bytes() == (planned[0].folder / "history.csv").read_bytes()
+    assert (options.folder / "ensemble.png").stat().st_size > 10000 and (options.folder / "player.html").exists()
 
 
 def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
-    output, planned, _ = finished
-    output.views = False
+    options, planned, _ = finished
+    options = replace(options, no_views=True)
     (planned[1].folder / "summary.json").unlink()
     (planned[1].folder / "run.json").write_text('{"status": "failed", "error": "too fast"}')
     with pytest.raises(RunError, match="^1 of 3 runs have no results; run 2: too fast$"):
-        complete(output, planned, monkeypatch)
-    assert ensemble.read(output.folder)["finished"] == [1, 3]
-    assert Summary.read(output.folder).ensemble.outcomes == {"unsafe": 1, "collapsed": 1, "failed": 1}
-    assert list(csv.DictReader(io.StringIO((output.folder / "ensemble.csv").read_text())))[1]["error"] == "too fast"
+        complete(options, planned, monkeypatch)
+    assert ensemble.read(options.folder)["finished"] == [1, 3]
+    assert Summary.read(options.folder).ensemble.outcomes == {"unsafe": 1, "collapsed": 1, "failed": 1}
+    assert list(csv.DictReader(io.StringIO((options.folder / "ensemble.csv").read_text())))[1]["error"] == "too fast"
     (planned[2].folder / "summary.json").unlink()
-    (output.folder / "summary.json").unlink()
+    (options.folder / "summary.json").unlink()
     with pytest.raises(RunError, match="^2 of 3"):
-        complete(output, planned, monkeypatch)
-    assert not (output.folder / "summary.json").exists()  # one run has no distribution
+        complete(options, planned, monkeypatch)
+    assert not (options.folder / "summary.json").exists()  # one run has no distribution
 
 
 def test_lines_for_the_terminal(finished):

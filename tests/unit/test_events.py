@@ -96,6 +96,7 @@ def snowy_house(drop, slide, tilt=0.0):
     e = run.elements
     for values, value in ((e.name, "snow"), (e.kind, "snow"), (e.group, "main"), (e.material, "snow")):
         values.append(value)
+    e.vertices.append(frames_sample.box((3.0, 1.0, 0.4)))
     e.position, e.orientation = np.vstack([e.position, e.position[ROOF] + (0, 0, 0.6)]), np.vstack([e.orientation, [1, 0, 0, 0]])
     position, orientation = e.position.copy(), e.orientation.copy()
     orientation[ROOF] = [np.cos(tilt / 2), np.sin(tilt / 2), 0, 0]
@@ -104,9 +105,11 @@ def snowy_house(drop, slide, tilt=0.0):
     return survey(run), State(position, orientation, run.broken[0])
 
 
-@pytest.mark.parametrize("drop, slide, tilt, fallen", [(0, 0, 0, []), (0.9, 3.0, 0, []), (1.1, 3.0, 0, [ROOF]), (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
+@pytest.mark.parametrize("drop, slide, tilt, fallen", [
+    (0, 0, 0, []), (0.9, 4.0, 0, []), (1.1, 3.0, 0, []), (1.1, 4.0, 0, [ROOF]), (3.4, 3.0, 0, []), (3.5, 3.0, 0, [ROOF]), (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
 def test_fallen_snow(drop, slide, tilt, fallen):
-    """Snow that a leaning roof carries along has not fallen."""
+    """Snow that a leaning roof carries along, or that hovers above the eaves (3.1 m north of the middle), has not fallen; it touches the ground
+    from a drop of 3.1 + 0.6 - 0.2 - 0.05 = 3.45 m on."""
     found, state = snowy_house(drop, slide, tilt)
     assert found.fallen_snow(state) == fallen
 
@@ -116,7 +119,7 @@ def test_fallen_snow(drop, slide, tilt, fallen):
     ("main", "main.roof2.east", "east roof2"),
 ])
 def test_event_of_fallen_snow(structure, name, expected):
-    found, state = snowy_house(1.1, 3.0)
+    found, state = snowy_house(1.1, 4.0)
     found.elements.group[ROOF] = found.elements.group[-1] = structure
     found.elements.name[ROOF] = name
     log = EventLog(found)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from yade_timber.base.errors import RunError
+from yade_timber.house import build_house, load_house
 from yade_timber.pictures import camera, caption, film, fonts, key_times, provenance, stage
 from yade_timber.recording import frames
 from yade_timber.recording.summary import Summary
@@ -88,38 +89,74 @@ def test_the_ground_moves():
     assert far - 1 <= columns[1] - columns[0] <= near + 1  # perspective; whole pixels
 
 
-def test_captions_state_time_drift_and_joints():
+@pytest.mark.parametrize("size", [(1920, 1080), (640, 370)])
+def test_a_house_fills_at_least_half_of_the_height(size):
+    """House A at the start, beside another one, seen from the north-east."""
+    stage = film.Pictures([frames_sample.run()] * 2, "space", film.Format(*size)).stages[0]
+    points = np.concatenate([element.vertices for element in build_house(load_house("A")).elements if element.kind != "ground"])
+    rows = [seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0] for point in points]
+    assert 0 < min(rows) and max(rows) < stage.canvas.size[1] and max(rows) - min(rows) > size[1] / 2
+
+
+def test_captions_state_what_an_owner_sees():
+    words = caption.Caption(frames_sample.run(), (640, 360))
+    assert words.state(1.3) == "storey drift 1/53"
+    assert words.state(3.9) == "4 of 4 columns fallen, 7 of 8 joints broken"
+
+
+def test_a_house_that_leans_too_far_has_no_drift():
     run = frames_sample.run()
-    words = caption.Caption(run, (640, 360), "space", 0.25)
-    assert words.state(1.5).startswith("  1.50 s, speed 0.25") and "storey drift" in words.state(1.5) and words.state(1.5).endswith("0 of 8 joints broken")
-    assert "collapsed" in words.state(3.9) and words.state(3.9).endswith("7 of 8 joints broken")
+    words = caption.Caption(run, (640, 360))
+    words.drifts = np.full_like(words.drifts, 0.63)
+    assert words.state(1.5) == "leaning by more than 1/10"
 
 
 def test_captions_count_wall_sheets_apart():
-    words = caption.Caption(frames_sample.walled_run(), (640, 360), "space", 1.0)
+    words = caption.Caption(frames_sample.walled_run(), (640, 360))
     assert words.state(2.45).endswith("0 of 2 joints and 2 of 3 wall sheets broken")  # of the third sheet one joint
     assert words.state(3.9).endswith("2 of 2 joints and 3 of 3 wall sheets broken")
 
 
-def test_webp_has_every_picture_and_time(tmp_path):
+def test_the_origin_stands_once_for_both_runs_of_the_same_load():
+    runs, other = [frames_sample.run(name="A"), frames_sample.run(name="B")], frames_sample.run(name="C")
+    other.version = "another"
+    assert len(film.Pictures(runs, "space", SMALL).strips) == 1
+    assert len(film.Pictures([runs[0], other], "space", SMALL).strips) == 2
+
+
+def test_real_time_until_the_fall_then_slower():
     run = frames_sample.run()
-    count = film.write(tmp_path / "x.webp", [run], "front", SMALL, 1.0, 3.0)
+    fall = run.summary.collapse_time_s
+    steps = np.diff(film.picture_times([run], SMALL, 0.0, run.time[-1]))
+    times = film.picture_times([run], SMALL, 0.0, run.time[-1])[:-1]
+    slow = [fall - film.BEFORE_FALL <= time < fall + film.AFTER_FALL for time in times]
+    assert steps == pytest.approx(np.where(slow, film.SLOW, 1.0) / SMALL.rate) and any(slow) and not all(slow)
+
+
+def test_webp_has_every_picture_and_holds_the_last(tmp_path):
+    """Each decoded picture is that of a file with the rendered picture alone: nothing stays of the pictures before."""
+    run, times = frames_sample.run(), np.arange(1.0, 2.95, 0.1)
+    form = film.Format(width=320, height=180, rate=10, speed=1.0, quality=36)
+    count = film.write(tmp_path / "x.webp", [run], "front", form, 1.0, 3.0)
     made = Image.open(tmp_path / "x.webp")
     assert count == made.n_frames == 20 and made.size == (320, 180)
-    made.seek(0)
-    first = np.asarray(made.convert("RGB")).astype(int)
-    made.seek(19)
-    assert abs(np.asarray(made.convert("RGB")) - first).mean() > 2  # the house has fallen
+    for number, image in enumerate(film.images([run], "front", form, times)):
+        made.seek(number)
+        made.load()
+        assert made.info["duration"] == 100 + 2000 * (number == 19)
+        image.save(tmp_path / "alone.webp", quality=form.quality, method=film.WEBP["method"])
+        alone = np.asarray(Image.open(tmp_path / "alone.webp").convert("RGB"), int)
+        assert abs(np.asarray(made.convert("RGB")) - alone).max() <= 1
 
 
 @pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is missing (package ffmpeg)")
 def test_mp4_of_two_runs_at_a_quarter_of_the_speed(tmp_path):
-    """0.5 s of simulated time at 0.25 and 10 pictures per second: 20 pictures of two halves."""
+    """0.5 s of simulated time at 0.25 and 10 pictures per second: 20 pictures of two halves, and 20 of the end."""
     runs = [frames_sample.run(name="A"), frames_sample.run(name="B", until=3.0)]
     form = film.Format(width=320, height=180, rate=10, speed=0.25)
     assert film.write(tmp_path / "x.mp4", runs, "space", form, 2.5, 3.0) == 20
     words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of", "csv=p=0", str(tmp_path / "x.mp4")]
-    assert subprocess.run(words, capture_output=True, text=True).stdout.strip() == "320,180,20"
+    assert subprocess.run(words, capture_output=True, text=True).stdout.strip() == "320,180,40"
 
 
 def test_a_film_begins_shortly_before_the_shaking():
@@ -136,8 +173,8 @@ def test_films_that_cannot_be_made(tmp_path):
     run = frames_sample.run()
     with pytest.raises(RunError, match="no pictures"):
         film.write(tmp_path / "x.webp", [run], begin=3.0, end=2.0)
-    with pytest.raises(RunError, match="at most 36000"):
-        film.write(tmp_path / "x.webp", [run], form=film.Format(rate=100, speed=0.01), begin=0.0)
+    with pytest.raises(RunError, match="more than 36000"):
+        film.write(tmp_path / "x.webp", [run], form=film.Format(rate=100, speed=0.01), begin=0.0, end=4.0)
     assert not list(tmp_path.iterdir())
 
 

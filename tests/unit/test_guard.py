@@ -14,7 +14,7 @@ from ports import listening_ports
 from yade_timber import host
 
 MODULE = Path(yade_timber.__path__[0]) / "_yade_timber.so"
-PLUGIN = yade_timber._plugin
+PLUGIN = yade_timber.plugin.compiled
 FIELDS = PLUGIN.layout_fields()
 
 
@@ -146,6 +146,8 @@ def test_faster_module_that_is_damaged(tmp_path, attempts):
 
 def test_servers_are_closed(monkeypatch):
     """YADE's Python prompt and XML-RPC server; a job of yade-batch keeps the latter."""
+    for thread in host.close_servers():  # those of this process, which the import may still be closing
+        thread.join()
     yade.remote.runServers()
     prompt, information = listening_ports()
     monkeypatch.setenv("PARAM_TABLE", "table:1")

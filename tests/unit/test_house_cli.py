@@ -2,6 +2,8 @@
 """scripts/house.py: scenario from options and house file; refusal of bad input in one line."""
 import pytest
 from yade_timber.run import cli
+from yade_timber.run.options import QUIET_DURATION
+from yade_timber.run.plan import planned
 from yade_timber.api.script import main_house
 
 SNOWY = "extends: storehouse\nname: mine\nsnow: {depth: 0.7}\n"
@@ -16,14 +18,15 @@ def own(tmp_path):
 
 
 def read(*words):
-    return cli.read_house(["scripts/house.py", *map(str, words)])
+    options = cli.read_house(["scripts/house.py", *map(str, words)])
+    return planned(options), options
 
 
 def test_a_file_by_itself(own):
     """Snow of the file, no earthquake; results under the file's name."""
-    scenario, output = read(own)
-    assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth, scenario.duration) == ("my.house", str(own), None, 0.7, cli.QUIET_DURATION)
-    assert str(output.folder) == "results/my.house"
+    scenario, options = read(own)
+    assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth, scenario.duration) == ("my.house", str(own), None, 0.7, QUIET_DURATION)
+    assert str(options.folder) == "results/my.house"
 
 
 def test_snow_and_quake(own):
@@ -39,8 +42,8 @@ def test_a_record_implies_an_earthquake(own, tmp_path):
 
 
 def test_a_shipped_house_by_name():
-    scenario, output = read("l_house", "--snow", "1.5")
-    assert (scenario.name, scenario.snow_depth, str(output.folder)) == ("l_house", 1.5, "results/l_house")
+    scenario, options = read("l_house", "--snow", "1.5")
+    assert (scenario.name, scenario.snow_depth, str(options.folder)) == ("l_house", 1.5, "results/l_house")
 
 
 @pytest.mark.parametrize(
@@ -51,9 +54,11 @@ def test_a_shipped_house_by_name():
         (["."], "house '.'"),
         (["C2", "D"], "unrecognized arguments: D"),
         (["C2", "--snow"], "--snow: expected one argument"),
-        (["C2", "--snow", "deep"], "--snow: invalid float value: 'deep'"),
-        (["C2", "--snow", "-1"], "snow depth: must be 0 or in [0.001, 20] m, got -1"),
-        (["C2", "--snow", "nan"], "snow depth: must be 0 or in [0.001, 20] m, got nan"),
+        (["C2", "--snow", "deep"], "--snow 'deep': must be a number"),
+        (["C2", "--snow", "-1"], "--snow -1: must be between 0 and 20"),
+        (["C2", "--snow", "nan"], "--snow nan: must be between 0 and 20"),
+        (["C2", "--snow", "0.0005"], "snow depth: must be 0 or in [0.001, 20] m, got 0.0005"),
+        (["c2"], "did you mean 'C2'?"),
         (["C2", "--scale", "2"], "add --quake or --record FILE"),
     ],
 )

@@ -121,6 +121,25 @@ def test_boxed_eaves(tmp_path, kind):
             assert sum(e.mass for e in slabs) == pytest.approx(340 * (rafters - corners), rel=1e-9)
 
 
+@pytest.mark.parametrize("side, axis, sign", [("west", 0, -1), ("east", 0, 1), ("south", 1, -1), ("north", 1, 1)])
+def test_mono_pitch_roof(tmp_path, side, axis, sign):
+    """It falls to its side; joints hold it on the plates of both walls across the slope, those of the high wall with a fitting for each post."""
+    model = shed(tmp_path, f"type: mono, falls: {side}, pitch: 0.3, thickness: 0.12", snow=0.5, nx=3, ny=3)
+    (slab,), (snow,) = model.of_kind("roof"), model.of_kind("snow")
+    assert slab.name == f"shed.roof.{side}" and slab.vertices[:, 2].min() == pytest.approx(2.24)
+    assert slab.vertices[:, 2].max() == pytest.approx(2.24 + 0.3 * 3.12) and snow.vertices[:, 2].max() == pytest.approx(2.74 + 0.3 * 3.12)
+    held = {joint.points[:, axis].mean(): joint for joint in model.joints if joint.kind == "roof_beam"}
+    low, high = [held[place] for place in sorted(held)[::-sign]][::len(held) - 1]
+    assert (high.points[:, 2] == pytest.approx(2.24)) and high.kn == pytest.approx(low.kn * (1 + np.ceil(3.12 / 0.91)))
+
+
+def test_posts_need_a_rule(tmp_path):
+    lines, walls = WALLS.format(nx=2, ny=3, cut=", cut: true"), WALLS.format(nx=2, ny=3, cut="")
+    text = SHED.format(nx=2, ny=3, roof="type: mono, falls: west, pitch: 0.3, thickness: 0.12", lines=lines, walls=walls)
+    with pytest.raises(HouseError, match="stands on posts.*a rule of `joints` between roof and beam"):
+        house(tmp_path, text + "joints: {roofs: null}\n")
+
+
 def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):
     model = shed(tmp_path, "type: hip, pitch: 0.5, thickness: 0.12, corner_cut: 0.1", nx=3, ny=3, snow=1.0)
     slabs = model.of_kind("roof")
@@ -128,7 +147,8 @@ def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):
     assert model.counts()["joints_by_kind"]["roof_roof"] == 4  # the hips; there is no ridge
 
 
-@pytest.mark.parametrize("roof", ["type: flat, thickness: 0.1", "type: gable, pitch: 1.2, thickness: 0.1", "type: hip, pitch: 0.3, thickness: 0.05, corner_cut: 0.1"])
+@pytest.mark.parametrize("roof", ["type: flat, thickness: 0.1", "type: gable, pitch: 1.2, thickness: 0.1", "type: hip, pitch: 0.3, thickness: 0.05, corner_cut: 0.1",
+                                  "type: mono, falls: west, pitch: 0.5, thickness: 0.1"])
 def test_one_module_is_a_house(tmp_path, roof):
     model = shed(tmp_path, roof, nx=1, ny=1, snow=2.0)
     assert len(model.of_kind("column")) == 4 and check_house(model)["deepest"] < 1e-9

@@ -11,14 +11,14 @@ from yade import O, PyRunner
 from yade_timber.recording import frames
 from yade_timber.base import lock
 from yade_timber.run import live
-from yade_timber.run.cli import Output
+from yade_timber.run.options import RunOptions
 from yade_timber.scene import scenario
 from yade_timber.scene.engines import find_engine
 
 
 def begin(folder, steps=4000, **more):
     """A live run of house A under snow, going on in the background. more: of the Scenario."""
-    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), Output(folder, views=False, quiet=True))
+    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), RunOptions(house="A", out=folder, no_views=True, quiet=True))
     folder_lock = ExitStack()
     assert folder_lock.enter_context(lock.locked(folder))
     run.start(folder_lock)

@@ -29,7 +29,7 @@ def check_one_line(done, *parts):
 
 
 def save_runs(folder, ended):
-    for name in ("modelA_snow", "modelA_quake", "modelC2_snow"):
+    for name in ("modelA_snow", "modelA_quake", "modelC_quake", "modelC2_snow", "A_quake_snow", "C_quake_snow"):
         (folder / name).mkdir()
         recorded.save(folder / name / recorded.NAME, frames(ended))
 

@@ -76,7 +76,7 @@ def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
     straight, resumed = (json.loads((path / "summary.json").read_text()) for path in (folder, tmp_path))
     assert resumed["quantities"] == straight["quantities"] and resumed["structures"] == straight["structures"]
-    assert "--report" not in resumed["made_from"]["options"] and (tmp_path / report.PAGE).exists(), "a report does not change results"
+    assert "report" not in resumed["made_from"]["options"] and (tmp_path / report.PAGE).exists(), "a report does not change results"
     clear(tmp_path)
     assert not (tmp_path / report.PAGE).exists(), "a report of an earlier run must not be taken for that of the next"
 

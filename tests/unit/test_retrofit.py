@@ -270,7 +270,7 @@ def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
             number = int(row.cells["seed"])
             factor = effects.get(row.cells.get("braces"), 1.0) * (1 + 0.01 * number)
             failed = row.cells.get("braces") in failing and row.cells["seed"] == "2"
-            fallen = row.value("scale", 1.0) >= strength * (1 + 0.1 * (number - 1))
+            fallen = (row.value("scale") or 1.0) >= strength * (1 + 0.1 * (number - 1))
             lines.append({**run(0.01 * factor, fallen), "run": row.name, **({"status": "failed", "error": "too large a step"} if failed else {})})
         return lines
 

@@ -92,7 +92,7 @@ def test_overlapping_houses_are_refused(town):
         ("direction: 90", "direction: north", r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
         (", direction: 90", "", r"town.yaml:2: town.wave: key 'direction' is missing$"),
         ("x: -100", "x: 1e6", r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
-        ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*shipped houses are A, B"),
+        ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*known: A, B"),
         ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
         ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),
         ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 20\] m, got 1e-09$"),

@@ -16,6 +16,7 @@ SESSION = textwrap.dedent(
     import os, time
     from yade import O
     from yade_timber.run import cli
+    from yade_timber.run.plan import planned
     from yade_timber.scene import scenario
     from yade_timber.scene import viewer
     from PyQt5 import QtWidgets
@@ -25,7 +26,7 @@ SESSION = textwrap.dedent(
             QtWidgets.QApplication.processEvents()
             time.sleep(0.05)
 
-    scenario.build(cli.read("C2", False, True, ["modelC2_snow.py"])[0])
+    scenario.build(planned(cli.read("C2", False, True, ["modelC2_snow.py"])))
     view = viewer.show()
     O.run(20, True)
     draw(20)

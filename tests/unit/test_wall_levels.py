@@ -8,7 +8,7 @@ import pytest
 from yade_timber.base.errors import RunError
 from yade_timber.recording.summary import OtherWalls, Summary, Walls
 from yade_timber.run import cli
-from yade_timber.study import other_walls as study
+from yade_timber.run.plan import planned
 from yade_timber.text.english import other_walls
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -20,15 +20,10 @@ def strongest(scenario):
 
 def test_option():
     """The option has precedence over the house file; the two levels' strengths are 2.8 and 1.5 times the allowable shear."""
-    found = {level: cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))])[0] for level in (None, "mean", "design")}
+    found = {level: planned(cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))])) for level in (None, "mean", "design")}
     assert strongest(found[None]) == strongest(found["mean"]) == pytest.approx(2.8 / 1.5 * strongest(found["design"]))
     with pytest.raises(RunError, match="design"):
         cli.read_house(["house.py", "tiled_house", "--walls", "weak"])
-
-
-def test_options_of_the_other_level():
-    assert study._without_walls(("a.yaml", "--quake", "--walls", "mean", "--scale", "2")) == ("a.yaml", "--quake", "--scale", "2")
-    assert study._without_walls(("--walls=mean", "a.yaml")) == ("a.yaml",)
 
 
 def test_sentence_names_the_other_verdict_where_they_differ():

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`run`: scripts/house.py as a function, with the options of its command line as keywords."""
+"""`run`: scripts/house.py as a function, with its options as keywords."""
 import signal
 from contextlib import contextmanager
-from dataclasses import fields
 from pathlib import Path
 
 from .. import host
 from ..base.errors import RunError
-from ..motion import GroundMotion, MotionRequest
+from ..base.options import read_keywords
+from ..run.options import Door, RunOptions
 from .house import House
-from .motion import SHIPPED, refuse_motion, require_known
+from .motion import source_of
 from .result import RunResult
 
 RESULTS = Path("results")
+DOOR = Door(name=str, earthquake="give motion='shipped', a record, or seed")
+INSTEAD = {"quake": "give motion='shipped'", "record": "give motion='FILE_OR_PREFIX'", "export": "call export_scene",
+           **dict.fromkeys(("ensemble", "jobs"), "scripts/house.py has it")}
+"""Options of the command line that are no keywords, and what takes their place."""
 _used = set()
 """Folders of the runs of this session."""
 
@@ -59,27 +63,29 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     if not host.running():
         raise RunError("yt.run needs YADE: start this script with `yade -n -x script.py`, or call it in a YADE session")
     house = house if isinstance(house, House) else House(house)
-    out = _default_folder(house) if out is None else out
-    given, words = _motion_words(motion, options)
-    words += _words({"snow": snow, "duration": duration, "out": out, "no_views": True, **options})
-    return _complete(["run", house.given, *words], given)
+    keywords = read_keywords(RunOptions, "run", {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD)
+    record, ground_motion = (None, None) if motion is None else source_of(motion)
+    given = {"out": _default_folder(house), **keywords, "record": record, "ground_motion": ground_motion, "quake": motion is not None and record is ground_motion is None}
+    return _complete(RunOptions(house=house.given, door=DOOR, **given))
 
 
-def _complete(argv, motion):
-    """Run a command line of scripts/house.py; returns the RunResult. motion: GroundMotion or None."""
-    from ..run import cli, session
+def _complete(options):
+    """Run to the end; returns the RunResult."""
+    from ..run import session
+    from ..run.plan import planned
     from ..run.runner import Interrupted
 
-    scenario, output = cli.read_house(argv, motion)
-    _used.add(output.folder.resolve())
+    options.check()
+    scenario = planned(options)
+    _used.add(options.folder.resolve())
     try:
         with _restored_handlers():
-            session.complete(scenario, output)
+            session.complete(scenario, options)
     except Interrupted as stop:
         if stop.number == signal.SIGTERM:
             raise SystemExit(128 + stop.number) from None
-        raise KeyboardInterrupt(f"stopped at {stop.time:.2f} s; yt.run(..., out='{output.folder}', resume=True) continues") from None
-    return RunResult(output.folder)
+        raise KeyboardInterrupt(f"stopped at {stop.time:.2f} s; yt.run(..., out='{options.folder}', resume=True) continues") from None
+    return RunResult(options.folder)
 
 
 @contextmanager
@@ -99,30 +105,3 @@ def _default_folder(house):
     while (folder := RESULTS / (name if number == 1 else f"{name}_{number}")).resolve() in _used:
         number += 1
     return folder
-
-
-def _motion_words(motion, options):
-    """(GroundMotion or None, options of the command line)."""
-    if motion is None:
-        processing = [f.name for f in fields(MotionRequest) if f.name in options]
-        if processing and "seed" not in processing:
-            raise RunError(f"yt.run: {processing[0]}: this run has no earthquake; give motion='{SHIPPED}', a record, or seed")
-        return None, []
-    if isinstance(motion, (str, Path)):
-        return None, ["--quake"] if str(motion) == SHIPPED else [f"--record={motion}"]
-    if isinstance(motion, GroundMotion):
-        return motion, []
-    refuse_motion(motion)
-
-
-def _words(options):
-    """Options of the command line from keywords: dt=1e-4 -> --dt=0.0001, quiet=True -> --quiet."""
-    from ..run import cli
-
-    known = [name for name in vars(cli.house_parser().parse_args(["house"])) if name not in ("file", "quake", "record", "export", "ensemble", "jobs")]
-    words = []
-    for name, value in options.items():
-        require_known("run", name, known)
-        if value is not None and value is not False:
-            words.append(f"--{name.replace('_', '-')}" + ("" if value is True else f"={value}"))
-    return words

@@ -28,34 +28,34 @@ def main_town(argv=None):
 
 def _launch(read, argv):
     script = Path((sys.argv if argv is None else argv)[0])
-    return launch(lambda cli, arguments: _with_other_walls(script, *read(cli, arguments)), lambda scenario, output: _ensemble(script, scenario, output), argv)
+    return launch(lambda cli, arguments: _planned(script, read(cli, arguments)), lambda scenario, options: _ensemble(script, scenario, options), argv)
 
 
-def _with_other_walls(script, scenario, output):
-    """(scenario, output), for a report on a house with rated walls after a run with those of the other level. Raises InputError."""
-    from ..run.cli import TownPlan
+def _planned(script, options):
+    """(Scenario or TownPlan, options), for a report on a house with rated walls after a run with those of the other level. Raises InputError."""
+    from ..run.plan import planned
     from ..study import other_walls
 
-    if output.report and output.ensemble is None and not isinstance(scenario, TownPlan):
+    scenario = planned(options)
+    if options.report and options.ensemble is None:
         try:
-            output.other_walls = other_walls.run(script, scenario, output)
+            scenario.other_walls = other_walls.run(script, options)
         except KeyboardInterrupt:
             leave("stopped; the same command continues", 128 + signal.SIGINT)
-    return scenario, output
+    return scenario, options
 
 
-def _ensemble(script, scenario, output):
+def _ensemble(script, scenario, options):
     """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
-    from ..recording import frames
-    from ..run import checkpoint, runner, session
+    from ..run import runner, session
     from ..study import ensemble
     from .result import RunResult
 
     scenario.build_model()  # a fault of the house is reported once
     try:
-        with session.reserved(output.folder):
-            runner.clear(output.folder, frames.NAME, checkpoint.NAME)
-            ensemble.complete(script, scenario.house, output)
+        with session.reserved(options):
+            runner.clear(options, *runner.RECORDED, *runner.STATE)
+            ensemble.complete(script, options)
     except KeyboardInterrupt:
         leave("stopped; the same command continues", 128 + signal.SIGINT)
-    return RunResult(output.folder)
+    return RunResult(options.folder)

@@ -2,6 +2,7 @@
 """At most one process per folder of results: a lock on a file in the folder, released when the process ends, however it ends."""
 import fcntl
 import os
+import tempfile
 from contextlib import contextmanager
 
 from .errors import RunError
@@ -9,6 +10,16 @@ from .errors import RunError
 LOCK = ".lock"
 _descriptors = set()
 """Open lock files of this process."""
+
+
+def prepare_folder(folder, option):
+    """Create the folder and check that files can be written in it. option: its name for the user. Raises RunError."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as problem:
+        raise RunError(f"{option} {folder}: results cannot be written there: {problem.strerror}; choose another folder") from None
 
 
 @contextmanager

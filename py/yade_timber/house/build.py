@@ -15,7 +15,7 @@ from .joints import find_joints
 from .loads import apply_loads
 from .members import lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
-from .roof import OUTWARD, lay_roof, lay_snow, tie_gables
+from .roof import OUTWARD, carry_roofs, lay_roof, lay_snow
 from .structure import Structure, require_few
 from .wall_types import has_rated_walls, multiplier
 from .walls import sheathe
@@ -46,7 +46,7 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     _check_snow(data, elements, depth)
     joints = find_joints(elements, description)
     for structure in structures.values():
-        tie_gables(structure, joints)
+        carry_roofs(structure, elements, joints)
         joints += sheathe(structure, elements, data, level)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)

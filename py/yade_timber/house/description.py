@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..base.input_file import is_file, is_folder, shown
+from ..base.remedies import nearest
 from .errors import HouseError
 from .friction import check_friction
 from .joint_values import check_joint_rules, check_joint_types
 from .layout import HOUSE, MAX_SNOW, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
-from .schema import fail, nearest
+from .schema import fail
 from .wall_types import check_wall_types
 
 
@@ -60,7 +61,7 @@ def house_path(name):
             return path
     if is_folder(own[0]):
         raise HouseError(f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house ({', '.join(shipped_houses())})")
-    raise HouseError(f"unknown house {shown(str(name))}: no such regular file, and the shipped houses are {', '.join(shipped_houses())}")
+    raise HouseError(f"unknown house {shown(str(name))}: no such regular file and no shipped house; {nearest(name, shipped_houses())}")
 
 
 def _check_references(data):

@@ -71,6 +71,7 @@ _rise = dict(pitch=Number("rise over run", 0.02, 3.0, default=None), ridge_heigh
 roof = Variants("type", {
     "hip": _roof("hip", _RISE, corner_cut=length(high=5.0, default=0.2), **_rise),
     "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
+    "mono": _roof("mono", _RISE, falls=Choice(("west", "east", "south", "north")), **_rise),
     "flat": _roof("flat"),
 })
 

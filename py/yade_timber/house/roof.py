@@ -6,10 +6,11 @@ rests with a level face, the soffit of the eaves. Where that face would end befo
 over the plates, and from there the underside rises to the slab's own thickness at the ridge. A boxed slab is hollow: it has the mass of
 its thickness over its sloped area. Gable: two slabs that share the ridge, tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees
 in plan; each slab is the part of the outline nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three
-corners are cut off, octahedra. A square plan gives a pyramid.
+corners are cut off, octahedra. A square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
+opposite, which belong to its joints.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,8 +19,8 @@ from .geometry import Polyhedron, box
 
 SEAT = 0.05
 """Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
-TIE_SPACING = 0.91
-"""Of the tie beams of a gable roof along its ridge, at most. [m]"""
+SPACING = 0.91
+"""Of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]"""
 OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 
@@ -101,6 +102,17 @@ class HipPlan(Plan):
         return [apex, ((*t, 0.0), t @ self.high - self.cut), ((*(-t), 0.0), -(t @ self.low) - self.cut)]
 
 
+@dataclass(frozen=True, eq=False)
+class MonoPlan(Plan):
+    """One slope, which falls to the only one of `sides`; half is its whole run."""
+
+    sides: tuple
+
+    def outline(self, _side):
+        """Vertical planes of the slab except its own eave."""
+        return [self.edge(other) for other in OUTWARD if other not in self.sides]
+
+
 def outline(structure, layer):
     """Low and high corner (2,) [m] of a roof's outline; neighbouring roofs of one stack share a grid line."""
     areas = [other.table["area"] for other in structure.layers if other.kind == "roof" and other is not layer]
@@ -124,7 +136,14 @@ def hip_plan(structure, layer):
     return plan
 
 
-PLANS = {"hip": hip_plan, "gable": gable_plan}
+def mono_plan(structure, layer):
+    low, high = outline(structure, layer)
+    side = layer.table["falls"]
+    run = float(np.abs(OUTWARD[side]) @ (high - low))
+    return MonoPlan(low, high, layer.z0, run, slope(structure, layer, run), (side,))
+
+
+PLANS = {"hip": hip_plan, "gable": gable_plan, "mono": mono_plan}
 
 
 def slope(structure, layer, half):
@@ -204,7 +223,7 @@ def flat_snow(structure, layer, depth):
     return {"": box([*low, layer.z1], [*high, layer.z1 + depth])}
 
 
-ROOFS = {"hip": (pitched_roof, pitched_snow), "gable": (pitched_roof, pitched_snow), "flat": (flat_roof, flat_snow)}
+ROOFS = {**dict.fromkeys(PLANS, (pitched_roof, pitched_snow)), "flat": (flat_roof, flat_snow)}
 
 
 def lay_roof(structure, layer):
@@ -224,26 +243,59 @@ def lay_snow(structure, layer, depth, material):
     return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()]
 
 
-def tie_gables(structure, joints):
-    """Move half of a ridge joint's springs down to the tie beams of each gable roof, where its slabs would push the walls apart.
+def carry_roofs(structure, elements, joints):
+    """Change and append joints, so that the walls bear the weight of the structure's roofs and no thrust: tie beams and posts."""
+    for layer in structure.layers:
+        if layer.kind == "roof" and layer.table["type"] == "gable":
+            _tie_slabs(structure, layer, joints)
+        elif layer.kind == "roof" and layer.table["type"] == "mono":
+            joints += _posts(structure, layer, elements, joints)
+
+
+def _tie_slabs(structure, layer, joints):
+    """Move half of a ridge joint's springs down to the tie beams of a gable roof, where its slabs would push the walls apart.
 
     The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of one fitting.
     """
-    for layer in structure.layers:
-        if layer.kind == "roof" and layer.table["type"] == "gable":
-            slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides}
-            for joint in joints:
-                if {joint.a, joint.b} == slabs:
-                    _tie(joint, layer.z0)
+    slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides}
+    for joint in joints:
+        if {joint.a, joint.b} == slabs:
+            joint.points[joint.points[:, 2] < joint.centre[2], 2] = layer.z0
+            vars(joint).update(_row(joint, np.ptp(joint.points, axis=0).max()))
 
 
-def _tie(joint, level):
-    """Give a ridge joint its tie beams at the height `level` [m]."""
-    along = np.ptp(joint.points, axis=0).max()
-    lower = joint.points[:, 2] < joint.centre[2]
-    joint.points[lower, 2] = level
-    number = 1 + np.ceil(along / TIE_SPACING)
-    joint.kn, joint.ks, joint.strength = number * joint.kn, number * joint.ks, number * joint.strength
+def _row(joint, length):
+    """Stiffness and strength of a row of fittings over a length [m]. joint: JointSpec with those of one"""
+    number = 1 + np.ceil(length / SPACING)
+    return {name: number * getattr(joint, name) for name in ("kn", "ks", "strength")}
+
+
+def _posts(structure, layer, elements, joints):
+    """JointSpecs of a mono-pitch roof's slab with the plates of its high wall; each post has the stiffness and strength of one fitting of its eave."""
+    side = layer.table["falls"]
+    name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
+    plates = {e.name: e for e in elements if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT}
+    eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)), None)
+    if eave is None:
+        raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof stands on posts, joints of its slab with beams; "
+                         "add beams below its eave and a rule of `joints` between roof and beam")
+    return [_post_row(eave, name, plate) for plate in _high_plates(mono_plan(structure, layer), plates.values())]
+
+
+def _high_plates(plan, plates):
+    """Those farthest from the eave, of the plates below the plan."""
+    d, e = plan.distance(*plan.sides)
+    runs = [(e - d @ plate.solid.centroid[:2], plate) for plate in plates if (plan.low < plate.solid.centroid[:2]).all() and (plate.solid.centroid[:2] < plan.high).all()]
+    most = max(run for run, _ in runs)
+    return [plate for run, plate in runs if most - run < SEAT]
+
+
+def _post_row(eave, slab, plate):
+    """JointSpec of the posts on a plate. eave: that of the slab on a plate of its eave"""
+    (x0, y0, _), (x1, y1, z) = plate.solid.bounds
+    points = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]])
+    pair = {"a": slab, "b": plate.name} if eave.a == slab else {"a": plate.name, "b": slab}
+    return replace(eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side, **_row(eave, max(x1 - x0, y1 - y0)))
 
 
 def _element(structure, layer, kind, side, vertices, table):

@@ -6,13 +6,13 @@ A schema is made of Number, Text, Flag, Choice, Pair, ListOf, MapOf, Record and 
 defaults filled in, or raises HouseError. `where` is the value's "file:line", `name` the path of its key.
 """
 
-import difflib
 import math
 import re
 from dataclasses import dataclass
 
 from ..base.gravity import GRAVITY
 from ..base.input_file import shown
+from ..base.remedies import decimal_point, nearest
 from .errors import HouseError
 from .limits import MAX_ITEMS, MAX_NAME, MAX_NAMES, MAX_TEXT
 from .parser import Items, Table
@@ -25,18 +25,10 @@ OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "P
                "kN/m2": (("N/m2", 1e-3), ("kg/m2", GRAVITY / 1000)), "rise over run": (("sun (tenths)", 0.1),)}
 """Units often used by mistake: unit of the schema -> (unit, factor)."""
 _FRACTION = re.compile(r"(\d{1,9}(?:\.\d{1,9})?) ?/ ?(\d{1,9}(?:\.\d{1,9})?)")
-_DECIMAL_COMMA = re.compile(r"[-+]?\d{1,20},\d{1,20}")
 
 
 def fail(where, name, problem):
     raise HouseError(f"{where}: {name}: {problem}")
-
-
-def nearest(word, known):
-    """"did you mean 'x'?" for a misspelt word, else the list of known words."""
-    known = list(known)
-    close = difflib.get_close_matches(str(word), known, 1, 0.6) if len(str(word)) <= MAX_NAME else []
-    return f"did you mean '{close[0]}'?" if close else f"known: {', '.join(known)}"
 
 
 @dataclass(frozen=True)
@@ -78,12 +70,6 @@ class Number:
         if math.isinf(self.low) and math.isinf(self.high):
             return f" [{self.unit}]" if self.unit else ""
         return f" in {'(' if self.open_low else '['}{self.low:g}, {self.high:g}]{unit}"
-
-
-def decimal_point(value):
-    """Hint for a text like '2,73'."""
-    comma = isinstance(value, str) and _DECIMAL_COMMA.fullmatch(value)
-    return f"; write a decimal point: {value.replace(',', '.')}" if comma else ""
 
 
 @dataclass(frozen=True)

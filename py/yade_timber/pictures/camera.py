@@ -6,10 +6,12 @@ import numpy as np
 
 FIELD = 32.0
 """Vertical angle of view. [degree]"""
-SPARE = 1.3
+SPARE = 1.16
 """Size of the picture by the size of the house: captions need room above and below. [-]"""
-NEAR = 6.0
+NEAR = 1.5
 """Distance from the house up to which wreckage stays in the picture. [m]"""
+SHADED = 6.0
+"""Distance from the house up to which wreckage throws a shadow. [m]"""
 CAMERAS = {"front": (0.0, 5.0), "side": (90.0, 5.0), "space": (38.0, 20.0)}
 """Azimuth from east to north and elevation. [degree]"""
 
@@ -68,7 +70,7 @@ def sun(points):
     right = np.cross([0, 0, 1.0], light)
     right /= np.linalg.norm(right)
     axes = np.array([right, np.cross(light, right), -light])
-    half = max(size[:2].max() / 2 + NEAR, size[2])
+    half = max(size[:2].max() / 2 + SHADED, size[2])
     made = np.eye(4)
     made[:3, :3] = axes / half
     made[:3, 3] = -made[:3, :3] @ middle

@@ -1,149 +1,122 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Captions of films: house and loads, view, origin of the run; time, storey drift, broken joints, ground acceleration. Needs no YADE."""
+"""Texts of films: the house and its state on each picture; time, ground acceleration and origin of the run in a strip below. Needs no YADE."""
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
-from ..recording.summary import collapse_time
+from ..recording.damage import DamageSurvey, State
 from ..recording.walls import count_apart
-from ..text.english import broken_of, ratio
+from ..text.english import DRIFT_LINES, broken_of, ratio
 from . import fonts
 from .figures import drawable
-from .provenance import provenance
+from .key_times import first_shown
 from .stage import frame_before, rgb
 
 NORMAL = 720
 """Height of a picture for which the sizes below hold. [pixel]"""
-TITLE, TEXT, SMALL = 26, 23, 14
+TITLE, TEXT, SMALL = 26, 22, 13
 """Font sizes. [pixel]"""
 SMALLEST = 9
 """Font size below which a text is cut instead. [pixel]"""
-LABELLED = 0.75
-"""Scale below which the curve has no label. [-]"""
-PAD = 18
-TRACE = 46
-"""Height of the curve of the ground acceleration at the bottom. [pixel]"""
+PAD = 14
+TRACE, CLOCK = 46, 130
+"""Height of the curve of the ground acceleration, width of the time. [pixel]"""
 INK, SOFT, PAPER = (28, 36, 42), (70, 80, 88), (255, 254, 251)
-VIEWS = {"front": "from the east", "side": "from the north", "space": "from the north-east"}
+
+
+class Pen:
+    """Writes lines on sheets of paper (RGBA) of one width. scale: of the font sizes"""
+
+    def __init__(self, width, scale):
+        self.width, self.scale = width, scale
+
+    def sheet(self, height, opacity=255):
+        return Image.new("RGBA", (self.width, max(1, round(height * self.scale))), PAPER + (opacity,))
+
+    def write(self, sheet, top, text, size, ink=INK, bold=False):
+        """Write a line, smaller where it is too wide, and cut where it would be smaller than SMALLEST. top: of the line [scaled pixel]"""
+        room, pad = self.width - 2 * PAD * self.scale, PAD * self.scale
+        wide = self._font(size, text, bold).getlength(text)
+        font = self._font(size * min(1.0, room / max(wide, 1)), text, bold)
+        while font.getlength(text) > room and len(text) > 2:
+            text = text[:-2] + "…"
+        ImageDraw.Draw(sheet).text((pad, top * self.scale), text, ink + (255,), font)
+
+    def _font(self, size, text, bold):
+        return ImageFont.truetype(fonts.best_file(text, bold), max(SMALLEST, round(size * self.scale)))
 
 
 class Caption:
-    """Texts on the pictures (width, height) [pixel] of a run (Frames). view: a key of VIEWS; speed: of the film [-]"""
+    """A line above with the title of a run (Frames), and one below with its state, on pictures of (width, height) pixels."""
 
-    def __init__(self, run, size, view, speed):
-        self.run, self.size = run, size
-        self.scale = min(size[1] / NORMAL, size[0] / 620)
-        self.fonts = {}
-        self.speed = "" if speed == 1 else f", speed {speed:g}"
+    def __init__(self, run, size):
+        self.run = run
+        self.pen = Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
+        self.survey = DamageSurvey(run.elements, run.joints, [])
         self.drifts = run.history.largest_drift() if run.history and run.history.samples else None
-        self.top = self._head(drawable(run.title), f"seen {VIEWS[view]}", drawable(provenance(run)))
-        self.trace = self._trace() if run.motion else None
-        self.text, self.bottom = None, None
+        self.title, self.text, self.foot = self._line(drawable(run.title), TITLE, bold=True), None, None
 
     def on(self, image, time):
         """Draw the texts at a time [s] on an image of Pillow."""
-        self.top.on(image, 0)
         text = self.state(time)
         if text != self.text:
-            self.text, self.bottom = text, self._foot(text)
-        base = self.size[1] - (self.trace.height if self.trace else 0)
-        self.bottom.on(image, base - self.bottom.height)
-        if self.trace:
-            self.trace.on(image, base)
-            column = int(np.clip((time - self.span[0]) / (self.span[1] - self.span[0]), 0, 1) * (self.size[0] - 2))
-            image.paste(INK, (column, base, column + 2, self.size[1]))
+            self.text, self.foot = text, self._line(text, TEXT)
+        for line, top in ((self.title, 0), (self.foot, image.height - self.foot.height)):
+            image.paste(line, (0, top), line)
 
     def state(self, time):
-        """'12.35 s   storey drift 1/85   3 of 382 joints broken'"""
+        """'storey drift 1/85', or '42 of 90 columns fallen, 49 of 206 joints broken'; a drift only while every column stands."""
         run, shown = self.run, min(time, self.run.time[-1])
-        parts = [f"{time:6.2f} s{self.speed}"]
-        down = collapse_time(run.summary)
-        if down is not None and time >= down:
-            parts.append("collapsed")
-        elif self.drifts is not None:
-            row = max(0, np.searchsorted(run.history.time, shown, side="right") - 1)
-            parts.append(f"storey drift {ratio(self.drifts[row])}")
-        parts.append(broken_of(*count_apart(run.joints, run.joint_states(frame_before(run, shown)) == "broken")))
-        return "     ".join(parts)
+        frame = frame_before(run, shown)
+        fallen = self.survey.fallen_columns(State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken))))
+        broken = run.joint_states(frame) == "broken"
+        parts = [broken_of(*count_apart(run.joints, broken))] if broken.any() else []
+        if fallen.any():
+            return ", ".join([f"{fallen.sum()} of {len(fallen)} columns fallen", *parts])
+        if self.drifts is not None:
+            drift = self.drifts[max(0, np.searchsorted(run.history.time, shown, side="right") - 1)]
+            most = DRIFT_LINES[-1][0]
+            parts.insert(0, f"storey drift {ratio(drift)}" if drift <= most else f"leaning by more than {ratio(most)}")
+        return ", ".join(parts)
 
-    def _font(self, size, text, bold=False):
-        key = size, fonts.best_file(text, bold)
-        if key not in self.fonts:
-            self.fonts[key] = ImageFont.truetype(key[1], max(SMALLEST, round(size * self.scale)))
-        return self.fonts[key]
+    def _line(self, text, size, bold=False):
+        sheet = self.pen.sheet(1.5 * size, 190)
+        self.pen.write(sheet, 0.15 * size, text, size, bold=bold)
+        return sheet
 
-    def _room(self):
-        """Width of a line. [pixel]"""
-        return self.size[0] - 2 * PAD * self.scale
 
-    def _fitting(self, size, text, bold=False):
-        """The font of the size, or a smaller one with which the text fits the width."""
-        return self._font(min(size, size * self._room() / max(self._font(size, text, bold).getlength(text), 1)), text, bold)
+class Strip:
+    """Time, ground acceleration and origin of a run (Frames) below pictures of (width, height) pixels."""
 
-    def _write(self, pen, top, text, size, ink, bold=False):
-        """Write a line, made smaller and at last cut to fit the width. top: of the line [pixel]"""
-        font = self._fitting(size, text, bold)
-        while font.getlength(text) > self._room() and len(text) > 2:
-            text = text[:-2] + "…"
-        pen.text((PAD * self.scale, top), text, ink + (255,), font)
+    def __init__(self, run, origin, size):
+        self.run, self.pen = run, Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
+        self.span = first_shown(run), float(run.time[-1])
+        self.left = round(CLOCK * self.pen.scale)
+        top, small = TRACE if run.motion else 1.5 * TEXT, max(SMALL, SMALLEST / self.pen.scale)
+        self.still = self.pen.sheet(top + 1.5 * small)
+        self.width, self.height = self.still.size
+        if run.motion:
+            self._draw_trace()
+        curve = "Ground acceleration, N-S blue, E-W orange: " * bool(run.motion)
+        self.pen.write(self.still, top, curve + drawable(origin), small, SOFT)
+        self.still = self.still.convert("RGB")
 
-    def _wrapped(self, text, size):
-        """Lines of a text that is too wide even in the smallest font, broken between words."""
-        font, lines = self._fitting(size, text), [""]
-        for word in text.split(" "):
-            longer = f"{lines[-1]} {word}".strip()
-            if lines[-1] and font.getlength(longer) > self._room():
-                lines.append(word)
-            else:
-                lines[-1] = longer
-        return lines
+    def at(self, time):
+        """Image (of Pillow) at a time [s]."""
+        image = self.still.copy()
+        self.pen.write(image, 0.5 * (TRACE - TEXT) * bool(self.run.motion), f"{time:6.2f} s", TEXT)
+        if self.run.motion:
+            share = np.clip((time - self.span[0]) / (self.span[1] - self.span[0]), 0, 1)
+            column = self.left + int(share * (self.width - self.left - 2))
+            image.paste(INK, (column, 0, column + 2, round(TRACE * self.pen.scale)))
+        return image
 
-    def _head(self, title, view, origin):
-        """Title, and origin of the run, at the top."""
-        lines = self._wrapped(f"{view[0].upper()}{view[1:]}. {origin}", SMALL)
-        step = 1.2 * max(SMALLEST, SMALL * self.scale)
-        sheet, pen = self._sheet((TITLE + SMALL + 1.6 * PAD) * self.scale + (len(lines) - 1) * step)
-        gap = 0.5 * PAD * self.scale
-        self._write(pen, gap, title, TITLE, INK, bold=True)
-        for number, line in enumerate(lines):
-            self._write(pen, 1.5 * gap + TITLE * self.scale + number * step, line, SMALL, SOFT)
-        return Overlay(sheet)
-
-    def _foot(self, text):
-        sheet, pen = self._sheet((TEXT + 0.9 * PAD) * self.scale)
-        self._write(pen, 0.3 * PAD * self.scale, text, TEXT, INK)
-        return Overlay(sheet)
-
-    def _trace(self):
+    def _draw_trace(self):
         """Ground acceleration over the time of the run."""
-        motion, (width, _) = self.run.motion, self.size
-        self.span = 0.0, float(self.run.time[-1])
-        sheet, pen = self._sheet(TRACE * self.scale)
-        height = sheet.size[1]
+        motion, pen = self.run.motion, ImageDraw.Draw(self.still)
+        height, count = TRACE * self.pen.scale, 2 * (self.width - self.left)
         most = abs(motion.acceleration).max() or 1.0
         for column, key in ((0, "ew"), (1, "ns")):
-            values = np.interp(np.linspace(*self.span, 2 * width), motion.time, motion.acceleration[:, column], 0, 0)
-            points = np.column_stack([np.arange(2 * width) / 2, height * (0.5 - 0.48 * values / most)])
+            values = np.interp(np.linspace(*self.span, count), motion.time, motion.acceleration[:, column], 0, 0)
+            points = np.column_stack([self.left + np.arange(count) / 2, height * (0.5 - 0.48 * values / most)])
             pen.line([tuple(point) for point in points], tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)
-        if self.scale < LABELLED:
-            return Overlay(sheet)
-        label = f"ground acceleration, up to {most:.1f} m/s²: N-S blue, E-W orange"
-        self._write(pen, 1, label, 0.85 * SMALL, SOFT)
-        return Overlay(sheet)
-
-    def _sheet(self, height):
-        """Half transparent paper over the whole width."""
-        sheet = Image.new("RGBA", (self.size[0], max(1, round(height))), PAPER + (190,))
-        return sheet, ImageDraw.Draw(sheet)
-
-
-class Overlay:
-    """A half transparent image (RGBA) to draw over images of the same width."""
-
-    def __init__(self, image):
-        self.height = image.height
-        self.ink, self.opacity = image.convert("RGB"), image.getchannel("A")
-
-    def on(self, image, top):
-        """Draw it over the rows of an image from `top` on."""
-        image.paste(self.ink, (0, top), self.opacity)

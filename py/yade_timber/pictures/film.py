@@ -2,6 +2,8 @@
 """Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow. Needs no YADE.
 
 Positions are interpolated between recorded frames, the ground moves as recorded, the camera stands still.
+The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the processor (SwiftShader),
+a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
 """
 import shutil
 import subprocess
@@ -14,26 +16,35 @@ from PIL import Image
 
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
+from ..recording.summary import collapse_time
 from . import camera, copies
-from .caption import Caption
-from .key_times import first_shown
+from .caption import Caption, Strip
+from .key_times import first_shown, last_change
+from .provenance import provenance
 from .stage import Stage
 
 ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4")
-METHOD = 0
-"""Of WebP, 0 to 6: a third larger than at 2, in half of the time."""
+WEBP = dict(loop=0, method=2, kmin=0, kmax=1)
+"""Each picture is a key frame: a difference to the picture before leaves traces of what has moved."""
+SLOW, BEFORE_FALL, AFTER_FALL = 0.25, 0.7, 1.8
+"""Speed around the first fall [-], from and to these times before and after it [s]."""
+HOLD = 2.0
+"""Time for which the last picture stays. [s]"""
+ROUNDING = 1e-6
+"""Of sums of time steps. [s]"""
 LONGEST = 36000
 """Largest number of pictures in a film. [-]"""
 
 
 @dataclass(frozen=True)
 class Format:
-    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film; quality: of WebP, 0 to 100."""
+    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film, None: 1, and SLOW around the first fall;
+    quality: of WebP, 0 to 100."""
 
-    width: int = 1280
-    height: int = 720
+    width: int = 1920
+    height: int = 1080
     rate: float = 30.0
-    speed: float = 1.0
+    speed: float | None = None
     quality: int = 60
 
 
@@ -41,30 +52,37 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the format.
 
     runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking (from the start,
-    if `end` is earlier) to the end of the longest run.
+    if `end` is earlier) until no picture differs visibly from the last one.
     Raises RunError when it cannot be made, OSError when it cannot be written.
     """
     if not all(len(run.time) for run in runs):
         raise RunError("a run without frames")
-    last = max(run.time[-1] for run in runs)
-    end = last if end is None else min(end, last)
+    end = max(map(last_change, runs)) if end is None else min(end, max(run.time[-1] for run in runs))
     begin = _default_begin(runs, end) if begin is None else begin
     if not begin < end:
         raise RunError(f"a film from {begin:g} s to {end:g} s has no pictures")
-    count = max(1, round((end - begin) / form.speed * form.rate))
-    if count > LONGEST:
-        raise RunError(f"a film of {count} pictures; at most {LONGEST}: choose a shorter time, a higher speed or fewer pictures per second")
     form = replace(form, width=form.width // len(runs) * len(runs))
-    times = begin + np.arange(count) * form.speed / form.rate
+    times = picture_times(runs, form, begin, end)
     with written_whole(path) as part:
-        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(part, partial(images, runs, view, form, times), form, count)
-    return count
+        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(part, partial(images, runs, view, form, times), form, len(times))
+    return len(times)
+
+
+def picture_times(runs, form, begin, end):
+    """Times of the pictures from `begin` to `end`. [s]"""
+    fall = min((time for run in runs for time in (collapse_time(run.summary),) if time is not None), default=np.inf)
+    times = [begin]
+    while times[-1] < end - ROUNDING and len(times) <= LONGEST:
+        slow = form.speed is None and fall - BEFORE_FALL <= times[-1] < fall + AFTER_FALL
+        times.append(times[-1] + (SLOW if slow else form.speed or 1.0) / form.rate)
+    if len(times) > LONGEST:
+        raise RunError(f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer pictures per second")
+    return times[:-1]
 
 
 def images(runs, view, form, times):
     """Images (of Pillow) at times [s], one after the other; each may reuse the memory of the one before."""
-    drawn = Pictures(runs, view, form)
-    yield from map(drawn.at, times)
+    yield from map(Pictures(runs, view, form).at, times)
 
 
 def _default_begin(runs, end):
@@ -79,28 +97,30 @@ def default_name():
 
 
 class Pictures:
-    """Draws the runs side by side with one camera, and their captions."""
+    """Draws the runs side by side with one camera, a caption on each, and the strip below: one for both runs of the same origin."""
 
     def __init__(self, runs, view, form):
-        width = form.width // len(runs)
+        self.picture = Image.new("RGB", (form.width, form.height))
+        origins = [provenance(run) for run in runs]
+        below = runs if len(set(origins)) > 1 else runs[:1]
+        self.strips = [Strip(run, origin, (form.width // len(below), form.height)) for run, origin in zip(below, origins)]
+        size = form.width // len(runs), form.height - self.strips[0].height
         starts = [corners(run) for run in runs]
         shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
-        seen = camera.look(view, shown, width / form.height)
+        seen = camera.look(view, shown, size[0] / size[1])
         light = camera.sun(np.concatenate(starts))
-        self.stages = [Stage(run, (width, form.height), seen, light) for run in runs]
-        self.both = Image.new("RGB", (form.width, form.height))
-        self.captions = [Caption(run, (width, form.height), view, form.speed) for run in runs]
+        self.stages = [Stage(run, size, seen, light) for run in runs]
+        self.captions = [Caption(run, size) for run in runs]
 
     def at(self, time):
         """Image (of Pillow) at a time [s]."""
-        parts = [stage.picture(min(time, stage.frames.time[-1])) for stage in self.stages]
-        for part, caption in zip(parts, self.captions):
+        for number, (stage, caption) in enumerate(zip(self.stages, self.captions)):
+            part = stage.picture(min(time, stage.frames.time[-1]))
             caption.on(part, time)
-        if len(parts) == 1:
-            return parts[0]
-        for number, part in enumerate(parts):
-            self.both.paste(part, (number * part.width, 0))
-        return self.both
+            self.picture.paste(part, (number * part.width, 0))
+        for number, strip in enumerate(self.strips):
+            self.picture.paste(strip.at(time), (number * strip.width, self.picture.height - strip.height))
+        return self.picture
 
 
 def corners(run, frame=None):
@@ -110,7 +130,7 @@ def corners(run, frame=None):
 
 
 def _write_mp4(path, make, form, _count):
-    """Pass the images to ffmpeg, which encodes them in another process."""
+    """Pass the images to ffmpeg, which encodes them in another process; the last one is repeated."""
     source = ("-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i", "-")
     even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
     command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
@@ -123,6 +143,8 @@ def _write_mp4(path, make, form, _count):
     listener.start()
     try:
         for image in make():
+            process.stdin.write(image.tobytes("raw", "RGBX"))
+        for _ in range(round(HOLD * form.rate)):
             process.stdin.write(image.tobytes("raw", "RGBX"))
         process.stdin.close()
     except BrokenPipeError:
@@ -139,10 +161,10 @@ def _write_mp4(path, make, form, _count):
 
 def _write_webp(path, make, form, count):
     """Encode the images by Pillow, while a copy of this process draws the next."""
-    options = dict(duration=round(1000 / form.rate), loop=0, quality=form.quality, method=METHOD, kmax=0)
+    durations = [round(1000 / form.rate)] * (count - 1) + [round(1000 * (HOLD + 1 / form.rate))]
     try:
         with copies.ahead(make) as images:
-            Reel(images, count).save(path, "webp", save_all=True, **options)
+            Reel(images, count).save(path, "webp", save_all=True, duration=durations, quality=form.quality, **WEBP)
     except (KeyError, ValueError) as problem:  # Pillow without WebP; a size that WebP does not have
         raise RunError(f"Pillow cannot write this film as WebP ({problem})") from None
 

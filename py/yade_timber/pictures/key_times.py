@@ -116,3 +116,9 @@ def first_shown(frames):
     moving = frames.history.time[frames.history.largest_drift() > AT_REST]
     first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
     return float(start) if 0 < start < first else 0.0
+
+
+def last_change(frames):
+    """Last time at which the picture differs visibly from the end of the run; the end, when none does. [s]"""
+    differing = np.asarray(frames.time)[differences(frames, len(frames.time) - 1) >= DIFFERENT]
+    return float(differing[-1] if len(differing) else frames.time[-1])

@@ -23,7 +23,7 @@ from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaki
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
-from .key_times import largest_drift, onset, strongest_shaking
+from .key_times import first_shown, largest_drift, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
 
@@ -109,6 +109,7 @@ def info(run, largest):
         "breaks": breaks(run),
         "kinds": kinds({plain(kind) for kind in e.kind}),
         "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
+        "first": first_shown(run),
         "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in drifts(run)],
         "levels": [{"value": value, "text": text.split()[0]} for value, text in english.DRIFT_LINES],
         "events": events(run),

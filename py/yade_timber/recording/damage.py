@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .frames import Elements, Joints, rotated
+from .frames import Elements, Joints, placed, rotated
 from .summary import Broken, Columns, JointCounts
 from .verdict import Structure
 from .walls import of_walls, sheet_states
@@ -21,7 +21,9 @@ SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
 """Inclination beyond which a column has fallen. [rad]"""
 SNOW_DROP = 1.0
-"""Snow has fallen when its centre is lower by this than its place on the roof. [m]"""
+"""Snow has fallen when its centre is lower by this than its place on the roof, and it has left the roof's outline or touches the ground. [m]"""
+TOUCH = 0.05
+"""Height of the lowest corner of snow that touches the ground. [m]"""
 
 
 @dataclass(frozen=True)
@@ -189,11 +191,21 @@ class DamageSurvey:
         return found
 
     def fallen_snow(self, state):
-        """Numbers of the roof elements that have lost their snow (SNOW_DROP)."""
+        """Numbers of the roof elements that have lost their snow (SNOW_DROP, `_has_left`)."""
         if not self._snow:
             return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
-        return [roof for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
+        lower = [(snow, roof) for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
+        return [roof for snow, roof in lower if self._has_left(state, snow)]
+
+    def _has_left(self, state, snow):
+        """Whether snow touches the ground, or has no corner above the rectangle in plan around the roofs of its structure."""
+        e = self.elements
+        corners = [placed(*parts) for parts in zip(e.vertices, state.position, state.orientation)]
+        roofs = np.concatenate([corners[k] for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]])[:, :2]
+        slab = corners[snow]
+        outside = (slab[:, :2].max(0) < roofs.min(0)) | (slab[:, :2].min(0) > roofs.max(0))
+        return bool(outside.any() or slab[:, 2].min() < TOUCH)
 
 
 def _vertical(q):

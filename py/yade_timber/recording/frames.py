@@ -21,8 +21,8 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 /history     of an ended run: columns (names with units), rows; the table of history.csv
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
-Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. The file of an unfinished or killed run
-holds those up to its last checkpoint.
+Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has ended, the frames and contacts up to
+its last checkpoint are in frames.log beside the file (frame_log.py), which `load` reads, too.
 """
 import json
 from dataclasses import dataclass, field
@@ -36,6 +36,8 @@ from ..base.atomic_write import written_from_memory
 from ..base.errors import RunError
 from ..base.input_file import require_regular
 from ..base.json_types import encode
+from ..base.time_step import rest_stride
+from . import append_log, frame_log
 from .history import History
 from .summary import Summary, parse
 
@@ -48,8 +50,9 @@ ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
 def steps_between(dt):
-    """Number of steps of dt [s] between two frames."""
-    return max(1, round(1 / (FRAMES_PER_SECOND * dt)))
+    """Number of steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
+    stride = rest_stride(dt)
+    return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
 
 
 class _ShortRepr:
@@ -234,9 +237,8 @@ def _save_group(group, values):
 
 def _series(frames):
     """The frames as arrays of the file's types; without frames, too, their shapes hold the numbers of elements and joints."""
-    count, n, j = len(frames.time), len(frames.elements.name), len(frames.joints.name)
-    shapes = {"time": ("f8", ()), "position": ("f4", (n, 3)), "orientation": ("f4", (n, 4)), "load": ("f4", (j,)), "broken": ("u1", (j,))}
-    return {name: np.asarray(getattr(frames, name), kind).reshape(count, *shape) for name, (kind, shape) in shapes.items()}
+    types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
+    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape) for name, kind in types.items()}
 
 
 def starts(lists):
@@ -271,6 +273,9 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
                 raise RunError(f"{path}: no recorded frames ({FORMAT})")
             _check_size(file, path)
             loaded = _load(file)
+        if loaded.summary is None:
+            frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
+            vars(loaded).update(_series(loaded))
         _check_shapes(loaded)
     except RunError:
         raise

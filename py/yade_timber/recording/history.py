@@ -33,7 +33,9 @@ class History(Series):
         return tuple(int(name[len("drift_ns"):].partition(" ")[0]) for name in self.columns if name.startswith("drift_ns"))
 
     def drift(self, storey, direction):
-        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-]"""
+        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError."""
+        if storey not in self.storeys or direction not in DIRECTIONS:
+            raise KeyError(f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))}; directions {', '.join(DIRECTIONS)}")
         return self.column(f"drift_{direction}{storey}")
 
     def drifts(self):

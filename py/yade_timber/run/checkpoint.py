@@ -2,25 +2,28 @@
 """The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that line. YADE's loader
-stops before it, so the file also opens with `O.load`. The binary format keeps every bit of every number.
+stops before it, so the file also opens with `O.load`, without the monitors' earlier rows (samples.py). The binary format keeps every bit of every number.
 
-A checkpoint is code: YADE creates whatever engines the file names, a PyRunner too, and no part of its format can be checked before. `sha256` finds
-damage, not forgery.
+YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each such class, with its namespace, before
+the first object of it; a file that names other classes than a run writes is refused before YADE reads it. `sha256` finds damage, not forgery.
 """
 import hashlib
 import json
 import os
+import re
 from pathlib import Path
 
 import yade.wrapper as yw
 
+from .. import _class_names
 from ..base.atomic_write import written_from_memory
-from ..base.encoding import encodable
 from ..base.errors import RunError
 from ..base.input_file import require_regular
 
 NAME = "checkpoint.yade"
 REMEDY = "run without --resume to start anew"
+CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}
+"""Classes of objects in a run's scene."""
 O = yw.Omega()
 
 
@@ -52,18 +55,34 @@ def load(path, identity):
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     _require_same(path, seal["identity"], identity)
+    _require_classes(path, body)
     try:
-        with encodable(path) as name:
-            O.load(name, quiet=True)
+        _load(body)
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
     return seal["progress"]
 
 
 def _require_own(path):
-    """Raise RunError for a file of another user: to load it is to run their code."""
+    """Raise RunError for a file of another user: YADE's loader is not safe against every forged file."""
     if path.stat().st_uid != os.geteuid():
-        raise RunError(f"{path}: belongs to another user, and a checkpoint can run any code; copy it if you trust its origin, or {REMEDY}")
+        raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+
+
+def _load(content):
+    """Load the bytes that were checked, whatever is at the path by now."""
+    descriptor = os.memfd_create(NAME)
+    with open(descriptor, "wb") as memory:
+        memory.write(content)
+        memory.flush()
+        O.load(f"/proc/self/fd/{descriptor}", quiet=True)
+
+
+def _require_classes(path, content):
+    """Raise RunError for a scene that names classes which no run writes."""
+    foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", content)} - CLASSES)
+    if foreign:
+        raise RunError(f"{path}: holds {foreign[0][:40]}, which no run of this package saves; {REMEDY}")
 
 
 def _require_same(path, saved, wanted):

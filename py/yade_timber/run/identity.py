@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The identity of a run: everything that decides its results, and nothing else. Needs no YADE.
+"""The identity of a run: the options that decide its results, fingerprints of the files that they name and of the package. Needs no YADE.
 
-`identity`   of a built run: the values of its scenario, fingerprints of the house as built and of the package. Checkpoint and frames carry it.
-`made_from`  the same from the command line, before anything is built: options, fingerprints of the files they name and of the package.
-             summary.json carries it; a study repeats a run whose `made_from` has changed.
+`made_from` stands in summary.json; a study repeats a run whose `made_from` has changed. Checkpoint and frames carry `identity`, which allows another
+duration and moved house and record files.
 """
 import json
 import sys
@@ -11,10 +10,9 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from ..base.input_file import is_file
-from ..house import HouseError
+from ..base.errors import InputError
+from ..house.description import house_path
 from ..house.loader import house_files
-from ..motion import RecordError
 from ..motion.readers import find_files
 from ..motion.sequence import following
 
@@ -24,48 +22,27 @@ DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/en
 """Files in these rooms that change only the display."""
 
 
-def identity(scenario, model):
-    """{property: value as JSON returns it} of a scenario and its HouseModel. The duration is left out: a run can be lengthened."""
-    motion = scenario.motion and [scenario.motion.name, scenario.motion.dt, of_arrays([scenario.motion.acceleration])]
-    joints = [[j.a, j.b, j.kn, j.ks, j.strength, j.per, j.damping_ratio, j.broken, j.kind, j.name, *_slip(j)] for j in model.joints]
-    elements = [[e.name, e.kind, e.group, e.material, e.density, e.fixed, e.storey] for e in model.elements]
-    known = {
-        "name": scenario.name,
-        "house": Path(scenario.house).stem,  # a house file may be moved: its content counts as built
-        "motion": motion,
-        "snow_depth": scenario.snow_depth,
-        "scale": scenario.scale,
-        "delay": scenario.delay,
-        "dt": scenario.dt,
-        "until collapse": scenario.until_collapse,
-        "options": {key: str(value) for key, value in scenario.options.items()},
-        "elements": of_arrays(e.vertices for e in model.elements),
-        "element values": of_values(elements),
-        "joints": of_arrays(part for j in model.joints for part in (j.points, j.normal)),
-        "joint values": of_values(joints),
-        "materials": of_values([model.materials, model.friction]),
-        "law": of_values(model.law),
-        "package": package(),
-    }
-    return json.loads(json.dumps(known))
-
-
-def _slip(joint):
-    return joint.law, joint.friction_share, joint.softening_stretch, joint.ultimate_stretch, joint.envelope
-
-
-def made_from(options, house=None):
-    """Content of `made_from` in summary.json.
-
-    options: arguments of the command line that decide the results (cli.decisive); house: name or file that the script gives, unless they name it
-    """
-    arguments = [str(argument) for argument in options]
-    own = [] if house is None or str(house) in arguments else [str(house)]
+def made_from(options):
+    """Content of `made_from` in summary.json. options: RunOptions"""
     try:
-        files = of_files(_named_files([*arguments, *own]))
-    except (HouseError, RecordError, OSError):
+        files = of_files(_input_files(options))
+    except (InputError, OSError):
         files = None  # the run itself reports the fault
-    return {"options": arguments, "files": files, "package": package()}
+    return {"options": options.decisive(), "files": files, "package": package()}
+
+
+def identity(origin):
+    """{property: value} that a checkpoint and the run that continues it have in common. origin: `made_from` of the run"""
+    options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
+    return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"], "package": origin["package"]}
+
+
+def _input_files(options):
+    """Town file, house file with those that it extends, and records."""
+    records = [options.record] if options.record else []
+    records += [record for record, _ in following(options.then, "then")] if options.then else []
+    town = [options.town] if options.town else []
+    return [*town, *house_files(house_path(options.house)), *(file for record in records for file in find_files(record))]
 
 
 @cache
@@ -104,17 +81,3 @@ def of_files(paths):
     for path in paths:
         total.update(sha256(Path(path).read_bytes()).digest())
     return total.hexdigest()[:16]
-
-
-def _named_files(arguments):
-    """House files, with those they extend, and records that a command line names."""
-    files = []
-    for before, argument in zip(["", *arguments], arguments):
-        option, _, value = argument.partition("=") if argument.startswith("--") else (before, "", argument)
-        if option == "--record" and value:
-            files += find_files(value)
-        elif option == "--then" and value:
-            files += [file for record, _ in following(value, option) for file in find_files(record)]
-        elif value and not value.startswith("-") and is_file(Path(value)):
-            files += house_files(value)
-    return files

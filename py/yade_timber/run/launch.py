@@ -12,8 +12,8 @@ from ..base.interrupt import deferred_interrupt
 
 
 def launch(read, ensemble, argv=None):
-    """Run the (Scenario or TownPlan, Output) that `read(cli, argv)` returns; returns the Run or TownRun, or the result of
-    `ensemble(scenario, output)` where one is asked for.
+    """Run what `read(cli, argv)` returns: (Scenario or TownPlan, RunOptions); returns the Run or TownRun, or the result of
+    `ensemble(scenario, options)` where one is asked for.
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
     """
@@ -25,32 +25,32 @@ def launch(read, ensemble, argv=None):
             from .runner import Interrupted
     except KeyboardInterrupt:
         leave("stopped by SIGINT before the run", 128 + signal.SIGINT)
-    output = None
+    options = None
     try:
         with deferred_interrupt():
-            scenario, output = read(cli, sys.argv if argv is None else argv)
-        return _run(session, scenario, output) if output.ensemble is None else ensemble(scenario, output)
+            scenario, options = read(cli, sys.argv if argv is None else argv)
+        return _run(session, scenario, options) if options.ensemble is None else ensemble(scenario, options)
     except InputError as problem:
         leave(f"error: {problem}", 1)
     except Interrupted as stop:
-        remedy = "continue with --resume" if output.checkpoint_interval > 0 else "nothing was saved (--checkpoint 0)"
+        remedy = "continue with --resume" if options.checkpoint > 0 else "nothing was saved (--checkpoint 0)"
         leave(f"stopped by {signal.Signals(stop.number).name} at {stop.time:.2f} s; {remedy}", 128 + stop.number)
     except KeyboardInterrupt:  # before the first step, or while results and pictures are written
-        remedy = f"; the same command makes the results, scripts/show/show_run.py the pictures in {output.folder}" if output else ""
+        remedy = f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}" if options else ""
         leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 
-def _run(session, scenario, output):
+def _run(session, scenario, options):
     """Run to the end, or start a live run; returns the Run."""
     from ..host import has_prompt
-    from .cli import TownPlan
+    from .plan import TownPlan
 
     if isinstance(scenario, TownPlan):
-        return session.complete_town(scenario, output)
+        return session.complete_town(scenario, options)
     if not has_prompt():
-        return session.complete(scenario, output)
-    started = session.start(scenario, output)
-    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {output.folder} at the end")
+        return session.complete(scenario, options)
+    started = session.start(scenario, options)
+    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {options.folder} at the end")
     return started
 
 

@@ -8,9 +8,9 @@ import math
 import numpy as np
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
+from ..plugin import compiled
 from ..recording import frames, own_weight
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
@@ -119,13 +119,13 @@ def break_row(entry, model):
 
 def placements():
     """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a body that was removed."""
-    position, orientation = _plugin.packed_placements()
+    position, orientation = compiled.packed_placements()
     return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
 
 
 def joint_loads():
     """((J,) load over strength, float32; (J,) number of broken springs, uint8)."""
-    load, broken = _plugin.packed_joints(find_engine(yw.JointEngine))
+    load, broken = compiled.packed_joints(find_engine(yw.JointEngine))
     return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
 
 
@@ -137,7 +137,7 @@ def largest_so_far():
 
 def contact_points():
     """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
-    pair, position, force = _plugin.packed_contacts()
+    pair, position, force = compiled.packed_contacts()
     return np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(force, "f4").reshape(-1, 3)
 
 

@@ -3,8 +3,10 @@
 import numpy as np
 import yade.wrapper as yw
 
+from ..base.atomic_write import remove
 from ..base.errors import RunError
-from ..recording import frames
+from ..recording import frame_log, frames
+from ..recording.append_log import AppendLog
 from ..recording.history import History
 from ..scene.engines import find_engine
 from . import observer
@@ -17,53 +19,58 @@ O = yw.Omega()
 class Recorder:
     """Frames of a run; the caller decides the times (frames.steps_between). run: fingerprint of its identity."""
 
-    def __init__(self, scenario, model, title, run=""):
+    def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
         version = versions()["package"]
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints, motion=observer.describe_motion(), run=run)
+        self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []
+        self.described = False  # whether the file holds elements and joints of this run
 
     def take(self, time, last=False):
         """Record the scene as it is now, unless that is done. time [s]; last: whether it is the final state."""
-        made = self.frames
-        if made.time and made.time[-1] > time + O.dt / 2:  # an earlier state was loaded
-            self._take_over(made, time)
-        if made.time and made.time[-1] > time - O.dt / 2:
+        if self.times and self.times[-1] > time + O.dt / 2:  # an earlier state was loaded
+            self._cut(time)
+        if self.times and self.times[-1] > time - O.dt / 2:
             return
-        made.time.append(time)
-        for name, values in zip(("position", "orientation", "load", "broken"), (*observer.placements(), *observer.joint_loads())):
-            getattr(made, name).append(values)
-        if last or (len(made.time) - 1) % frames.CONTACT_EVERY == 0:
-            made.contacts.time.append(time)
-            for name, values in zip(("pair", "position", "force"), observer.contact_points()):
-                getattr(made.contacts, name).append(values)
+        self.times.append(time)
+        elements, joints = len(self.frames.elements.name), len(self.frames.joints.name)
+        bodies = (values[:elements] for values in observer.placements())
+        self.log.add(frame_log.FRAME, time, *bodies, *(values[:joints] for values in observer.joint_loads()))
+        if last or (len(self.times) - 1) % frames.CONTACT_EVERY == 0:
+            self.log.add(frame_log.CONTACTS, time, *observer.contact_points())
 
-    def restore(self, path):
-        """Take over the frames of a file up to the present time. Raises RunError when they are missing, of another run, or end earlier."""
-        given = frames.load(path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
-        if given.run != self.frames.run or given.position.shape[1:] != (len(self.frames.elements.name), 3):
-            raise RunError(f"{path}: frames of another run than the checkpoint; {REMEDY}")
-        expected = O.iter // frames.steps_between(O.dt) + 1
-        self._take_over(given, O.time)
-        if len(self.frames.time) < expected:
-            raise RunError(f"{path}: {len(self.frames.time)} frames up to the checkpoint at {O.time:g} s, {expected} are needed; {REMEDY}")
+    def _cut(self, time):
+        self.log.cut(time + O.dt / 2)
+        self.times = self.times[:np.searchsorted(self.times, time + O.dt / 2)]
 
-    def _take_over(self, given, time):
-        """Take over frames up to a time [s]."""
-        count = np.searchsorted(given.time, time + O.dt / 2)
-        for name in ("time", "position", "orientation", "load", "broken"):
-            setattr(self.frames, name, list(getattr(given, name)[:count]))
-        count = np.searchsorted(given.contacts.time, time + O.dt / 2)
-        for name, values in list(vars(given.contacts).items()):
-            setattr(self.frames.contacts, name, values[:count])
+    def resume(self):
+        """Take over the recorded frames up to the present time. Raises RunError when they are missing, of another run, or end earlier; OSError."""
+        earlier = frames.load(self.path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
+        if earlier.run != self.frames.run or earlier.position.shape[1:] != (len(self.frames.elements.name), 3):
+            raise RunError(f"{self.path}: frames of another run than the checkpoint; {REMEDY}")
+        self.times, expected = list(earlier.time), O.iter // frames.steps_between(O.dt) + 1
+        self.described = earlier.summary is None
+        if not self.described:  # the frames are in the file itself
+            remove(self.log.path)
+            frame_log.log_frames(self.log, earlier)
+        self._cut(O.time)
+        if len(self.times) < expected:
+            raise RunError(f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are needed; {REMEDY}")
+        self.save()
 
-    def save(self, path):
-        """Write the frames so far. Raises OSError."""
-        frames.save(path, self.frames)
+    def save(self):
+        """Append the new frames to the log. Raises OSError."""
+        self.log.flush()
+        if not self.described:  # also of a run that is resumed after its end
+            frames.save(self.path, self.frames)
+            self.described = True
 
-    def finish(self, path, found):
-        """Write the frames with all that is known at the end. found: the summary. Raises OSError."""
+    def finish(self, found):
+        """Write all frames and all that is known at the end into one file. found: the summary. Raises OSError."""
         monitor = find_engine(yw.HouseMonitor)
         self.frames.summary = found
         self.frames.history = History(monitor.columns(), monitor.rows)
         self.frames.breaks = observer.describe_breaks()
-        self.save(path)
+        frame_log.add_frames(self.frames, self.log.records())
+        frames.save(self.path, self.frames)
+        remove(self.log.path)

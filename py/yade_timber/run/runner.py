@@ -10,18 +10,21 @@ import yade.wrapper as yw
 from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..pictures import REPORT, all_pictures
-from ..recording import ensemble, frames
+from ..recording import ensemble, frame_log, frames
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
 from ..text.english import sentence
-from . import checkpoint, quantities, summary
+from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Progress
 from .recorder import Recorder
+from .samples import Samples
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
+"""Files of the frames, and of what a resumed run continues from."""
 
 O = yw.Omega()
 
@@ -39,19 +42,20 @@ class PhysicsError(RunError):
 
 
 class Run:
-    """A scenario in YADE, its outputs (cli.Output), and its progress. The number of steps is duration / dt; a collapse may end the run earlier."""
+    """A scenario in YADE, its RunOptions, and its progress. The number of steps is duration / dt; a collapse may end the run earlier."""
 
-    def __init__(self, scenario, output):
-        self.scenario, self.output = scenario, output
+    def __init__(self, scenario, options):
+        self.scenario, self.options = scenario, options
+        self.origin = made_from(options)
         self.steps = round(scenario.duration / scenario.dt)
         self.chunk = frames.steps_between(scenario.dt)  # steps between two frames, and between checks of signals and checkpoint times
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
         self.signal = None
         self.summary = None  # once the results are written
-        self.only_export = bool(output.export) and self.steps == 0  # results in the folder are left alone
-        self.checkpoint_path, self.frames_path = output.folder / checkpoint.NAME, output.folder / frames.NAME
-        if not (output.resume and self.checkpoint_path.exists() and self._resume()):
+        self.only_export = options.export is not None and self.steps == 0  # results in the folder are left alone
+        self.checkpoint_path, self.frames_path = options.folder / checkpoint.NAME, options.folder / frames.NAME
+        if not (options.resume and self.checkpoint_path.exists() and self._resume()):
             self._start()
         skipper = find_engine(yw.RestSkipper)
         if skipper:
@@ -61,60 +65,64 @@ class Run:
 
     def _start(self):
         """Build the scene."""
-        self.model = build(self.scenario, self.chunk)
-        if self.output.export:
+        self.model = build(self.scenario)
+        if self.options.export:
             self._export()
         if self.only_export:
             return
-        clear(self.output.folder, frames.NAME, checkpoint.NAME)
+        clear(self.options, *RECORDED, *STATE)
         self._observe()
         self.observer.observe(O.time)
         if self.recorder:
             self.recorder.take(O.time)
-        if self.output.resume:
-            self.report(f"no checkpoint of this run in {self.output.folder}: starting from the beginning")
+        if self.options.resume:
+            self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
         """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not, unless the run may start anew."""
         try:
             self._load()
         except RunError:
-            if not self.output.or_anew:
+            if not self.options.or_anew:
                 raise
             self.wall_s, self.last_saved = 0.0, 0
             return False
-        if self.recorder:
-            self.recorder.save(self.frames_path)  # without the results of an earlier end
-        clear(self.output.folder, *([] if self.recorder else [frames.NAME]))
+        clear(self.options, *([] if self.recorder else RECORDED))
         self.report(f"resuming from {O.time:.2f} s")
         return True
 
     def _load(self):
         self.model = self.scenario.build_model()
-        saved = checkpoint.load(self.checkpoint_path, identity(self.scenario, self.model))
+        saved = checkpoint.load(self.checkpoint_path, identity(self.origin))
         if O.iter >= self.steps:
-            raise RunError(f"--duration {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
+            raise RunError(f"{self.options.named('duration')} {self.scenario.duration:g}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
         self._observe(saved)
-        if self.recorder:
-            self.recorder.restore(self.frames_path)
+        try:
+            self.samples.resume(saved["samples"], checkpoint.REMEDY)
+            if self.recorder:
+                self.recorder.resume()
+        except OSError as problem:
+            raise RunError(f"{self.options.folder}: the run cannot be continued ({problem.strerror})") from None
 
     def _observe(self, known=None):
         """Attach observer and recorder to the scene. known: `progress` of a checkpoint."""
-        self.identity = identity(self.scenario, self.model)
+        self.identity = identity(self.origin)
         self.observer = Observer(self.model, known)
-        recorded = self.output.frames
-        self.recorder = Recorder(self.scenario, self.model, title(self.scenario, self.model), of_values(self.identity)) if recorded else None
+        run, folder = of_values(self.identity), self.options.folder
+        self.samples = Samples(folder / samples.NAME, run)
+        titled = title(self.scenario, self.model)
+        self.recorder = None if self.options.no_frames else Recorder(self.frames_path, self.scenario, self.model, titled, run)
 
     def _export(self):
         try:
-            export_scene(self.output.export)
+            export_scene(self.options.export)
         except OSError as problem:
-            raise RunError(f"--export {self.output.export}: cannot be written: {problem.strerror}") from None
+            raise RunError(f"{self.options.named('export')} {self.options.export}: cannot be written: {problem.strerror}") from None
 
     def report(self, text):
         """Print a line, unless the run is quiet."""
-        if not self.output.quiet:
+        if not self.options.quiet:
             print(text, flush=True)
 
     # --- steps --------------------------------------------------------------------------------------------------------
@@ -126,7 +134,7 @@ class Run:
         """
         try:
             if not self.only_export:
-                with self._stop_signals(), Progress(self.scenario, self.observer.log, self.output.quiet) as progress:
+                with self._stop_signals(), Progress(self.scenario, self.observer.log, self.options.quiet) as progress:
                     while O.iter < self.steps:
                         self._chunk()
                         progress.update()
@@ -206,22 +214,23 @@ class Run:
         self.wall_s += time.perf_counter() - since
 
     def _checkpoint_due(self):
-        if self.output.checkpoint_interval == 0:
+        if self.options.checkpoint == 0:
             return False
-        every = max(1, round(self.output.checkpoint_interval / self.scenario.dt))
+        every = max(1, round(self.options.checkpoint / self.scenario.dt))
         return O.iter // every > self.last_saved // every
 
     def save(self):
         """Save a checkpoint now, unless checkpoints are switched off. The frames are saved first: frames after a checkpoint can be dropped."""
-        if self.output.checkpoint_interval > 0:
+        if self.options.checkpoint > 0:
             try:
                 if self.recorder:
-                    self.recorder.save(self.frames_path)
-                checkpoint.save(self.checkpoint_path, self.identity, {"wall_s": self.wall_s, **self.observer.progress()})
+                    self.recorder.save()
+                progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
+                checkpoint.save(self.checkpoint_path, self.identity, progress)
             except OSError as problem:
                 remedy = "the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists() else "there is no earlier one"
                 fault = f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
-                raise RunError(f"{self.output.folder}: {fault}") from None
+                raise RunError(f"{self.options.folder}: {fault}") from None
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
@@ -232,16 +241,16 @@ class Run:
         cut_off: reason why the run ends before its duration. The last frame is then that of the last chunk.
         """
         if self.only_export:
-            self.report(f"written: {self.output.export}")
+            self.report(f"written: {self.options.export}")
             return
         if cut_off is None:
             self.take(O.time, last=True)
+        self.samples.restore()
         tables = quantities.tables(self.observer)
-        origin = made_from(self.output.options, self.scenario.house)
-        found = self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, origin, self.output.other_walls, cut_off)
+        found = self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
         written = self._results(found, tables)
         written += self._pictures()
-        written += [path for path in (self.output.export, self.checkpoint_path) if path and path.exists()]
+        written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
         if cut_off is None and found.cut_off:
@@ -251,18 +260,18 @@ class Run:
         written = []
         try:
             if self.recorder:
-                self.recorder.finish(self.frames_path, found)
+                self.recorder.finish(found)
                 written.append(self.frames_path)
-            return written + summary.write(self.output.folder, found, tables, self.observer.model)
+            return written + summary.write(self.options.folder, found, tables, self.observer.model)
         except OSError as problem:
-            raise RunError(f"{self.output.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
+            raise RunError(f"{self.options.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 
     def _pictures(self):
         try:
-            return draw(self.output.folder, self.output.views, self.output.report)
+            return draw(self.options.folder, self.options.views, self.options.report)
         except OSError as problem:
             fault = f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them"
-            raise RunError(f"{self.output.folder}: {fault}") from None
+            raise RunError(f"{self.options.folder}: {fault}") from None
 
 
 def draw(folder, views, page):
@@ -275,13 +284,13 @@ def draw(folder, views, page):
     return written
 
 
-def clear(folder, *more):
+def clear(options, *more):
     """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises RunError."""
     try:
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
-            remove(folder / name)
+            remove(options.folder / name)
     except OSError as problem:
-        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
+        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with {options.named('out')}") from None
 
 
 def title(scenario, model):

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.atomic_write import write_text
 from ..base.energy_terms import DISSIPATED, ELASTIC
 from ..base.errors import RunError
@@ -14,6 +13,7 @@ from ..base.json_types import decode, encode
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..motion import constant_note, interpolation_error, onset
+from ..plugin import compiled
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
@@ -33,9 +33,9 @@ NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, tables, wall_s, made_from, other_walls=None, cut_off=None):
+def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s: wall time of its steps so far [s];
-    other_walls: OtherWalls, of the walls of the other level; cut_off: reason why the run ends before its duration.
+    cut_off: reason why the run ends before its duration.
     Raises RunError for energies that are not finite.
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
@@ -54,12 +54,12 @@ def summary(scenario, observed, tables, wall_s, made_from, other_walls=None, cut
         weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}),
         joint_damping=scenario.joint_damping,
-        walls=Walls(level=model.law["wall_level"], other=other_walls) if model.law["wall_level"] else None,
+        walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
         record=record(scenario),
         dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse, cut_off=cut_off or created_too_much(energy),
         steps=O.iter, wall_s=round(wall_s, 3), skipped_s=round(skipper.skipped if skipper else 0.0, 3),
         real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None,
-        threads=_plugin.thread_count(), elements=len(O.bodies), joints=survey.count_all(),
+        threads=compiled.thread_count(), elements=len(O.bodies), joints=survey.count_all(),
         broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
         columns=survey.count_columns(state),
         leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection),

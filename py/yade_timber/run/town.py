@@ -10,16 +10,16 @@ from contextlib import contextmanager
 
 import yade.wrapper as yw
 
-from .. import _plugin
 from ..base.atomic_write import remove, remove_parts, write_text
 from ..base.errors import InputError, RunError
+from ..base.lock import prepare_folder
 from ..base.table import csv_text
 from ..house.town import check_places
 from ..pictures import all_pictures
+from ..plugin import compiled
 from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
-from .cli import prepare_folder
 from .runner import STOP_SIGNALS, Interrupted, Run
 from .town_progress import TownProgress
 
@@ -31,45 +31,45 @@ O = yw.Omega()
 
 
 class TownRun:
-    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, Output), one a lot; output: Output of the town"""
+    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, RunOptions), one a lot; options: of the town"""
 
-    def __init__(self, town, plans, output):
-        self.town, self.output = town, output
+    def __init__(self, town, plans, options):
+        self.town, self.options = town, options
         self.signal = None
         self.wall_s = 0.0  # [s] of all steps since the start of this process
         self.runs, self.scenes = [], []
-        for lot, (scenario, lot_output) in zip(town.lots, plans):
-            prepare_folder(lot_output.folder)
+        for lot, (scenario, lot_options) in zip(town.lots, plans):
+            prepare_folder(lot_options.folder, options.named("out"))
             with named(lot):
-                self.runs.append(Run(scenario, lot_output))
+                self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
         check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
         O.reset()
         self.idle = O._sceneObj
         try:
             for name in NAMES:
-                remove(output.folder / name)
-            for _, lot_output in plans:
-                remove_parts(lot_output.folder)
+                remove(options.folder / name)
+            for _, lot_options in plans:
+                remove_parts(lot_options.folder)
         except OSError as problem:
-            raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with --out") from None
+            raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with {options.named('out')}") from None
 
     @contextmanager
     def _of(self, number):
         """Context in which the scene of a lot is YADE's current one; gives its Run."""
-        before = _plugin.swap_scene(self.scenes[number])
+        before = compiled.swap_scene(self.scenes[number])
         try:
             with named(self.town.lots[number]):
                 yield self.runs[number]
         finally:
-            _plugin.swap_scene(before)
+            compiled.swap_scene(before)
 
     # --- steps --------------------------------------------------------------------------------------------------------
 
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
         handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.output.quiet) as progress:
+        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.options.quiet) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
@@ -99,7 +99,7 @@ class TownRun:
             with self._of(number) as run:
                 stops.append(run.next_stop())
         since = time.perf_counter()
-        made = _plugin.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
+        made = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
         self.wall_s += time.perf_counter() - since
         left = []
         for number, (seconds, error) in zip(active, made):
@@ -132,24 +132,24 @@ class TownRun:
             self.report(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
         self.report(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
-        self.report("written: " + ", ".join(map(str, [*written, self.output.folder / "lots"])))
+        self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def report(self, text):
         """Print a line, unless the run is quiet."""
-        if not self.output.quiet:
+        if not self.options.quiet:
             print(text, flush=True)
 
     def _results(self):
-        folder = self.output.folder
+        folder = self.options.folder
         try:
             written = [folder / HOUSES]
             write_text(written[0], self.table())
-            if not self.output.frames:
+            if self.options.no_frames:
                 return written
             recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in zip(self.town.lots, self.runs)]
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
-            return written + (all_pictures.write(folder) if self.output.views else [])
+            return written + (all_pictures.write(folder) if self.options.views else [])
         except OSError as problem:
             raise RunError(f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
 

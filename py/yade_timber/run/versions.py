@@ -2,11 +2,11 @@
 """Versions of YADE and of the package."""
 import json
 
-from .. import _plugin
 from .. import host
+from ..plugin import compiled
 
 
 def versions():
     """{'yade': version of the running YADE, 'package': version with which the module was built}."""
-    build = json.loads(_plugin.build_record()[len(host.RECORD_MARK):])
+    build = json.loads(compiled.build_record()[len(host.RECORD_MARK):])
     return {"yade": host.host_facts()["yade"], "package": build["package"]}

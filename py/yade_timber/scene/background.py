@@ -11,6 +11,8 @@ from contextlib import contextmanager
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
+from ..plugin import compiled
+
 BODY_METHODS = (
     "append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember",
 )
@@ -28,7 +30,7 @@ def between_steps():
         yield
         return
     limits, ended = (O.stopAtIter, O.stopAtTime), not O.running
-    _plugin.finish_step()
+    compiled.finish_step()
     ended = ended or limits != (O.stopAtIter, O.stopAtTime)  # the run had reached its last step
     try:
         yield
@@ -42,10 +44,8 @@ def _computes_steps():
     return isinstance(threading.current_thread(), threading._DummyThread)
 
 
-def guard(plugin):
-    """Install the rules of this module on YADE's containers and bodies. plugin: the compiled module."""
-    global _plugin
-    _plugin = plugin
+def guard():
+    """Install the rules of this module on YADE's containers and bodies."""
     for container, methods in ((yw.BodyContainer, BODY_METHODS), (yw.InteractionContainer, INTERACTION_METHODS)):
         for name in methods:
             if hasattr(container, name):  # it depends on YADE's version
@@ -76,7 +76,7 @@ def _after_step(method):
 
     def call(self, *args, **options):
         if not _computes_steps():
-            _plugin.finish_step()
+            compiled.finish_step()
         return method(self, *args, **options)
 
     call.__name__, call.__doc__ = method.__name__, method.__doc__
@@ -89,7 +89,7 @@ def _until_step(wait):
     def call(self):
         wait(self)
         if not _computes_steps():
-            _plugin.finish_step()
+            compiled.finish_step()
 
     call.__name__, call.__doc__ = wait.__name__, wait.__doc__
     return call
@@ -102,7 +102,7 @@ def _until_started(run):
         before = self.iter
         run(self, *args, **options)
         if not _computes_steps():
-            _plugin.await_step(before)
+            compiled.await_step(before)
 
     call.__name__, call.__doc__ = run.__name__, run.__doc__
     return call
@@ -142,7 +142,7 @@ def _check(body, name):
     """Raise an error if an element of the scene cannot be computed with its new part."""
     if body.shape is None:
         raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out")
-    _plugin.check_replaced_part(body)
+    compiled.check_replaced_part(body)
     if name in ("shape", "material"):  # functors, stiffness and friction of its contacts are those of the old part
         for interaction in body.intrs():
             O.interactions.erase(interaction.id1, interaction.id2)

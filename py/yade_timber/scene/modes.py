@@ -16,7 +16,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import ArpackError, eigsh
 
-from .. import _plugin
+from ..plugin import compiled
 
 SHIFT = -1.0
 """Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
@@ -59,7 +59,7 @@ class Mode:
 
 def springs():
     """Springs of the scene as it is now."""
-    pairs, values = _plugin.packed_springs()
+    pairs, values = compiled.packed_springs()
     values = np.frombuffer(values, "f8").reshape(-1, 14)
     arm = values[:, :6].reshape(-1, 2, 3)
     return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], values[:, 9:11], values[:, 11:])

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import yade.wrapper as yw
 
 from ..base.colors import KINDS
-from ..base.time_step import DEFAULT_DT
+from ..base.time_step import DEFAULT_DT, rest_stride
 from ..house import build_house, load_house
 from ..house.disturbance import disturb
 from ..house.errors import StepError
@@ -26,7 +26,8 @@ class Scenario:
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run;
     joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed
-    of the house's disturbance, None: none; options: of `engines.engines`.
+    of the house's disturbance, None: none; options: of `engines.engines`; other_walls: OtherWalls
+    of the summary, verdict with walls of the other level.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Scenario:
     wall_level: str = None
     disturb: int = None
     options: dict = field(default_factory=dict)
+    other_walls: object = None
 
     def build_model(self):
         """HouseModel of the run. Raises HouseError."""
@@ -54,11 +56,8 @@ class Scenario:
         return model
 
 
-def build(scenario, stride=yw.RestSkipper().stride):
-    """Build the scenario's scene in an emptied YADE; returns the HouseModel.
-
-    stride: number of steps of which one is computed while scene and ground are at rest (`skip_rest` in the scenario's options has precedence)
-    """
+def build(scenario):
+    """Build the scenario's scene in an emptied YADE; returns the HouseModel."""
     model = scenario.build_model()
     O.reset()
     ids = add_elements(model)
@@ -66,7 +65,7 @@ def build(scenario, stride=yw.RestSkipper().stride):
     motion = None
     if scenario.motion is not None:
         motion = engines.ground_motion_engine(scenario.motion, scale=scenario.scale, start=scenario.delay)
-    options = {**law_options(model.law), "skip_rest": stride, **scenario.options}
+    options = {**law_options(model.law), "skip_rest": rest_stride(scenario.dt), **scenario.options}
     monitors = [house_monitor(model, ids), structure_monitor(model, ids)]
     O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=monitors, **options)
     O.dt = scenario.dt

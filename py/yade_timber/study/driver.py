@@ -11,15 +11,17 @@ import signal
 import subprocess
 import time
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.lock import is_locked
+from ..base.options import options
 from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
 from ..run.identity import made_from
+from ..run.options import RunOptions
 
 END, LOG = "run.json", "run.log"
 STATES = ("done", "failed", "unfinished")
@@ -27,27 +29,27 @@ POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
 SAVE_TIME = 60.0
 """Longest wait for interrupted runs to save their checkpoints. [s]"""
-RUN_OPTIONS = ("--no-views", "--quiet", "--resume", "--or-anew")
 
 
 @dataclass(frozen=True)
 class Task:
-    """A run: script name without .py, folder of its results, options that decide them, whether frames are recorded.
-
-    house: name or file that the script gives, unless the options name it
-    """
+    """A run: script name without .py, folder of its results, RunOptions."""
 
     script: str
     folder: Path
-    options: tuple = ()
-    frames: bool = True
-    house: str = None
+    options: RunOptions
+
+    def words(self):
+        """Arguments of the script: the options that decide results, and those with which the driver runs it."""
+        own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
+        alone = dict.fromkeys(("ensemble", "jobs", "export")) | {"report": False, "checkpoint": options(RunOptions)["checkpoint"].default}
+        return replace(self.options, **own, **alone).words()
 
     @property
     def summary(self):
         """Summary, or None if the run is not done or was made from other options, files or another package."""
         table = _read(self.folder / SUMMARY)
-        return Summary.read(self.folder) if table and table.get("made_from") == made_from(self.options, self.house) else None
+        return Summary.read(self.folder) if table and table.get("made_from") == made_from(self.options) else None
 
     @property
     def error(self):
@@ -128,8 +130,7 @@ class _Process:
             return
         for name in (END, SUMMARY):
             (task.folder / name).unlink(missing_ok=True)
-        frames = () if task.frames else ("--no-frames",)
-        arguments = [*command(scripts / f"{task.script}.py"), *map(str, task.options), "--out", str(task.folder), *RUN_OPTIONS, *frames]
+        arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
         with open(task.folder / LOG, "w") as log:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
                                           env={**os.environ, "OMP_NUM_THREADS": "1"})  # fmt: skip

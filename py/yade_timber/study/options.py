@@ -8,12 +8,14 @@ from pathlib import Path
 
 from ..base.encoding import print_anything
 from ..base.errors import InputError, RunError
+from ..base.options import add_options, options, read_arguments
 from ..base.time_step import DEFAULT_DT
 from ..house import HouseError, load_house
 from ..motion import MotionRequest, RecordError
+from ..run.options import RunOptions, scripted
 
-MOTION_OPTIONS = ("record", "seed", "scale", "start", "end")
-"""Options of the run scripts that runs without an earthquake refuse."""
+SHARED = ("record", "seed", "scale", "start", "end", "dt", "duration")
+"""Options of a run that a study of the run scripts passes on."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -106,22 +108,23 @@ def add_driver_options(parser, folder):
 
 
 def add_run_options(parser):
-    """Options that are passed to every run."""
-    parser.add_argument("--record", type=record, metavar="FILE_OR_PREFIX", help="recorded ground motion for the runs with an earthquake")
-    parser.add_argument("--seed", type=seed, metavar="N", help="synthetic ground motion of another seed")
-    parser.add_argument("--scale", type=float, metavar="X", help="factor on the ground motion")
-    parser.add_argument("--start", type=float, metavar="S", help="start of the ground motion, in the record's time [s]")
-    parser.add_argument("--end", type=float, metavar="S", help="end of the ground motion, in the record's time [s]")
-    parser.add_argument("--dt", type=positive, metavar="S", help="time step of all runs [s]")
-    parser.add_argument("--duration", type=non_negative, metavar="S", help="simulated time of all runs [s]")
+    """Options that are passed to every run; `run_options` reads them."""
+    add_options(parser, [options(RunOptions)[name] for name in SHARED])
 
 
-def run_options(given, earthquake):
-    """Options of a run's command line from parsed ones; runs without an earthquake get none of MOTION_OPTIONS. Raises RecordError."""
-    MotionRequest(**{name: getattr(given, name, None) for name in MOTION_OPTIONS}).check()
-    names = ("dt", "duration", *(MOTION_OPTIONS if earthquake else ()))
-    values = [(name, getattr(given, name, None)) for name in names]
-    return tuple(word for name, value in values if value is not None for word in (f"--{name}", value))
+def run_options(arguments):
+    """{option: value}, checked, of parsed arguments. Raises RunError, RecordError."""
+    given = read_arguments(RunOptions, argparse.Namespace(**{name: getattr(arguments, name) for name in SHARED}))
+    RunOptions(**given, quake=True).check()
+    if "record" in given:
+        record(given["record"])
+    return given
+
+
+def run_of(script, house, earthquake, snow, given):
+    """RunOptions of a run script with options of `run_options`; runs without an earthquake get none of the motion. house, earthquake, snow: of the script"""
+    motion = () if earthquake else options(MotionRequest)
+    return scripted(script, house, earthquake, snow, **{name: value for name, value in given.items() if name not in motion})
 
 
 def selected(text, known, option):

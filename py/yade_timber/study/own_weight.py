@@ -2,9 +2,11 @@
 """Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no YADE itself."""
 import subprocess
 import tempfile
+from pathlib import Path
 
 from ..base.errors import RunError
 from ..recording.summary import Summary
+from ..run.options import RunOptions
 from ..text.english import sentence
 from .driver import command
 
@@ -17,10 +19,9 @@ def check_own_weight(house, snow, scripts):
 
     Raises RunError without YADE, and when the run fails.
     """
-    depth = [] if snow is None else ["--snow", f"{snow:g}"]
     with tempfile.TemporaryDirectory() as folder:
-        options = ["--duration", f"{TIME:g}", *depth, "--no-frames", "--checkpoint", "0", "--quiet", "--out", folder]
-        done = subprocess.run([*command(scripts / "house.py"), str(house), *options], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        options = RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True, out=Path(folder))
+        done = subprocess.run([*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL, capture_output=True, text=True)
         if done.returncode:
             lines = [line for line in done.stderr.splitlines() if line.strip()]
             raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")

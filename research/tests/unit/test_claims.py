@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from timber_research import claims, comparison, report
 from yade_timber.recording.summary import Summary
+from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task
 
 
@@ -191,7 +192,7 @@ def test_robustness_study(tmp_path):
     cases = study["all_cases"]([0], ["records/KOBE"])
     tasks = {case: study["tasks_of"](case, options, tmp_path) for case, (_, options) in cases.items()}
     assert {case: len(some) for case, some in tasks.items()} == {"shipped": 14, "seed-0": 11, "KOBE": 11}
-    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow", ("--record", "records/KOBE"))
+    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow", scripted("modelB1_snow", "B1", True, True, record="records/KOBE"))
     assert "modelA_snow" in tasks["shipped"] and "modelA_snow" not in tasks["KOBE"]
     text = comparison.write({case: about for case, (about, _) in cases.items()}, dict.fromkeys(cases, paper_results()), tmp_path)
     assert text == (tmp_path / "robustness.md").read_text() and "| E1" in text and "| KOBE | recorded motion | falls N-S" in text

@@ -17,6 +17,7 @@ from timber_research.screening.responses import COUNT as NUMBER
 from timber_research.screening.responses import LOG, RESPONSES, SHARE
 from yade_timber.house import build_house, load_house
 from yade_timber.recording.summary import Summary
+from yade_timber.run.options import RunOptions
 from yade_timber.study.batch import read_table
 from yade_timber.study.batch.tasks import task_of
 
@@ -107,8 +108,10 @@ def test_plan_and_table(tmp_path):
     rows = read_table(cells.write_inputs(some, tmp_path))
     options = {(entry.run, entry.motion): task_of(row, tmp_path).options for entry, row in zip(some, rows, strict=True)}
     house = str(tmp_path / "houses" / "c05" / "B1.yaml")
-    assert options["modelB1_snow", "seed0"] == (house, "--quake", "--snow", "1.0", "--dt", "0.0004", "--until-collapse", "--seed", "0", "--start", "15.0", "--end", "29.0")
-    assert options["modelB_snow", None] == (str(tmp_path / "houses" / "c05" / "B.yaml"), "--snow", "1.0", "--dt", "0.0004", "--until-collapse")
+    assert options["modelB1_snow", "seed0"] == RunOptions(
+        house=house, quake=True, snow=1.0, dt=4e-4, until_collapse=True, seed=0, start=15.0, end=29.0, no_frames=True)
+    assert options["modelB_snow", None] == RunOptions(
+        house=str(tmp_path / "houses" / "c05" / "B.yaml"), snow=1.0, dt=4e-4, until_collapse=True, no_frames=True)
     assert load_house(house).name == "B1"
 
 

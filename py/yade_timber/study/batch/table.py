@@ -10,36 +10,35 @@ import csv
 import hashlib
 import json
 import re
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 from ...base.errors import RunError
 from ...house import HouseError, load_house
-from ...house.schema import decimal_point, nearest
-from ...motion import MotionRequest, RecordError
+from ...base.options import option, options, read
+from ...base.remedies import nearest
+from ...motion import RecordError
 from ...motion.readers import find_files
 from ...motion.sequence import with_factor
+from ...run.options import Door, RunOptions
 
 NO_EARTHQUAKE = "none"
 """Value of the column `record` for a run without an earthquake."""
 
-OWN = {
-    "house": (str, "shipped house or house file"),
-    "set": (str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"),
-    "braces": (str, "names of braces and walls to add to the house, separated by ;"),
-    "strength": (float, "factor on the strength of all joints (default 1)"),
-    "snow": (float, "depth of the snow on the roofs [m] (default: the house's own)"),
-    "joint_damping": (float, "damping ratio of all joints (default: the house's own)"),
-    "dt": (float, "time step [s]"),
-    "duration": (float, "simulated time [s] (default: the motion's; without an earthquake 30)"),
-    "until_collapse": (bool, "whether the run ends when the house has collapsed, yes or no (default no)"),
-}
-MOTION = {f.name: (f.metadata["kind"], f.metadata["help"]) for f in fields(MotionRequest)}
-RECORDS = ("record", "then")
-"""Columns with names of files, which properties of Row resolve."""
-COLUMNS = {**OWN, **MOTION}
-"""{column: (type, description)}, without the column `description`."""
+@dataclass(frozen=True)
+class HouseChanges:
+    """Columns that change the house of a row."""
+
+    set: str = option(str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1")
+    braces: str = option(str, "names of braces and walls to add to the house, separated by ;")
+    strength: float = option(float, "factor on the strength of all joints (default 1)", default=1.0)
+
+
+CHANGES = options(HouseChanges)
+DECISIVE = {name: each for name, each in options(RunOptions).items() if each.metadata["decides"] and name != "quake"}
+COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
+"""{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 
 DESCRIPTION = "description"
 
@@ -64,16 +63,16 @@ class Row:
         """'runs.txt:5, column scale'."""
         return f"{self.table.name}:{self.line}, column {column}"
 
-    def value(self, column, default=None):
-        """The value of a column in its type, or the default. Raises BatchError for text that is no such value."""
-        if column not in self.cells:
-            return default
-        text, kind = self.cells[column], COLUMNS[column][0]
-        try:
-            return _FLAGS[text.lower()] if kind is bool else kind(text)
-        except (ValueError, KeyError):
-            wanted = {int: "a whole number", float: "a number", bool: "yes or no"}[kind]
-            raise BatchError(f"{self.where(column)}: '{text}' is not {wanted}{decimal_point(text)}; {COLUMNS[column][1]}") from None
+    def value(self, column):
+        """The value of a column in its type, or its default. Raises RunError for text that is no such value."""
+        return read(COLUMNS[column], self.cells[column], f"{self.where(column)}:") if column in self.cells else COLUMNS[column].default
+
+    def options(self, house=None):
+        """RunOptions of scripts/house.py. house: file in place of the row's. Raises RunError."""
+        files = {"house": str(house or self.house), "record": self.record, "then": self.then}
+        calm = self.cells.get("record") == NO_EARTHQUAKE
+        door = Door(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
+        return RunOptions(quake=not calm, door=door, **{column: self.value(column) for column in DECISIVE if column not in files}, **files)
 
     @property
     def house(self):
@@ -108,9 +107,6 @@ class Row:
     def _then_digests(self):
         """Of the records that follow; none without a sequence."""
         return [] if self.then is None else [_record_digest(with_factor(entry)[0]) for entry in self.then.split(";")]
-
-
-_FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 
 @lru_cache(maxsize=256)

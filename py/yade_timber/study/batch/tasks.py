@@ -2,22 +2,20 @@
 """Rows of a table as tasks of the driver: each row is a run of scripts/house.py. All rows are checked before the first run."""
 
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 from ...base.atomic_write import write_text
+from ...base.errors import InputError
 from ...base.notes import noted
-from ...house import HouseError, build_house, changed_house, load_house
+from ...house import build_house, changed_house, load_house
 from ...house.parser import house_text
-from ...motion import MotionRequest, RecordError
-from ...base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..driver import Task, run_missing
-from .table import MOTION, NO_EARTHQUAKE, RECORDS, BatchError
+from .table import CHANGES, BatchError
 
 HOUSE = "house.yaml"
 """House file of a row that changes its house, in the run's folder."""
-LIMITS = {"dt": (MIN_DT, MAX_DT), "duration": (0, MAX_DURATION), "snow": (0, 20), "joint_damping": (0, 1)}
-"""{column: admissible range}, units as in the table."""
 
 
 def run_rows(rows, folder, scripts, jobs=None, retry=False):
@@ -34,21 +32,7 @@ def run_rows(rows, folder, scripts, jobs=None, retry=False):
 def task_of(row, folder):
     """Task of a row, in the folder of that name. Paths are absolute: they are part of a run's identity."""
     folder = Path(folder).absolute() / row.name
-    return Task("house", folder, options(row, folder), frames=False)
-
-
-def options(row, folder):
-    """Options of scripts/house.py for a row."""
-    words = [str(folder / HOUSE) if any(changes(row)) else row.house]
-    if row.cells.get("record") != NO_EARTHQUAKE:
-        words.append("--quake")
-    for column in ("snow", "joint_damping", "dt", "duration", "until_collapse", *MOTION):
-        value, option = getattr(row, column) if column in RECORDS else row.value(column), f"--{column.replace('_', '-')}"
-        if value is True:
-            words.append(option)
-        elif value is not None and value is not False:
-            words += [option, str(value)]
-    return tuple(words)
+    return Task("house", folder, replace(row.options(folder / HOUSE if any(changes(row)) else None), no_frames=True))
 
 
 # --- houses -----------------------------------------------------------------------------------------------------------
@@ -56,13 +40,13 @@ def options(row, folder):
 
 def changes(row):
     """(set, braces, strength) of a row as texts, None for what it does not change."""
-    return tuple(row.cells.get(column) for column in ("set", "braces", "strength"))
+    return tuple(row.cells.get(column) for column in CHANGES)
 
 
 def write_house(row, folder):
     """Write the house file of a row that changes its house. Raises HouseError, OSError."""
     settings, braces = (tuple(filter(None, (text or "").split(";"))) for text in changes(row)[:2])
-    data = changed_house(row.house, settings, braces, row.value("strength", 1.0), row.where)
+    data = changed_house(row.house, settings, braces, row.value("strength"), row.where)
     path = Path(folder) / row.name / HOUSE
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, f"# House {row.cells['house']} with the changes of {row.table.name}\n{house_text(data)}")
@@ -74,24 +58,12 @@ def write_house(row, folder):
 def check_rows(rows, folder):
     """Refuse rows that cannot be run; house files of changed houses are written to their folders. Raises BatchError, OSError."""
     for row in rows:
-        _check_numbers_and_motion(row)
+        with _located(row):
+            options = row.options()
+            options.check()
+            if options.record is not None or options.then is not None:
+                _read_record(options)
     _check_houses(rows, folder)
-
-
-def _check_numbers_and_motion(row):
-    """Refuse numbers and ground motions that cannot be run. Raises BatchError."""
-    for column, (low, high) in LIMITS.items():
-        value = row.value(column, low)
-        if not low <= value <= high:
-            raise BatchError(f"{row.where(column)}: {value:g}: must be between {low:g} and {high:g}")
-    request = MotionRequest(**{column: getattr(row, column) for column in RECORDS}, **{column: row.value(column) for column in MOTION if column not in RECORDS})
-    if row.cells.get("record") == NO_EARTHQUAKE:
-        for column in request.given():
-            raise BatchError(f"{row.where(column)}: this run has no earthquake (record: {NO_EARTHQUAKE})")
-    with _located(row):
-        request.check(f"{row.table.name}:{row.line}, column {{}}:")
-        if row.record is not None or row.then is not None:
-            _read_record(request, row.value("dt", DEFAULT_DT))
 
 
 def _check_houses(rows, folder):
@@ -101,24 +73,25 @@ def _check_houses(rows, folder):
         with _located(row):
             if any(changes(row)):
                 write_house(row, folder)
-            variant = row.house, changes(row), row.value("snow")
+            variant = row.house, changes(row), row.value("snow"), row.value("walls")
             if variant not in built:
-                build_house(load_house(task_of(row, folder).options[0]), row.value("snow"))
+                options = task_of(row, folder).options
+                build_house(load_house(options.house), options.snow, wall_level=options.walls)
         built.add(variant)
 
 
 @contextmanager
 def _located(row):
-    """Turns errors of houses and records into a BatchError of one line that begins with the row's place in the table."""
+    """Turns errors into a BatchError of one line that begins with the row's place in the table."""
     try:
         yield
-    except (HouseError, RecordError) as problem:
-        text, place = " ".join(str(problem).split()), f"{row.table.name}:{row.line}"
+    except InputError as problem:
+        text, place = str(problem), f"{row.table.name}:{row.line}"
         raise BatchError(text if text.startswith(place) else f"{place}: {text}") from None
 
 
 @lru_cache(maxsize=256)
-def _read_record(request, dt):
+def _read_record(options):
     """Read and process a recorded ground motion; its warnings become notes, once. Raises RecordError."""
     with noted():
-        request.motion(dt)
+        options.motion(options.dt)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the result. Needs no YADE.
+
+A record: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content (uint32), content; little-endian.
+The first one has the kind RUN and the fingerprint of the run's identity. What follows the last complete record, as after a kill, is not read.
+"""
+import os
+import struct
+import zlib
+
+import numpy as np
+
+from ..base.errors import RunError
+from ..base.input_file import require_regular
+
+FIELDS, CHECKSUM = struct.Struct("<cId"), struct.Struct("<I")
+RUN = b"R"
+
+
+class AppendLog:
+    """Records of a run with that fingerprint: those in the file, and pending ones, which `flush` appends."""
+
+    def __init__(self, path, run):
+        self.path, self.run, self.pending = path, run, []
+
+    def add(self, kind, time, *arrays):
+        """Add a record with the arrays' bytes, one after the other. kind: one byte; time [s], not before that of the last record."""
+        self.pending.append((kind, time, b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)))
+
+    def records(self):
+        """(kind, time, content) of each record. Raises RunError for a file of another run."""
+        yield from read(self.path, self.run)
+        yield from self.pending
+
+    def flush(self):
+        """Append the pending records to the file; returns its size. Raises OSError, and RunError for what is no regular file."""
+        if os.path.lexists(self.path):
+            require_regular(self.path)
+        with open(self.path, "ab") as file:
+            if file.tell() == 0:
+                file.write(_packed(RUN, 0.0, self.run.encode()))
+            for record in self.pending:
+                file.write(_packed(*record))
+            file.flush()
+            os.fsync(file.fileno())
+            self.pending = []
+            return file.tell()
+
+    def cut(self, time):
+        """Drop records after a time [s] and what is incomplete; returns the size of the file. Raises RunError, OSError."""
+        self.pending = [record for record in self.pending if record[1] <= time]
+        if not os.path.lexists(self.path):
+            return 0
+        size = sum(FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run) if when <= time)
+        os.truncate(self.path, size)
+        return size
+
+
+def _packed(kind, time, content):
+    fields = FIELDS.pack(kind, len(content), time)
+    return fields + CHECKSUM.pack(zlib.crc32(content, zlib.crc32(fields))) + content
+
+
+def read(path, run):
+    """(kind, time, content) of each complete record of a file, none without the file. Raises RunError for a file of another run."""
+    return (record for record in _all(path, run) if record[0] != RUN) if os.path.lexists(path) else iter(())
+
+
+def _all(path, run):
+    """As `read`, with the record of the run."""
+    require_regular(path)
+    with open(path, "rb") as file:
+        first = next(_complete(file), None)
+        if first and (first[0], first[2]) != (RUN, run.encode()):
+            raise RunError(f"{path}: of another run")
+        file.seek(0)
+        yield from _complete(file)
+
+
+def _complete(file):
+    left = os.fstat(file.fileno()).st_size
+    while (left := left - FIELDS.size - CHECKSUM.size) >= 0:
+        fields, checksum = file.read(FIELDS.size), file.read(CHECKSUM.size)
+        kind, length, time = FIELDS.unpack(fields)
+        left -= length
+        content = file.read(length) if left >= 0 else b""
+        if left < 0 or (zlib.crc32(content, zlib.crc32(fields)),) != CHECKSUM.unpack(checksum):
+            return
+        yield kind, time, content

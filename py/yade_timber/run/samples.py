@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rows of the monitors of the run that is loaded in YADE; those before the last checkpoint are in a file beside it and not in the scene."""
+import numpy as np
+import yade.wrapper as yw
+
+from ..base.errors import RunError
+from ..recording.append_log import AppendLog
+from ..scene.engines import find_engine
+
+NAME = "samples.log"
+MONITORS = {b"H": yw.HouseMonitor, b"M": yw.StructureMonitor}
+"""Kind of the records, and the engine whose `rows` they hold, float64."""
+
+O = yw.Omega()
+
+
+class Samples:
+    """run: fingerprint of the run's identity"""
+
+    def __init__(self, path, run):
+        self.log = AppendLog(path, run)
+
+    def save(self):
+        """Move the rows from the scene to the file; returns the file's size. Raises OSError."""
+        for kind, monitor in MONITORS.items():
+            engine = find_engine(monitor)
+            self.log.add(kind, O.time, np.array(engine.rows))
+            engine.rows = []
+        return self.log.flush()
+
+    def resume(self, size, remedy):
+        """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, and RunError when rows before it are missing."""
+        if self.log.cut(O.time + O.dt / 2) != size:
+            raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
+
+    def restore(self):
+        """Put all rows back into the scene, once, before the results are made of them."""
+        earlier = {kind: [] for kind in MONITORS}
+        for kind, _, content in self.log.records():
+            earlier[kind].append(np.frombuffer(content))
+        for kind, monitor in MONITORS.items():
+            engine = find_engine(monitor)
+            engine.rows = np.concatenate([*earlier[kind], engine.rows]).tolist()
