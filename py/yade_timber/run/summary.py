@@ -35,8 +35,7 @@ O = yw.Omega()
 
 def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s: wall time of its steps so far [s];
-    cut_off: reason why the run ends before its duration.
-    Raises RunError for energies that are not finite.
+    cut_off: reason why the run ends before its duration. Raises RunError for energies that are not finite.
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
     """
