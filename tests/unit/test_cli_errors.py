@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 from yade_timber.run import cli
-from yade_timber.run.options import BY_SCRIPT, QUIET_DURATION, RunOptions
+from yade_timber.run.options import QUIET_DURATION, RunOptions
 from yade_timber.run.plan import planned
-from yade_timber.base.options import command_option, options
+from yade_timber.base.options import BY_SCRIPT, command_option, options
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
 from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv

@@ -17,6 +17,7 @@ from yade_timber.recording.events import Collapse, Event, SnowFallen
 from yade_timber.recording.summary import Mode, ModesAt, Summary, Weight
 from yade_timber.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
 from yade_timber.recording.frames import Motion
+from yade_timber.run.options import RunOptions, scripted
 from yade_timber.run.runner import clear
 from yade_timber.text.lines import MOST, lines
 
@@ -118,6 +119,23 @@ def test_report_of_other_folders(folder, tmp_path):
         (tmp_path / "summary.json").write_text(json.dumps({key: value for key, value in found.items() if key != part}))
         with pytest.raises(RunError, match=f"{part}: missing; repeat the run"):
             report.write(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "options, command",
+    [
+        (scripted("modelC2_quake", "C2", True, scale=1.5, dt=5e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0005"),
+        (RunOptions(house="my house.yaml", quake=True, snow=1.0, report=True), "scripts/house.py &#x27;my house.yaml&#x27; --quake --snow=1.0"),
+    ],
+)
+def test_command_that_repeats_the_run(options, command):
+    page = report.repeat(Summary.sample(made_from={"options": options.decisive(), "package": "", "files": ""}))
+    assert page.endswith(f"<code>yade -n -x {command}</code></p>")
+
+
+def test_a_motion_from_python_has_no_command():
+    made_from = {"options": {"house": "A", "quake": True, "ground_motion": "0"}, "package": "", "files": ""}
+    assert "<code>" not in report.repeat(Summary.sample(made_from=made_from))
 
 
 def test_hostile_names_are_text(folder):

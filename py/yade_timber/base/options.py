@@ -11,6 +11,8 @@ from .remedies import decimal_point, nearest
 FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool), str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
+BY_SCRIPT = ("house", "quake", "snow", "walls")
+"""Options that a run script decides, unless it is house.py or town.py."""
 
 
 def option(kind, about, metavar=None, low=None, high=None, default=None, choices=(), group="motion", decides=True):
@@ -82,6 +84,12 @@ def read_arguments(kind, arguments):
     """{option: value} of the options that a command line (argparse.Namespace) gives. Raises RunError."""
     texts = {name: getattr(arguments, name, None) for name in options(kind)}
     return {name: text if text is True else read(options(kind)[name], text, command_option(name)) for name, text in texts.items() if text is not None}
+
+
+def words(values, named):
+    """Arguments of a run script that give options {name: value}. named: whether the script gives BY_SCRIPT; otherwise its house is first"""
+    given = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
+    return [*([] if named else [values["house"]]), *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items())]
 
 
 # --- keywords ---------------------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ import base64
 import html
 import io
 import os
-import re
 import shlex
 import shutil
 import subprocess
@@ -16,6 +15,7 @@ import numpy as np
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
+from ..base.options import words
 from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
@@ -240,13 +240,14 @@ def caveats(found):
 
 
 def repeat(found):
-    """Versions, and the command that repeats the run."""
+    """Versions, and the command that repeats the run; none for the house of a town and for a motion from Python."""
     versions, made = found.versions, found.made_from
-    words = [str(word) for word in made["options"]]
-    script = f"scripts/{found.scenario}.py" if re.fullmatch(r"model[ABC][12]?_(quake|snow)", found.scenario) else "scripts/house.py"
-    command = shlex.join(["yade", "-n", "-x", script, *words])
     about = f"yade-timber {versions.package}, YADE {versions.yade}, package {made['package']}, files {made['files']}; time step {found.dt:g} s."
-    return f"<h2>How to repeat it</h2><p>{text(about)} <code>{text(command)}</code></p>"
+    options = {name: value for name, value in made["options"].items() if name != "name"}
+    name = made["options"].get("name")
+    command = shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(options, name is not None)])
+    code = f" <code>{text(command)}</code>" if options.keys().isdisjoint(("town", "ground_motion")) else ""
+    return f"<h2>How to repeat it</h2><p>{text(about)}{code}</p>"
 
 
 # --- PDF --------------------------------------------------------------------------------------------------------------

@@ -5,10 +5,10 @@ import re
 from pathlib import Path
 
 from ..base.errors import RunError
-from ..base.options import add_options, command_option, options, read_arguments
+from ..base.options import BY_SCRIPT, add_options, command_option, options, read_arguments
 from ..base.remedies import close
 from ..motion import with_then
-from .options import BY_SCRIPT, RunOptions, scripted
+from .options import RunOptions, scripted
 
 GROUPS = {"run": "time and results", "motion": "ground motion", "expert": "for experts"}
 """Titles of groups of options in the help, after the main ones."""

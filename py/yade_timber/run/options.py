@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Callable
 
 from ..base.errors import RunError, one_line
-from ..base.options import command_option, is_given, option, options
+from ..base.options import command_option, is_given, option, options, words
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import LEVELS, shipped_houses
 from ..house.disturbance import LARGEST
@@ -21,8 +21,6 @@ MOST_RUNS = 999
 """Largest number of runs of an ensemble."""
 MOST_SEED = 2**32 - 1
 """Largest seed of a disturbance."""
-BY_SCRIPT = ("house", "quake", "snow", "walls")
-"""Options that a run script decides, unless it is house.py or town.py."""
 ALONE = {
     "resume": "an ensemble always continues",
     "or_anew": "an ensemble repeats runs that cannot be continued",
@@ -132,9 +130,7 @@ class RunOptions(MotionRequest):
 
     def words(self):
         """Arguments of the run script that give these options."""
-        given = [each for each in options(RunOptions) if is_given(self, each) and each != "house" and not (self.name and each in BY_SCRIPT)]
-        texts = [command_option(each) + ("" if getattr(self, each) is True else f"={getattr(self, each)}") for each in given]
-        return [*([] if self.name else [self.house]), *texts]
+        return words({each: getattr(self, each) for each in options(RunOptions) if is_given(self, each)}, bool(self.name))
 
 
 def scripted(name, house, earthquake=False, snow=False, **more):
