@@ -124,7 +124,7 @@ def test_report_of_other_folders(folder, tmp_path):
 @pytest.mark.parametrize(
     "options, command",
     [
-        (scripted("modelC2_quake", "C2", True, scale=1.5, dt=5e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0005"),
+        (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
         (RunOptions(house="my house.yaml", quake=True, snow=1.0, report=True), "scripts/house.py &#x27;my house.yaml&#x27; --quake --snow=1.0"),
     ],
 )
