@@ -9,7 +9,6 @@ from yade_timber.base.errors import RunError
 from yade_timber.recording.sentences import other_walls
 from yade_timber.run import cli
 from yade_timber.run.plan import planned
-from yade_timber.study import other_walls as study
 
 ROOT = Path(__file__).resolve().parents[2]
 

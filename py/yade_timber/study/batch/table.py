@@ -26,6 +26,7 @@ from ...run.options import Door, RunOptions
 NO_EARTHQUAKE = "none"
 """Value of the column `record` for a run without an earthquake."""
 
+
 @dataclass(frozen=True)
 class HouseChanges:
     """Columns that change the house of a row."""
