@@ -96,7 +96,7 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "not a number": ("strength: 2000", "strength: .nan", 27, ["joint_types.peg.strength", "nan"]),
     "not whole": ("count: 2", "count: 2.5", 11, ["grid.x.count", "[1, 200] modules", "2.5"]),
     "unknown layer": ("layer: columns", "layer: column", 18, ["stack[2].layer", "'column'", "'columns'"]),
-    "unknown roof": ("type: flat", "type: onion", 20, ["stack[4].type", "'onion'", "hip, gable, flat"]),
+    "unknown roof": ("type: flat", "type: thatch", 20, ["stack[4].type", "'thatch'", "hip, gable, mono, flat"]),
     "unknown direction": ("along: x, at: 0", "along: z, at: 0", 25, ["braces.lines[1].along", "'z'", "x, y"]),
     "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29, ["joints.column_ends.type", "'pegg'", "'peg'"]),
     "unknown material": ("{layer: columns, height: 2}", "{layer: columns, height: 2, material: steel}", 18, ["stack[2].material", "'steel'", "timber, snow"]),

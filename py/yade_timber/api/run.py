@@ -66,8 +66,7 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     keywords = read_keywords(RunOptions, "run", {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD)
     record, ground_motion = (None, None) if motion is None else source_of(motion)
     shaking = {"record": record, "ground_motion": ground_motion, "quake": motion is not None and record is ground_motion is None}
-    given = {"out": _default_folder(house), **keywords, **shaking}
-    return _complete(RunOptions(house=house.given, door=DOOR, **given))
+    return _complete(RunOptions(house=house.given, door=DOOR, **{"out": _default_folder(house), **keywords, **shaking}))
 
 
 def _complete(options):

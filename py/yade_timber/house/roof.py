@@ -285,8 +285,8 @@ def _posts(structure, layer, elements, joints):
 def _high_plates(plan, plates):
     """Those farthest from the eave, of the plates below the plan."""
     d, e = plan.distance(*plan.sides)
-    centres = [(plate.solid.centroid[:2], plate) for plate in plates]
-    runs = [(e - d @ centre, plate) for centre, plate in centres if ((plan.low < centre) & (centre < plan.high)).all()]
+    centres = ((plate.solid.centroid[:2], plate) for plate in plates)
+    runs = [(e - d @ centre, plate) for centre, plate in centres if (plan.low < centre).all() and (centre < plan.high).all()]
     most = max(run for run, _ in runs)
     return [plate for run, plate in runs if most - run < SEAT]
 

@@ -95,8 +95,8 @@ class Run:
         self.model = self.scenario.build_model()
         saved = checkpoint.load(self.checkpoint_path, identity(self.origin))
         if O.iter >= self.steps:
-            stated = f"{self.options.named('duration')} {self.scenario.duration:g}"
-            raise RunError(f"{stated}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
+            duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
+            raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
         self._observe(saved)
         try:
