@@ -37,13 +37,13 @@ def tables(field, path=""):
 def value_words(field):
     """Admissible values of a key, as worded on the page."""
     if isinstance(field, Number):
-        return f"{'whole ' if field.whole else ''}number{field._range()}"
+        return f"{'whole, ' if field.whole else ''}{field._range().removeprefix(' in ')}"
     if isinstance(field, Pair):
         return f"list of 2 ({value_words(field.first)}; {value_words(field.second)})"
     if isinstance(field, ListOf):
         one = ", or one alone" if field.scalar else ""
         return f"list of {f'{field.length} ' if field.length else ''}({value_words(field.item)}){one}"
-    words = {Text: "text", Flag: "true or false", Record: "table", MapOf: "table of names", Variants: "table"}
+    words = {Text: "text", Flag: "true, false", Record: "table", MapOf: "table of names", Variants: "table"}
     return ", ".join(f"`{option}`" for option in field.options) if isinstance(field, Choice) else words[type(field)]
 
 
