@@ -11,6 +11,7 @@ import pytest
 from small_frames import FACES, frames
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from yade_timber.pictures import vtk
 from yade_timber.recording import frames as recorded
 
 
@@ -88,3 +89,13 @@ def test_contacts(folder):
 def test_bad_input(tmp_path, options, message):
     done = export(tmp_path, *options)
     assert done.returncode != 0 and message in done.stderr
+
+
+def test_a_full_disk_is_an_error_of_the_system_and_leaves_no_file(tmp_path, monkeypatch, capfd):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("yade_timber.base.atomic_write.shutil.copyfileobj", full)
+    with pytest.raises(OSError, match="No space"):
+        vtk.export(tmp_path, frames())
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()] and capfd.readouterr() == ("", "")

@@ -31,7 +31,7 @@ def written_whole(path):
 
 @contextmanager
 def written_from_memory(path):
-    """`written_whole` for writers that end the process on a full disk (YADE, HDF5): they write to a file in memory, which is copied to the disk."""
+    """`written_whole` for writers that end the process on a full disk (YADE, HDF5) or miss it (VTK): to a file in memory, which is copied to the disk."""
     descriptor = os.memfd_create(Path(path).name)
     with open(descriptor, "rb") as memory:
         yield Path(f"/proc/self/fd/{descriptor}")

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..base.errors import RunError
-from ..base.atomic_write import write_text, written_whole
+from ..base.atomic_write import write_text, written_from_memory
 from ..recording.frames import rotated
 
 try:
@@ -57,9 +57,9 @@ def write_series(folder, name, make, numbers):
 
 
 def write_polydata(path, data):
-    with written_whole(path) as part:
+    with written_from_memory(path) as memory:
         writer = vtkXMLPolyDataWriter()
-        writer.SetFileName(str(part))
+        writer.SetFileName(str(memory))
         writer.SetInputData(data)
         if not writer.Write():
             raise OSError(f"{path}: VTK could not write it")
