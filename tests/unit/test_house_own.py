@@ -140,6 +140,12 @@ def test_posts_need_a_rule(tmp_path):
         house(tmp_path, text + "joints: {roofs: null}\n")
 
 
+def test_posts_need_a_plate_above_the_eave(tmp_path):
+    one = "[{along: y, at: [0], from: 0, to: 3}]"
+    with pytest.raises(HouseError, match="over those of the wall opposite; add beams below both"):
+        shed(tmp_path, "type: mono, falls: west, pitch: 0.3, thickness: 0.12", lines=one)
+
+
 def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):
     model = shed(tmp_path, "type: hip, pitch: 0.5, thickness: 0.12, corner_cut: 0.1", nx=3, ny=3, snow=1.0)
     slabs = model.of_kind("roof")

@@ -261,7 +261,8 @@ def _tie_slabs(structure, layer, joints):
     for joint in joints:
         if {joint.a, joint.b} == slabs:
             joint.points[joint.points[:, 2] < joint.centre[2], 2] = layer.z0
-            vars(joint).update(_row(joint, np.ptp(joint.points, axis=0).max()))
+            for name, value in _row(joint, np.ptp(joint.points, axis=0).max()).items():
+                setattr(joint, name, value)
 
 
 def _row(joint, length):
@@ -276,10 +277,11 @@ def _posts(structure, layer, elements, joints):
     name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
     plates = {e.name: e for e in elements if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT}
     eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)), None)
-    if eave is None:
-        raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof stands on posts, joints of its slab with beams; "
-                         "add beams below its eave and a rule of `joints` between roof and beam")
-    return [_post_row(eave, name, plate) for plate in _high_plates(mono_plan(structure, layer), plates.values())]
+    high = _high_plates(mono_plan(structure, layer), plates.values()) if eave else []
+    if not high or {eave.a, eave.b} & {plate.name for plate in high}:
+        raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on posts over those of the wall "
+                         "opposite; add beams below both and a rule of `joints` between roof and beam")
+    return [_post_row(eave, name, plate) for plate in high]
 
 
 def _high_plates(plan, plates):
@@ -287,7 +289,7 @@ def _high_plates(plan, plates):
     d, e = plan.distance(*plan.sides)
     centres = ((plate.solid.centroid[:2], plate) for plate in plates)
     runs = [(e - d @ centre, plate) for centre, plate in centres if (plan.low < centre).all() and (centre < plan.high).all()]
-    most = max(run for run, _ in runs)
+    most = max((run for run, _ in runs), default=0.0)
     return [plate for run, plate in runs if most - run < SEAT]
 
 

@@ -35,12 +35,21 @@ class Pen:
 
     def write(self, sheet, top, text, size, ink=INK, bold=False):
         """Write a line, smaller where it is too wide, and cut where it would be smaller than SMALLEST. top: of the line [scaled pixel]"""
-        room, pad = self.width - 2 * PAD * self.scale, PAD * self.scale
         wide = self._font(size, text, bold).getlength(text)
-        font = self._font(size * min(1.0, room / max(wide, 1)), text, bold)
-        while font.getlength(text) > room and len(text) > 2:
+        font = self._font(size * min(1.0, self._room / max(wide, 1)), text, bold)
+        while font.getlength(text) > self._room and len(text) > 2:
             text = text[:-2] + "…"
-        ImageDraw.Draw(sheet).text((pad, top * self.scale), text, ink + (255,), font)
+        ImageDraw.Draw(sheet).text((PAD * self.scale, top * self.scale), text, ink + (255,), font)
+
+    def fitting(self, parts, size):
+        """As many of the parts as a line has room for, the first one in any case."""
+        while len(parts) > 1 and self._font(size, parts[0], False).getlength("; ".join(parts)) > self._room:
+            parts = parts[:-1]
+        return "; ".join(parts)
+
+    @property
+    def _room(self):
+        return self.width - 2 * PAD * self.scale
 
     def _font(self, size, text, bold):
         return ImageFont.truetype(fonts.best_file(text, bold), max(SMALLEST, round(size * self.scale)))
@@ -86,7 +95,7 @@ class Caption:
 
 
 class Strip:
-    """Time, ground acceleration and origin of a run (Frames) below pictures of (width, height) pixels."""
+    """Time, ground acceleration and origin (provenance.parts) of a run (Frames) below pictures of (width, height) pixels."""
 
     def __init__(self, run, origin, size):
         self.run, self.pen = run, Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
@@ -97,8 +106,9 @@ class Strip:
         self.width, self.height = self.still.size
         if run.motion:
             self._draw_trace()
-        curve = "Ground acceleration, N-S blue, E-W orange: " * bool(run.motion)
-        self.pen.write(self.still, top, curve + drawable(origin), small, SOFT)
+        colours = ["N-S blue, E-W orange"] * bool(run.motion)
+        text = self.pen.fitting([drawable(origin[0]), *colours, *map(drawable, origin[1:])], small)
+        self.pen.write(self.still, top, text, small, SOFT)
         self.still = self.still.convert("RGB")
 
     def at(self, time):

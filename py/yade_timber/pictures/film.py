@@ -20,7 +20,7 @@ from ..recording.summary import collapse_time
 from . import camera, copies
 from .caption import Caption, Strip
 from .key_times import first_shown, last_change
-from .provenance import provenance
+from .provenance import parts
 from .stage import Stage
 
 ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4")
@@ -101,8 +101,8 @@ class Pictures:
 
     def __init__(self, runs, view, form):
         self.picture = Image.new("RGB", (form.width, form.height))
-        origins = [provenance(run) for run in runs]
-        below = runs if len(set(origins)) > 1 else runs[:1]
+        origins = [parts(run) for run in runs]
+        below = runs[:1] if origins[0] == origins[-1] else runs
         self.strips = [Strip(run, origin, (form.width // len(below), form.height)) for run, origin in zip(below, origins)]
         size = form.width // len(runs), form.height - self.strips[0].height
         starts = [corners(run) for run in runs]

@@ -9,13 +9,18 @@ SHORTEST = 1.0
 
 def provenance(frames, language=english):
     """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.7; time step 0.00025 s; yade-timber 1.0, YADE 2023.02a'. language: module of text/"""
+    return "; ".join(parts(frames, language))
+
+
+def parts(frames, language=english):
+    """The parts of `provenance`, the most important first."""
     summary, words = frames.summary, language.ORIGIN
-    parts, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
+    known, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
     if summary:
         place = language.place_in_ensemble(summary.ensemble) if summary.ensemble else ""
-        parts += [place, f"{words['step']} {summary.dt:g} s"]
+        known += [place, f"{words['step']} {summary.dt:g} s"]
         programs += f", YADE {summary.versions.yade}"
-    return "; ".join(filter(None, (*parts, programs)))
+    return [*filter(None, (*known, programs))]
 
 
 def shaking(frames, words):

@@ -201,9 +201,9 @@ class DamageSurvey:
     def _has_left(self, state, snow):
         """Whether snow touches the ground, or has no corner above the rectangle in plan around the roofs of its structure."""
         e = self.elements
-        corners = [placed(*parts) for parts in zip(e.vertices, state.position, state.orientation)]
-        roofs = np.concatenate([corners[k] for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]])[:, :2]
-        slab = corners[snow]
+        of_roofs = [k for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]]
+        slab, *roofs = (placed(e.vertices[k], state.position[k], state.orientation[k]) for k in (snow, *of_roofs))
+        roofs = np.concatenate(roofs)[:, :2]
         outside = (slab[:, :2].max(0) < roofs.min(0)) | (slab[:, :2].min(0) > roofs.max(0))
         return bool(outside.any() or slab[:, 2].min() < TOUCH)
 

@@ -39,7 +39,7 @@ from ..base.json_types import encode
 from ..base.time_step import rest_stride
 from . import append_log, frame_log
 from .history import History
-from .summary import Summary, parse
+from .summary import ANEW, Summary, parse
 
 NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
@@ -280,7 +280,7 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
     except RunError:
         raise
     except (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as problem:  # of h5py, numpy or json
-        raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}") from None
+        raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}; {ANEW}") from None
     return loaded
 
 
