@@ -64,9 +64,10 @@ void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& t
 	I->functorCache.geom->go(b1.shape, b2.shape, *b1.state, *b2.state, Vector3r::Zero(), false, I);
 	const ManifoldGeom& geom = *static_cast<ManifoldGeom*>(I->geom.get());
 	const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
-	I->functorCache.phys->go(b1.material, b2.material, I); // for changed materials
-	const bool needsLaw = !geom.contactPoints.empty() || !phys.isIdle();
-	if (needsLaw && !I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
+	if (!geom.contactPoints.empty() || !phys.isIdle()) {
+		I->functorCache.phys->go(b1.material, b2.material, I); // for changed materials and masses
+		if (!I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
+	}
 	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }
 

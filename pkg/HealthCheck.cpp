@@ -57,10 +57,10 @@ bool HealthCheck::haveBodiesChanged() const
 }
 
 /// doSort: bodies were added or replaced since the collider ran.
-bool HealthCheck::hasSceneChanged() const
+bool HealthCheck::hasSceneChanged()
 {
-	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size() || checkedParts != partsOf(*scene)
-	        || haveBodiesChanged();
+	findParts(*scene, parts);
+	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size() || checkedParts != parts || haveBodiesChanged();
 }
 
 /// Boxes, contacts and mass of a body would remain those of its old geometry.
@@ -131,7 +131,7 @@ void HealthCheck::checkScene()
 	checkStep(*scene);
 	forgetContacts();
 	checkedScene = current;
-	checkedParts = partsOf(*scene);
+	checkedParts = parts;
 	checkedStep = scene->dt;
 	checkedBodies.clear();
 	for (const shared_ptr<Body>& b : *scene->bodies)

@@ -26,11 +26,11 @@ class HealthCheck : public GlobalEngine {
 		bool isCurrent(const Body&) const;
 	};
 	std::vector<boost::optional<CheckedBody>> checkedBodies; ///< by id, as those of the scene at the last check
-	std::vector<const void*> checkedParts; ///< of the engines at the last check of the scene
+	std::vector<const void*> checkedParts, parts; ///< of the engines (findParts): at the last check of the scene, and in this step
 	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
 
-	bool hasSceneChanged() const;
+	bool hasSceneChanged();
 	bool haveBodiesChanged() const;
 	void checkScene();
 	void checkBodies() const;

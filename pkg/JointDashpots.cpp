@@ -7,14 +7,24 @@ namespace yade {
 namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
-	/// Modes of a joint's bodies.
-	void updateModes(TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b)
+	/// Modes of a joint's bodies, of which one is free. pairInverseMass: theirs [1/kg].
+	void updateModes(TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b, Real pairInverseMass)
 	{
-		const timber::SpringGroup springs = joint.springGroup();
 		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori, &qB = bodyAt(scene, joint.id2)->state->ori;
-		const timber::JointState now { springs.count(), springs.stiffness, timber::pairInverseMass(a, b),
-			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, axesOf(scene, joint.id1), springs, now);
+		const timber::JointState now { joint.intactSprings(), joint.stiffness(), pairInverseMass, a.inverseInertia.trace() + b.inverseInertia.trace(),
+			qA.conjugate() * qB };
+		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, axesOf(scene, joint.id1), joint.springGroup(), now);
+	}
+
+	bool isImplicit(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
+	{
+		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
+		if (!bodyAt(scene, joint.id1) || !bodyAt(scene, joint.id2)) return false;
+		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		const Real inverseMass = timber::pairInverseMass(a, b);
+		if (inverseMass == 0) return false;
+		updateModes(joint, scene, a, b, inverseMass);
+		return joint.dampingRatio > 0 || joint.modes.isStiff(scene.dt);
 	}
 }
 
@@ -22,17 +32,9 @@ void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody
 {
 	found.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
-	if (!engine || engine->dead) return;
-	const auto isImplicit = [&](TimberJoint& joint) {
-		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
-		if (!bodyAt(scene, joint.id1) || !bodyAt(scene, joint.id2)) return false;
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
-		if (timber::pairInverseMass(a, b) == 0) return false;
-		updateModes(joint, scene, a, b);
-		return joint.dampingRatio > 0 || joint.modes.isStiff(scene.dt);
-	};
+	if (!engine) return;
 	for (const shared_ptr<TimberJoint>& joint : engine->joints)
-		if (isImplicit(*joint)) found.push_back(joint.get());
+		if (isImplicit(*joint, scene, bodies, alsoStiff)) found.push_back(joint.get());
 		else {
 			lost += joint->newmarkEnergy;
 			joint->newmarkEnergy = 0;

@@ -76,8 +76,10 @@ void TimberJoint::postLoad(TimberJoint&)
 	packed.reset();
 	isSlip = law == "slip";
 	validate();
-	if (anchors1.empty() || anchors2.empty()) return;
-	broken.resize(anchors1.size(), 0);
+	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
+	if (hasSprings) broken.resize(anchors1.size(), 0);
+	intact = size_t(std::count(broken.begin(), broken.end(), 0));
+	if (!hasSprings) return;
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
 	if (yields()) {
@@ -92,6 +94,7 @@ void TimberJoint::postLoad(TimberJoint&)
 void TimberJoint::breakSpring(size_t spring)
 {
 	const timber::JointSprings changed = springs();
+	if (!broken[spring]) --intact;
 	broken[spring] = 1;
 	forces[spring] = stretches[spring] = Vector3r::Zero();
 	if (packed) packed->set(index, changed);

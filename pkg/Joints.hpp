@@ -28,6 +28,7 @@ class TimberJoint : public Serializable {
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them, and may have been changed.
 	shared_ptr<timber::PackedJoints> packed;
 	size_t index = 0; ///< in `packed`
+	size_t intact = 0; ///< number of unbroken springs
 
 public:
 	void preSave(TimberJoint&) { readSprings(stretches, forces); }
@@ -37,7 +38,8 @@ public:
 	void validateEnvelope() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const;
-	bool isBroken() const { return std::find(broken.begin(), broken.end(), 0) == broken.end(); }
+	size_t intactSprings() const { return intact; }
+	bool isBroken() const { return intact == 0; }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
 	/// Of a joint with these forces.

@@ -67,24 +67,16 @@ namespace {
 
 	[[noreturn]] void refuseBody(const Body& b, const string& fault) { throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault); }
 
-	/// Appends an engine, and those inside it, unless it is dead.
-	void appendLive(const shared_ptr<Engine>& engine, std::vector<const Engine*>& live)
+	/// Visits live engines, and those inside them.
+	template <class Visit> void visitLive(const std::vector<shared_ptr<Engine>>& engines, const Visit& visit)
 	{
-		if (!engine || engine->dead) return;
-		live.push_back(engine.get());
-		const auto* parallel = dynamic_cast<const ParallelEngine*>(engine.get());
-		if (!parallel) return;
-		for (const auto& group : parallel->slaves)
-			for (const shared_ptr<Engine>& slave : group)
-				appendLive(slave, live);
-	}
-
-	std::vector<const Engine*> liveEngines(const Scene& scene)
-	{
-		std::vector<const Engine*> live;
-		for (const shared_ptr<Engine>& engine : scene.engines)
-			appendLive(engine, live);
-		return live;
+		for (const shared_ptr<Engine>& engine : engines) {
+			if (!engine || engine->dead) continue;
+			visit(*engine);
+			if (const auto* parallel = dynamic_cast<const ParallelEngine*>(engine.get()))
+				for (const auto& group : parallel->slaves)
+					visitLive(group, visit);
+		}
 	}
 
 	/// Whether an engine stands in the list itself, not inside another engine.
@@ -196,7 +188,8 @@ void checkEngines(const Scene& scene)
 	std::map<const Role*, int> count;
 	const Role* last = nullptr;
 	const Engine* late = nullptr; // behind ContactForces, without a role
-	const std::vector<const Engine*> live = liveEngines(scene);
+	std::vector<const Engine*> live;
+	visitLive(scene.engines, [&](const Engine& engine) { live.push_back(&engine); });
 	for (const Engine* engine : live) {
 		const Role* role = roleOf(*engine);
 		if (!role && last && last->name == string("ContactForces")) late = engine;
@@ -232,9 +225,9 @@ void checkContacts(const Scene& scene)
 				checkPair(loop, *kinds[i], *kinds[k]);
 }
 
-std::vector<const void*> partsOf(const Scene& scene)
+void findParts(const Scene& scene, std::vector<const void*>& parts)
 {
-	std::vector<const void*> parts;
+	parts.clear();
 	const auto append = [&](const auto& dispatcher) {
 		parts.push_back(dispatcher.get());
 		if (!dispatcher) return;
@@ -248,16 +241,14 @@ std::vector<const void*> partsOf(const Scene& scene)
 			append(loop->lawDispatcher);
 		} else if (const auto* collider = dynamic_cast<const Collider*>(engine)) append(collider->boundDispatcher);
 	};
-	for (const Engine* engine : liveEngines(scene)) {
-		parts.push_back(engine);
-		appendInner(engine);
-		const auto* contactLoop = dynamic_cast<const ContactLoop*>(engine);
-		const auto* trigger = dynamic_cast<const CollisionTrigger*>(engine);
+	visitLive(scene.engines, [&](const Engine& engine) {
+		parts.push_back(&engine);
+		const auto* contactLoop = dynamic_cast<const ContactLoop*>(&engine);
+		const auto* trigger = contactLoop ? nullptr : dynamic_cast<const CollisionTrigger*>(&engine);
 		const Engine* inner = contactLoop ? contactLoop->loop.get() : trigger ? trigger->collider.get() : nullptr;
-		parts.push_back(inner);
-		appendInner(inner);
-	}
-	return parts;
+		if (inner) parts.push_back(inner);
+		appendInner(inner ? inner : &engine);
+	});
 }
 
 constexpr Real explicitLimits = 20; ///< largest step for joints, over that of explicit springs: as for house runs [-]

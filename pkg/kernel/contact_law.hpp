@@ -95,11 +95,6 @@ template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number s
 	return selectLazily(
 	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
 }
-/// e_s after sliding: at most friction times the normal force. [N]
-template <class Number> Vec3Of<Number> limitedShear(const Vec3Of<Number>& elasticShear, Number friction, Number normalForce)
-{
-	return clipped<Number>(elasticShear, friction * normalForce);
-}
 
 /// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the plane normal to n.
 /// The magnitude is preserved.
@@ -121,7 +116,7 @@ enum class NormalForm { Closed, Increment };
 
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
-/// energy. It slides in storeForces(), once the total normal force is known: limitedShear().
+/// energy. It slides in storeForces(), once the total normal force is known.
 /// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
 [[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const RelativeMotion<Number>& motion, double h,

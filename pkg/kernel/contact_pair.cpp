@@ -182,13 +182,6 @@ namespace {
 		}
 	}
 
-	template <class Number> Number powerOf(Number s, double q)
-	{
-		if (q == 1.5) return s * sqrt(s);
-		if constexpr (std::is_same_v<Number, double>) return std::pow(s, q);
-		else return eachLane(s, [q](double x) { return std::pow(x, q); });
-	}
-
 	/// Energy of the normal spring after a closing displacement `way` from the placement, F = k n + c n^q. [J]
 	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left until the force is constant [m].
 	template <class Number> [[gnu::always_inline]] inline Number energyAfter(Number U, Number F, Number K, Number n, Number room, Number way, double q)
@@ -284,8 +277,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
 		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)));
 		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness), n = record.get(&PointRecord::overlap),
-		             limit = Number(pair.friction) * p[0] / Number(h), none = 0.;
-		const Vec shear = limitedShear<Number>(record.get(&PointRecord::shearForce), Number(pair.friction), Number(p[0] / Number(h)));
+		             limit = Number(pair.friction) * (p[0] / Number(h)), none = 0.;
+		const Vec shear = clipped<Number>(record.get(&PointRecord::shearForce), limit);
 		record.set(&PointRecord::shearForce, shear);
 		record.set(&PointRecord::dashpotForce, Vec(force - e * axes[0] - shear));
 

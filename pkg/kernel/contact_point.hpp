@@ -50,4 +50,12 @@ struct PointRecord : PointHistory {
 	PointStep step;
 };
 
+/// s^q, q: power of a contact law, which for Hertz's is a matter of a square root.
+template <class Number> Number powerOf(Number s, double q)
+{
+	if (q == 1.5) return s * sqrt(s);
+	if constexpr (std::is_same_v<Number, double>) return std::pow(s, q);
+	else return eachLane(s, [q](double x) { return std::pow(x, q); });
+}
+
 } // namespace timber

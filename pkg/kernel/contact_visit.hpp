@@ -31,7 +31,7 @@ struct Hardening {
 	Hardening(const PointStep& c, double d, double middle)
 	{
 		const double q = c.power, stretch = 1 + d / c.overlap, share = 1 + middle / c.overlap;
-		const double power = q == 1.5 ? stretch * std::sqrt(stretch) : std::pow(stretch, q);
+		const double power = powerOf(stretch, q);
 		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : std::pow(share, (q - 1) / 2); // C ~ K^1/2 ~ n^((q-1)/2)
 		force = c.hardening * (power - 1 - q * (stretch - 1));
 		slope = c.hardening * q / c.overlap * (power / stretch - 1);
