@@ -126,7 +126,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
 	for (int k = pairCount; k < count; ++k)
-		solver.addDashpot(joint(k).id1, joint(k).id2);
+		solver.addJoint(joint(k).id1, joint(k).id2);
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount) timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);

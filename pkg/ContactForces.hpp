@@ -2,7 +2,7 @@
 /// Engine of the contact solver: collects pairs, damped joints and bodies, solves island by island, sums forces and energies.
 #pragma once
 #include <ContactPhysics.hpp>
-#include <JointDashpots.hpp>
+#include <ImplicitJoints.hpp>
 #include <kernel/contact_solver.hpp>
 #include <kernel/islands.hpp>
 #include <kernel/stability.hpp>

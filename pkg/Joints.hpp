@@ -3,7 +3,7 @@
 /// Yielding springs: kernel/slip_law.hpp.
 #pragma once
 #include <bodies.hpp>
-#include <kernel/joint_dashpot.hpp>
+#include <kernel/joint_modes.hpp>
 #include <kernel/packed_joints.hpp>
 #include <kernel/slip_law.hpp>
 #include <kernel/stability.hpp>

@@ -29,7 +29,7 @@ void ContactSolver::begin(std::vector<SolverBody>& all, double step, int sweepLi
 	h = step;
 	maxSweeps = sweepLimit;
 	pairs.clear();
-	dashpots.clear();
+	joints.clear();
 	weighted.resize(all.size());
 	++solveCount;
 	momentum = 0;
@@ -56,21 +56,21 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t 
 	return pairs.size() - 1;
 }
 
-size_t ContactSolver::addDashpot(int bodyA, int bodyB)
+size_t ContactSolver::addJoint(int bodyA, int bodyB)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	dashpots.emplace_back();
-	dashpots.back().bodyA = bodyA;
-	dashpots.back().bodyB = bodyB;
+	joints.emplace_back();
+	joints.back().bodyA = bodyA;
+	joints.back().bodyB = bodyB;
 	startBody(bodyA);
 	startBody(bodyB);
-	return dashpots.size() - 1;
+	return joints.size() - 1;
 }
 
-void ContactSolver::prepareDashpot(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored)
+void ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored)
 {
-	assert(k < dashpots.size());
-	timber::prepareDashpot(dashpots[k], (*bodies)[dashpots[k].bodyA], (*bodies)[dashpots[k].bodyB], modes, axesA, ratio, h, stored);
+	assert(k < joints.size());
+	timber::prepareModes(joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, stored);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& given)
@@ -103,7 +103,7 @@ void ContactSolver::finishBodies()
 	};
 	for (const SolverPair& pair : pairs)
 		finish(pair.bodyA), finish(pair.bodyB);
-	for (const DashpotConstraint& joint : dashpots)
+	for (const ModalConstraint& joint : joints)
 		finish(joint.bodyA), finish(joint.bodyB);
 }
 
@@ -136,7 +136,7 @@ double ContactSolver::sumOfChanges() const
 	double sum = 0;
 	for (const SolverPair& pair : pairs)
 		sum += pair.squaredChange;
-	for (const DashpotConstraint& joint : dashpots)
+	for (const ModalConstraint& joint : joints)
 		sum += joint.squaredChange;
 	return sum;
 }
@@ -155,7 +155,7 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		size += squares * inverseMass(pair);
 		count += pair.count;
 	}
-	for (const DashpotConstraint& joint : dashpots) {
+	for (const ModalConstraint& joint : joints) {
 		size += joint.impulse.squaredNorm();
 		count += joint.count;
 	}
@@ -193,16 +193,16 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards)
 		solvePair(pair, forwards);
 		changed = activateNeighbours(pair, threshold) || changed;
 	}
-	return changed || sweepDashpots(threshold);
+	return changed || sweepJoints(threshold);
 }
 
 /// Returns whether another sweep over the pairs is needed.
-bool ContactSolver::sweepDashpots(double threshold)
+bool ContactSolver::sweepJoints(double threshold)
 {
 	bool changed = false;
-	for (DashpotConstraint& joint : dashpots) {
+	for (ModalConstraint& joint : joints) {
 		const double limit = threshold * joint.thresholdShare;
-		solveDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), limit * double(joint.count));
+		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), limit * double(joint.count));
 		joint.sweep = sweepCount;
 		changed = activateNeighbours(joint, limit) || changed;
 	}
@@ -217,7 +217,7 @@ double ContactSolver::largestChange() const
 		if (c.sweep == sweepCount) largest = std::max(largest, c.squaredChange);
 	};
 	std::for_each(pairs.begin(), pairs.end(), add);
-	std::for_each(dashpots.begin(), dashpots.end(), add);
+	std::for_each(joints.begin(), joints.end(), add);
 	return largest;
 }
 
@@ -248,18 +248,18 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 {
 	activeUntil.resize(bodies->size(), 0);
 	++sweepCount;
-	for (DashpotConstraint& joint : dashpots)
-		solveDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
+	for (ModalConstraint& joint : joints)
+		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
 	for (SolverPair& pair : pairs)
 		solvePair(pair, true);
 	const double firstChanges = sumOfChanges();
 	double threshold = squaredThreshold(tolerance, firstChanges);
 	bool changed = activateChanged(firstSweepShare * firstSweepShare * threshold);
-	changed = changed || sweepDashpots(threshold);
+	changed = changed || sweepJoints(threshold);
 	Convergence result { 1, true, 0 };
 	while (changed && result.sweeps < maxSweeps) {
 		changed = sweepOnce(threshold, result.sweeps % 2 == 0);
-		if (changed && result.sweeps % jointInterval == 0) sweepDashpots(threshold);
+		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold);
 		++result.sweeps;
 		if (changed) continue;
 		const double next = squaredThreshold(tolerance, firstChanges); // the impulses of the warm start may have been much larger
@@ -283,11 +283,11 @@ Convergence ContactSolver::solve(double tolerance)
 	Convergence result;
 	if (maxSweeps > 0) result = sweepToConvergence(tolerance);
 	else
-		for (DashpotConstraint& joint : dashpots)
-			applyExplicitDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
+		for (ModalConstraint& joint : joints)
+			applyExplicitModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	if (maxSweeps > 0) std::for_each(pairs.begin(), pairs.end(), [this](const SolverPair& pair) { applyRestitution(pair); });
-	for (DashpotConstraint& joint : dashpots)
-		finishDashpot(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
+	for (ModalConstraint& joint : joints)
+		finishModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	finishBodies();
 	return result;
 }

@@ -72,17 +72,17 @@
 ///     x          -              a h C: decay rate of the dashpot times h [-]
 ///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
-/// Dashpots of joints (joint_dashpot.hpp) are visited before the first sweep over the pairs, in every fourth sweep (jointInterval), and whenever no pair
+/// Joints (joint_modes.hpp) are visited before the first sweep over the pairs, in every fourth sweep (jointInterval), and whenever no pair
 /// changes any more.
 ///
 /// Phases of a step, for each island (islands.hpp):
-///     1. begin(), addPair() and addDashpot() list the pairs and the damped joints;
-///     2. prepareContacts() (contact_pair.hpp) prepares the points of each pair, prepareDashpot() each joint;
+///     1. begin(), addPair() and addJoint() list the pairs and the damped joints;
+///     2. prepareContacts() (contact_pair.hpp) prepares the points of each pair, prepareJoint() each joint;
 ///     3. solve(): warm start with the impulses of the last step, sweeps over the pairs and joints, restitution of points that act alone;
-///     4. storeForces() (contact_pair.hpp) stores forces, history and energies of the points; dashpotImpulse() gives the impulse of a joint.
+///     4. storeForces() (contact_pair.hpp) stores forces, history and energies of the points; jointImpulse() gives the impulse of a joint.
 #pragma once
 #include "contact_step.hpp"
-#include "joint_dashpot.hpp"
+#include "joint_modes.hpp"
 #include <cassert>
 #include <cstddef>
 #include <vector>
@@ -112,11 +112,11 @@ public:
 	/// Phase 1: lists two bodies with the records of that many points, which stay where they are until phase 4. Returns the pair's index.
 	size_t addPair(int bodyA, int bodyB, PointRecord* points, size_t count);
 	/// Phase 1: lists a joint. Returns its index.
-	size_t addDashpot(int bodyA, int bodyB);
+	size_t addJoint(int bodyA, int bodyB);
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
-	/// Phase 2: the k-th joint; arguments as of timber::prepareDashpot(). Thread-safe for different joints.
-	void prepareDashpot(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored);
+	/// Phase 2: the k-th joint; arguments as of timber::prepareModes(). Thread-safe for different joints.
+	void prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points of a pair forwards and
 	/// backwards in turn, so that no side of a face is favoured. After the first sweep only active pairs are visited: those of which a body
 	/// has just changed. A pair counts as changed above `tolerance` times the root mean square of the island's impulses, each over the root
@@ -140,10 +140,10 @@ public:
 		return { (*bodies)[pair.bodyA], (*bodies)[pair.bodyB], weighted[pair.bodyA].root, weighted[pair.bodyB].root };
 	}
 	/// Phase 4: the k-th joint.
-	const DashpotConstraint& dashpot(size_t k) const
+	const ModalConstraint& joint(size_t k) const
 	{
-		assert(k < dashpots.size());
-		return dashpots[k];
+		assert(k < joints.size());
+		return joints[k];
 	}
 
 private:
@@ -152,7 +152,7 @@ private:
 	int maxSweeps = 0;
 	std::vector<WeightedBody> weighted; ///< of each body of the island, by its index
 	std::vector<SolverPair> pairs;
-	std::vector<DashpotConstraint> dashpots;
+	std::vector<ModalConstraint> joints;
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
@@ -167,10 +167,10 @@ private:
 	double sumOfChanges() const;
 	double squaredThreshold(double tolerance, double firstChanges) const;
 	bool activateChanged(double threshold);
-	/// Connection: SolverPair or DashpotConstraint.
+	/// Connection: SolverPair or ModalConstraint.
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards);
-	bool sweepDashpots(double threshold);
+	bool sweepJoints(double threshold);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
 	Convergence sweepToConvergence(double tolerance);

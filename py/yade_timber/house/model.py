@@ -62,21 +62,21 @@ class Element:
 
 @dataclass(eq=False)
 class JointSpec:
-    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4 and 4), or one of a wall."""
+    """Springs between elements `a` and `b` of a house, or of `connect`: four at the corners of their contact area (paper, 2.4 and 4), or one of a wall."""
 
     a: str
     b: str
     points: np.ndarray   # (4, 3) or (1, 3) spring points [m], world frame
     normal: np.ndarray   # (3,) unit, from a to b; of a wall, along which its spring acts
-    area: float          # contact area [m2]
-    type: str            # key of joint_types
     kind: str            # 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...
     kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
     ks: float            # [N/m] tangential stiffness, likewise; 0: the springs act along the normal only
     strength: float      # [N] P_max, with law 'slip' the yield force, likewise; inf: unbreakable
     per: str             # 'spring': values of each spring; 'joint': of the joint as a whole
-    storey: int
-    side: frozenset
+    area: float = 0.0    # contact area [m2]
+    type: str = ""       # key of joint_types
+    storey: int = 0
+    side: frozenset = frozenset()
     law: str = "brittle"  # or 'slip'
     damping_ratio: float = 0.0  # of the critical damping of the joined masses
     friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
@@ -86,14 +86,14 @@ class JointSpec:
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
-    label: str = ""      # name of a joint that is not named after its members: of a wall
+    label: str = ""      # name of a joint that is not named after its members: of a wall, or of `connect`
 
     def __repr__(self):
         return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
 
     @property
     def name(self):
-        return self.label or f"{self.a}|{self.b}"
+        return self.label or "|".join(filter(None, (self.a, self.b)))
 
     @property
     def centre(self):

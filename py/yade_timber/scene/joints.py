@@ -7,6 +7,7 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector2, Vector3
 
+from ..house.model import JointSpec
 from . import arguments
 from .engines import find_engine
 
@@ -14,27 +15,6 @@ PER_JOINT = {"spring": False, "joint": True}
 """Owner of stiffness and strength -> TimberJoint.perJoint."""
 
 O = yw.Omega()
-
-
-@dataclass(frozen=True)
-class JointValues:
-    """Springs of a joint: the attributes of `house.model.JointSpec` that `make_joint` needs, meaning as in `connect`."""
-
-    points: np.ndarray
-    normal: np.ndarray
-    kn: float
-    ks: float
-    strength: float
-    per: str
-    kind: str = ""
-    name: str = ""
-    broken: bool = False
-    damping_ratio: float = 0.0
-    law: str = "brittle"
-    friction_share: float = None
-    softening_stretch: float = None
-    ultimate_stretch: float = None
-    envelope: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -97,14 +77,13 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     require_near(springs.points, id1, id2)
     if slip is not None:
         springs = yielding(springs, slip)
-    engine = find_engine(yw.JointEngine) or add_joint_engine()
     joint = make_joint(id1, id2, springs)
-    engine.append(joint)
+    (find_engine(yw.JointEngine) or add_joint_engine()).append(joint)
     return joint
 
 
 def checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio):
-    """JointValues of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
+    """JointSpec of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
     if not isinstance(per, str) or per not in PER_JOINT:
         arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
     points = arguments.points("connect: points", points)
@@ -121,7 +100,7 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
     damping_ratio = arguments.number("connect: damping_ratio", damping_ratio)
     if not 0 <= damping_ratio <= 1:
         arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
-    return JointValues(points, normal, kn, ks, strength, per, kind, name, damping_ratio=damping_ratio)
+    return JointSpec("", "", points, normal, kind, kn, ks, strength, per, label=name, damping_ratio=damping_ratio)
 
 
 def require_near(points, *ids):
@@ -136,21 +115,10 @@ def require_near(points, *ids):
 
 
 def yielding(springs, slip):
-    """The JointValues with a SlipLaw. Raises ValueError or TypeError for a wrong value."""
+    """The JointSpec with a SlipLaw. Raises TypeError for another object; TimberJoint refuses wrong values."""
     arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
-    share = arguments.number("connect: slip.friction_share", slip.friction_share)
-    softening = arguments.positive("connect: slip.softening_stretch", slip.softening_stretch, "m")
-    ultimate = arguments.positive("connect: slip.ultimate_stretch", slip.ultimate_stretch, "m")
-    if springs.ks not in (springs.kn, 0):
-        arguments.refuse(ValueError, "connect: stiffness", (springs.kn, springs.ks), "two equal numbers, or (kn, 0), with a SlipLaw [N/m]")
-    if not 0 <= share <= 1:
-        arguments.refuse(ValueError, "connect: slip.friction_share", share, "a number from 0 to 1 [-]")
-    if not softening > springs.strength / springs.kn:
-        form = f"a number > strength / stiffness = {springs.strength / springs.kn:g} [m]"
-        arguments.refuse(ValueError, "connect: slip.softening_stretch", softening, form)
-    if not ultimate > softening:
-        arguments.refuse(ValueError, "connect: slip.ultimate_stretch", ultimate, f"a number > softening_stretch = {softening:g} [m]")
-    return replace(springs, law="slip", friction_share=share, softening_stretch=softening, ultimate_stretch=ultimate)
+    numbers = {name: arguments.number(f"connect: slip.{name}", value) for name, value in vars(slip).items()}
+    return replace(springs, law="slip", **numbers)
 
 
 def add_joint_engine():
@@ -170,7 +138,7 @@ def _vector(numbers):
 
 
 def make_joint(id1, id2, springs):
-    """TimberJoint between two bodies of the scene in their present placement; springs: JointValues or a house's JointSpec."""
+    """TimberJoint between two bodies of the scene in their present placement; springs: JointSpec."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [_vector(p) for p in springs.points]
     direction = _vector(springs.normal) if springs.normal is not None else s2.pos - s1.pos

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Dashpots of a joint: its two bodies vibrate against each other with a given damping ratio. Newmark's term of its springs, with which stiff
-/// joints set no limit to the step (as in contact_solver.hpp). Adapter: ContactForces.
+/// Vibration modes of a joint in the solver: dashpots, with which its two bodies vibrate against each other with a given damping ratio, and
+/// Newmark's term of its springs, with which stiff joints set no limit to the step (as in contact_solver.hpp). Adapter: ContactForces.
 ///
 /// Two bodies that are connected by one joint, and free otherwise, have six vibration modes: translations and rotations of B relative to A.
 /// Let w be the relative velocity and spin at the joint's centre, P the impulse and angular impulse on B, R the response, so that
@@ -96,8 +96,8 @@ struct JointModes {
 /// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs, const JointState& state);
 
-/// A joint's dashpots in a step.
-struct DashpotConstraint {
+/// A joint's modes in a step.
+struct ModalConstraint {
 	int bodyA, bodyB;
 	const JointModes* modes; ///< Z in the axes of A
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
@@ -109,28 +109,28 @@ struct DashpotConstraint {
 	Vec6 newmark; ///< g
 	long sweep; ///< of the last visit
 	double stored; ///< N: in-out [J]
-	double dissipated; ///< in the step, after finishDashpot() [J]
+	double dissipated; ///< in the step, after finishModes() [J]
 	double thresholdShare; ///< of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
 /// Constraint for a step of h [s], with zero impulse. modes are not copied. stored: N before the step [J].
-void prepareDashpot(DashpotConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h,
+void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h,
         double stored);
 
 /// One Gauss-Seidel visit: (3), (4). A squared change of at most `threshold` [J] is not applied.
-void solveDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
+void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
-void applyExplicitDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+void applyExplicitModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
 /// Account and dissipated energy after the step. a, b: after the sweeps.
-void finishDashpot(DashpotConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+void finishModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
-/// Impulse of the dashpots on B at the joint's centre.
-struct DashpotImpulse {
+/// Impulse of the modes on B at the joint's centre.
+struct JointImpulse {
 	Vec3 linear, angular; ///< [N s, N m s]
 };
-DashpotImpulse dashpotImpulse(const DashpotConstraint& constraint);
+JointImpulse jointImpulse(const ModalConstraint& constraint);
 
 } // namespace timber

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Dashpots of joints: closed forms of single oscillators, two joints against a dense linear system, conservation, limits.
+/// Modes of joints: closed forms of single oscillators, two joints against a dense linear system, conservation, limits.
 #include "heap.hpp"
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
-#include <kernel/joint_dashpot.hpp>
+#include <kernel/joint_modes.hpp>
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -131,14 +131,14 @@ struct Assembly {
 			for (Vec3& point : anchors)
 				point -= bodies[j.a].position;
 			modes[k] = jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
-			solver.addDashpot(j.a, j.b);
-			solver.prepareDashpot(k, modes[k], Mat3::Identity(), j.ratio, stored[k]);
+			solver.addJoint(j.a, j.b);
+			solver.prepareJoint(k, modes[k], Mat3::Identity(), j.ratio, stored[k]);
 		}
 		solver.solve(tolerance);
 		double dissipated = 0;
 		for (size_t k = 0; k < joints.size(); ++k) {
-			dissipated += solver.dashpot(k).dissipated;
-			stored[k] = solver.dashpot(k).stored;
+			dissipated += solver.joint(k).dissipated;
+			stored[k] = solver.joint(k).stored;
 		}
 		return dissipated;
 	}
@@ -432,13 +432,13 @@ TEST(JointModes, OldOnesAddNoEnergy)
 		}
 		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix(); // the bodies have turned since then
 		for (size_t k = 0; k < all.joints.size(); ++k)
-			solver.prepareDashpot(solver.addDashpot(all.joints[k].a, all.joints[k].b), modes[k], axes, 1, 0);
+			solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], axes, 1, 0);
 		solver.solve(1e-10);
 		double dissipated = 0, stored = 0;
 		for (size_t k = 0; k < all.joints.size(); ++k) {
-			EXPECT_GE(solver.dashpot(k).dissipated, -1e-6 * before) << trial << " " << h;
-			dissipated += solver.dashpot(k).dissipated;
-			stored += solver.dashpot(k).stored;
+			EXPECT_GE(solver.joint(k).dissipated, -1e-6 * before) << trial << " " << h;
+			dissipated += solver.joint(k).dissipated;
+			stored += solver.joint(k).stored;
 		}
 		EXPECT_NEAR(kineticEnergy(all.bodies) + dissipated + stored, before, 1e-6 * before) << trial << " " << h;
 	}
@@ -468,7 +468,7 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 		modes.push_back(jointModes(start[j.a], start[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 	}
 	for (size_t k = 0; k < 2; ++k)
-		solver.prepareDashpot(solver.addDashpot(all.joints[k].a, all.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
+		solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
 	const Vec3 contact = worldImpulse(record.step);

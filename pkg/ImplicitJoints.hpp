@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Dashpots and stiff springs of the joints in the solver of ContactForces. Law: kernel/joint_dashpot.hpp.
+/// Joints that the solver of ContactForces treats: damped or stiff ones. Law: kernel/joint_modes.hpp.
 #pragma once
 #include <Joints.hpp>
 #include <kernel/contact_pair.hpp>
@@ -19,7 +19,7 @@ void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bod
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(timber::ContactSolver&, size_t k, TimberJoint&, const Scene&);
 
-/// Force of the dashpots of the solver's k-th joint. energies: added to.
+/// Force of the modes of the solver's k-th joint. energies: added to.
 timber::PairForce storeJoint(const timber::ContactSolver&, size_t k, const Scene&, TimberJoint&, JointEnergies& energies);
 
 } // namespace yade

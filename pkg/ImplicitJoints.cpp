@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <JointDashpots.hpp>
+#include <ImplicitJoints.hpp>
 #include <kernel/constants.hpp>
 
 namespace yade {
@@ -43,13 +43,13 @@ void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody
 
 void prepareJoint(timber::ContactSolver& solver, size_t k, TimberJoint& joint, const Scene& scene)
 {
-	solver.prepareDashpot(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmarkEnergy);
+	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmarkEnergy);
 }
 
 timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene, TimberJoint& joint, JointEnergies& energies)
 {
-	const timber::DashpotConstraint& c = solver.dashpot(k);
-	const timber::DashpotImpulse P = timber::dashpotImpulse(c);
+	const timber::ModalConstraint& c = solver.joint(k);
+	const timber::JointImpulse P = timber::jointImpulse(c);
 	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
 	joint.newmarkEnergy = c.stored;
 	energies.stored += c.stored;

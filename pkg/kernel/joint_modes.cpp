@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "joint_dashpot.hpp"
+#include "joint_modes.hpp"
 #include "kinematics.hpp"
 #include "preconditions.hpp"
 #include <Eigen/Cholesky>
@@ -60,7 +60,7 @@ namespace {
 	}
 
 	/// w of these velocities and spins, in world axes.
-	[[gnu::always_inline]] inline Vec6 twist(const DashpotConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+	[[gnu::always_inline]] inline Vec6 twist(const ModalConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
 	{
 		Vec6 w;
 		w.head<3>() = relativeVelocity<double>(c.armA, c.armB, vA, wA, vB, wB);
@@ -75,7 +75,7 @@ namespace {
 	}
 
 	/// Z^T times a twist in world axes.
-	[[gnu::always_inline]] inline Vec6 modalVelocity(const DashpotConstraint& c, const Vec6& twist)
+	[[gnu::always_inline]] inline Vec6 modalVelocity(const ModalConstraint& c, const Vec6& twist)
 	{
 		Vec6 turned, result;
 		turned.head<3>() = c.axesA.transpose() * twist.head<3>();
@@ -86,7 +86,7 @@ namespace {
 	}
 
 	/// Z q, in world axes.
-	[[gnu::always_inline]] inline DashpotImpulse impulseOf(const DashpotConstraint& c, const Vec6& q)
+	[[gnu::always_inline]] inline JointImpulse impulseOf(const ModalConstraint& c, const Vec6& q)
 	{
 		Vec6 P;
 		for (int i = 0; i < 6; ++i)
@@ -94,15 +94,15 @@ namespace {
 		return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
 	}
 
-	[[gnu::always_inline]] inline void apply(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
+	[[gnu::always_inline]] inline void apply(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
 	{
-		const DashpotImpulse P = impulseOf(c, q);
+		const JointImpulse P = impulseOf(c, q);
 		a.accelerate(-P.linear, -c.armA.cross(P.linear) - P.angular);
 		b.accelerate(P.linear, c.armB.cross(P.linear) + P.angular);
 	}
 
 	/// Z^T u; after the sweeps: eta'.
-	[[gnu::always_inline]] inline Vec6 modalNow(const DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
+	[[gnu::always_inline]] inline Vec6 modalNow(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 	{
 		return modalVelocity(c, twist(c, a.velocity(), a.spin(), b.velocity(), b.spin()));
 	}
@@ -129,8 +129,8 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	return result;
 }
 
-void prepareDashpot(
-        DashpotConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h, double stored)
+void prepareModes(
+        ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h, double stored)
 {
 	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
 	c.modes = &modes;
@@ -150,7 +150,7 @@ void prepareDashpot(
 	c.dissipated = 0;
 }
 
-void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
+void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
 	const Vec6 now = modalNow(c, a, b), sum = c.before + now - c.impulse; // eta + eta' without q
 	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before); // (3)
@@ -167,13 +167,13 @@ void solveDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b
 	apply(c, a, b, change);
 }
 
-void applyExplicitDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
+void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, a, b, c.impulse);
 }
 
-void finishDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& b)
+void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
 	const Vec6 now = modalNow(c, a, b);
 	const double available = c.stored - c.impulse.dot(c.before + now) / 2, mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
@@ -181,6 +181,6 @@ void finishDashpot(DashpotConstraint& c, const BodyMotion& a, const BodyMotion& 
 	c.dissipated = available - c.stored;
 }
 
-DashpotImpulse dashpotImpulse(const DashpotConstraint& c) { return impulseOf(c, c.impulse); }
+JointImpulse jointImpulse(const ModalConstraint& c) { return impulseOf(c, c.impulse); }
 
 } // namespace timber
