@@ -51,7 +51,7 @@ void CollisionTrigger::takeSnapshots()
 	snapshots.assign(scene->bodies->size(), erased);
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b) continue;
-		const auto shape = dynamic_cast<RoundedPolyhedron*>(b->shape.get());
+		const RoundedPolyhedron* shape = roundedShape(*b);
 		const Vector3r halfExtents = shape ? shape->geometry->halfExtents : Vector3r(Vector3r::Zero());
 		snapshots[b->getId()] = { b->state->pos, b->state->ori, bool(shape), halfExtents, boxMargin(*b, margin, scene->dt) };
 	}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactForces.hpp>
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 #include <kernel/constants.hpp>
 #include <kernel/threads.hpp>
 #include <validation.hpp>

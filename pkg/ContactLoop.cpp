@@ -9,14 +9,6 @@ namespace yade {
 
 YADE_PLUGIN((ContactLoop));
 
-namespace {
-	bool isRounded(const Scene& scene, Body::id_t id)
-	{
-		const Body* b = bodyAt(scene, id);
-		return b && dynamic_cast<RoundedPolyhedron*>(b->shape.get());
-	}
-}
-
 bool ContactLoop::areBothFixed(const TrackedInteraction& t) const
 {
 	const Body *b1 = bodyAt(*scene, t.id1), *b2 = bodyAt(*scene, t.id2);
@@ -48,7 +40,8 @@ void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
 		const TrackedInteraction t { I, I->getId1(), I->getId2(), 0 };
 		if (I->isReal()) tracked.push_back(t);
 		else if (areBothFixed(t)) fixedPairs.push_back(t);
-		allRounded = allRounded && isRounded(*scene, t.id1) && isRounded(*scene, t.id2);
+		for (const Body::id_t id : { t.id1, t.id2 })
+			allRounded = allRounded && bodyAt(*scene, id) && roundedShape(*bodyAt(*scene, id));
 	}
 	interactionCount = scene->interactions->size();
 	colliderRuns = trigger && allRounded ? trigger->runs : -1;

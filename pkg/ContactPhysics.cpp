@@ -59,8 +59,6 @@ namespace {
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all() && (b2.bound->min.array() <= b1.bound->max.array()).all();
 	}
 
-	timber::BodyKinematics kinematics(const State& s) { return { s.pos, s.vel, s.angVel }; }
-
 	/// Elastic step of a pair. Returns false when the interaction ends: no contact points, bounding boxes apart.
 	template <class Law>
 	bool elasticForces(const Law& law, IGeom* g, ManifoldPhys& phys, Interaction* I, Scene* scene, timber::NormalForm form = timber::NormalForm::Closed)

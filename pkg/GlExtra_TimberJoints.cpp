@@ -2,7 +2,7 @@
 #include <GlExtra_TimberJoints.hpp>
 #ifdef YADE_OPENGL
 #include <GL/gl.h>
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 
 namespace yade {
 

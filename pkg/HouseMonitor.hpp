@@ -3,7 +3,7 @@
 #pragma once
 #include <ContactForces.hpp>
 #include <GroundMotion.hpp>
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 
 namespace yade {
 

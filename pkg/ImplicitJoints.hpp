@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Joints that the solver of ContactForces treats: damped or stiff ones. Law: kernel/joint_modes.hpp.
 #pragma once
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 #include <kernel/contact_pair.hpp>
 
 namespace yade {

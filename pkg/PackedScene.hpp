@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The scene as packed arrays. A frame of a house takes one call instead of milliseconds of attribute access in Python.
 #pragma once
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 
 namespace yade {
 

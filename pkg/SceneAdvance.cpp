@@ -27,23 +27,27 @@ namespace {
 
 	/// Makes a scene YADE's current one, and the previous one again in the end. The interpreter is free meanwhile.
 	class CurrentScene {
-		shared_ptr<Scene>& current;
 		shared_ptr<Scene> previous;
 		PyThreadState* released;
 
 	public:
 		explicit CurrentScene(const shared_ptr<Scene>& next)
-		        : current(const_cast<shared_ptr<Scene>&>(Omega::instance().getScene())) // setScene() is inline and would assume Omega's layout
-		        , previous(std::exchange(current, next))
+		        : previous(swapScene(next))
 		        , released(PyEval_SaveThread())
 		{
 		}
 		~CurrentScene()
 		{
 			PyEval_RestoreThread(released);
-			current = previous;
+			swapScene(previous);
 		}
 	};
+}
+
+shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
+{
+	auto& current = const_cast<shared_ptr<Scene>&>(Omega::instance().getScene());
+	return std::exchange(current, next);
 }
 
 boost::python::list advanceScenes(const boost::python::list& scenes, const boost::python::list& steps, const shared_ptr<Scene>& idle)

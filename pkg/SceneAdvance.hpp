@@ -5,6 +5,10 @@
 
 namespace yade {
 
+/// Makes `next` YADE's current scene and returns the previous one. setScene() is inline and would assume Omega's layout, so the reference that
+/// getScene() returns is used.
+shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next);
+
 /// Advances each scene to a step of its own, on all threads. scenes: list of Scene; steps: list of int; idle: an empty Scene, YADE's current one
 /// meanwhile, because some of YADE's functions read the current scene. The first step of a scene must have been made while it was the current one.
 /// Returns a list of (wall time [s], message of the error that ended the scene's steps or "").

@@ -2,7 +2,7 @@
 #include <CollisionTrigger.hpp>
 #include <ContactForces.hpp>
 #include <ContactLoop.hpp>
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 #include <Materials.hpp>
 #include <SceneCheck.hpp>
 #include <Shape.hpp>
@@ -91,8 +91,6 @@ namespace {
 			if (isKindOf(engine.getClassName(), foreign.base)) refuseEngines(engine.getClassName() + " " + foreign.remedy);
 	}
 
-	bool isRounded(const Body& b) { return dynamic_cast<const RoundedPolyhedron*>(b.shape.get()); }
-
 	/// The scene's contact loop, alone or in a ContactLoop.
 	const InteractionLoop& findLoop(const Scene& scene)
 	{
@@ -175,7 +173,7 @@ namespace {
 	{
 		const string shapeA = a.shape->getClassName(), shapeB = b.shape->getClassName();
 		if (!dispatches(loop.geomDispatcher->functors, shapeA, shapeB)) refusePair(a, b, "Ig2", shapeA, shapeB);
-		if (!isRounded(a) || !isRounded(b)) return; // laws of other packages
+		if (!roundedShape(a) || !roundedShape(b)) return; // laws of other packages
 		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
 		const ContactLaw* law = findLaw(materialA, materialB);
 		if (!law || !hasIp2(loop, *law)) refusePair(a, b, "Ip2", materialA, materialB);
@@ -217,11 +215,11 @@ void checkContacts(const Scene& scene)
 	const auto& boxes = findCollider(scene).boundDispatcher->functors;
 	const std::vector<const Body*> kinds = kindsOfBodies(scene);
 	for (const Body* b : kinds)
-		if (isRounded(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) { return f->get1DFunctorType1() == "RoundedPolyhedron"; }))
+		if (roundedShape(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) { return f->get1DFunctorType1() == "RoundedPolyhedron"; }))
 			refuseEngines("the collider has no Bo1_RoundedPolyhedron_Aabb");
 	for (size_t i = 0; i < kinds.size(); ++i)
 		for (size_t k = i; k < kinds.size(); ++k)
-			if ((isRounded(*kinds[i]) || isRounded(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask))
+			if ((roundedShape(*kinds[i]) || roundedShape(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask))
 				checkPair(loop, *kinds[i], *kinds[k]);
 }
 
@@ -293,7 +291,7 @@ void checkBody(const Body& b)
 		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose() << " kg m2: they must be finite and > 0";
 		refuseBody(b, fault.str());
 	}
-	const auto* shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
+	const RoundedPolyhedron* shape = roundedShape(b);
 	if (!shape) return;
 	if (shape->vertices.empty()) refuseBody(b, "its shape has no vertices");
 	const auto* material = dynamic_cast<const ElementMat*>(b.material.get());

@@ -92,7 +92,7 @@ constexpr Real maxMarginRatio = 20; ///< of the margin of a fast body to that of
 
 Real boxMargin(const Body& b, Real margin, Real dt)
 {
-	const auto shape = dynamic_cast<const RoundedPolyhedron*>(b.shape.get());
+	const RoundedPolyhedron* shape = roundedShape(b);
 	if (!shape) return 0;
 	const State& s = *b.state;
 	const Real displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step

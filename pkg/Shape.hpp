@@ -39,6 +39,9 @@ public:
 };
 REGISTER_SERIALIZABLE(RoundedPolyhedron);
 
+/// The shape of a body; null if it is another one.
+inline const RoundedPolyhedron* roundedShape(const Body& b) { return dynamic_cast<const RoundedPolyhedron*>(b.shape.get()); }
+
 /// Margin of an element's bounding box on all sides: `margin` [m], or more for a fast body, so that it stays in its box for several steps.
 /// 0 for other shapes, whose boxes are made elsewhere. dt: time step [s]. Returns [m].
 Real boxMargin(const Body& b, Real margin, Real dt);

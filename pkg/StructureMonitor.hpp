@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Quantities of a structure: momenta of its parts, from which storey shears and floor accelerations follow, and the peaks of its joints.
 #pragma once
-#include <Joints.hpp>
+#include <JointEngine.hpp>
 
 namespace yade {
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Helpers for YADE's bodies and engines, and sums of forces.
 #pragma once
-#include <pch.hpp>
+#include <kernel/kinematics.hpp>
 #include <omp.h>
+#include <pch.hpp>
 
 namespace yade {
 
 /// Whether a body is not fixed: at least one degree of freedom is not blocked.
 inline bool isFree(const State& s) { return s.blockedDOFs != State::DOF_ALL; }
+
+/// References to the state's vectors.
+inline timber::BodyKinematics kinematics(const State& s) { return { s.pos, s.vel, s.angVel }; }
 
 /// The body of that id; null if it does not exist or was erased.
 inline Body* bodyAt(const Scene& scene, Body::id_t id)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <pch.hpp>
 
+#include <SceneAdvance.hpp>
 #include <core/InteractionLoop.hpp>
 #include <layout_guard.hpp>
 #include <pkg/common/Collider.hpp>
@@ -77,14 +78,6 @@ py::object readField(int index, const py::object& object, long shift) { return f
 void writeField(int index, const py::object& object, const py::object& value) { fields().at(index).write(object, value); }
 
 std::uintptr_t address(const py::object& object) { return reinterpret_cast<std::uintptr_t>(py::extract<Serializable*>(object)()); }
-
-/// Makes `next` the current scene and returns the previous one. setScene() is inline and would assume Omega's layout, so the reference
-/// that getScene() returns is used.
-shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
-{
-	auto& current = const_cast<shared_ptr<Scene>&>(Omega::instance().getScene());
-	return std::exchange(current, next);
-}
 
 /// Address of a scene's energy tracker, the last of the containers that Scene points to: if its offset is right, so are theirs.
 std::uintptr_t energyAddress(Scene& scene) { return reinterpret_cast<std::uintptr_t>(scene.energy.get()); }

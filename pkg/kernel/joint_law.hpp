@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/Joints.hpp).
+/// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/JointEngine.hpp).
 /// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite convention (contact_law.hpp).
 /// A step:
 ///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has packed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Yielding joint spring: backbone with slip, as used for nailed and plated timber joints and for walls (law: slip), isotropic in three
-/// dimensions. Adapter: JointEngine (pkg/Joints.hpp). Signs as in joint_law.hpp.
+/// dimensions. Adapter: JointEngine (pkg/JointEngine.hpp). Signs as in joint_law.hpp.
 ///
 /// Parameters: k stiffness of unloading, phi friction share, B(r) backbone: force of the first loading, straight lines from the origin through
 /// given points to zero force at the ultimate stretch d_u; none is steeper than k. Bilinear with loss of strength: the points (F/k, F),

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Breakable joints between two bodies (paper, sections 2.4 and 3.2). Brittle springs and the rule of breaking: kernel/joint_law.hpp.
-/// Yielding springs: kernel/slip_law.hpp.
+/// A breakable joint between two bodies (paper, sections 2.4 and 3.2): its attributes, their ranges and what is saved. JointEngine computes it.
 #pragma once
-#include <bodies.hpp>
 #include <kernel/joint_modes.hpp>
 #include <kernel/packed_joints.hpp>
 #include <kernel/slip_law.hpp>
-#include <kernel/stability.hpp>
+#include <pch.hpp>
 
 namespace boost {
 namespace serialization {
@@ -105,74 +103,5 @@ public:
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(TimberJoint);
-
-class JointBreak : public Serializable {
-public:
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(JointBreak, Serializable, "A spring that broke.",
-		((Real, time, NaN, , "Simulated time. [s]"))
-		((int, joint, -1, , "Index of the joint in the engine. [-]"))
-		((int, spring, -1, , "Index of the spring in the joint. [-]"))
-		((string, cause, , , "tension, compression or shear. [-]"))
-		((Real, force, NaN, , "Force of the spring when it broke; 0 with the law slip. [N]")));
-	// clang-format on
-};
-REGISTER_SERIALIZABLE(JointBreak);
-
-class JointEngine : public GlobalEngine {
-	struct Placement {
-		Matrix3r axes; ///< rotation matrix, body to world
-		Vector3r position; ///< of the centre [m]
-		bool exists = false;
-	};
-	std::vector<Placement> bodies; ///< by id
-	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
-	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
-	BodyForces sums; ///< of the joints
-
-	bool hasBody(Body::id_t) const;
-	void collectBodies();
-	void checkJoints() const;
-	void packJoints();
-	timber::JointPlacement placement(const timber::PackedJoint& joint) const
-	{
-		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
-		return { a.axes, b.axes, b.position - a.position };
-	}
-	void computeForce(size_t joint);
-	void computeForces();
-	void breakSprings(size_t joint);
-	void breakYielded(size_t joint);
-	void breakSpring(size_t joint, const timber::SpringBreak&);
-	void breakAndSum();
-
-public:
-	void action() override;
-	int append(const shared_ptr<TimberJoint>&);
-	boost::python::list pyJoints() const;
-	boost::python::list pyBreaks() const;
-	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
-	timber::JointForce lastForce(size_t joint) const { return joint < jointForces.size() ? jointForces[joint] : timber::JointForce(); }
-	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the rate of change of the elastic
-	/// energy. What yielding springs dissipate of it is known after the next step. [W]
-	Real elasticPower(const Scene&) const;
-	/// Adds the linearised unbroken springs. Those that yield have their initial stiffness, with which they unload.
-	void addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
-
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a brittle spring whose force exceeds the strength breaks and never acts again, a yielding one breaks at its ultimate stretch.",
-		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
-		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
-		((Real, released, 0, , "Energy stored in springs when they broke. [J]"))
-		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
-		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]")),
-		,
-		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its index. [-]")
-		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
-		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order. [-]")
-	);
-	// clang-format on
-};
-REGISTER_SERIALIZABLE(JointEngine);
 
 } // namespace yade

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <JointEngine.hpp>
+#include <kernel/threads.hpp>
+#include <set>
+
+namespace yade {
+
+YADE_PLUGIN((JointBreak)(JointEngine));
+
+int JointEngine::append(const shared_ptr<TimberJoint>& joint)
+{
+	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
+		throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
+	joint->validate();
+	joints.push_back(joint);
+	return int(joints.size()) - 1;
+}
+
+boost::python::list JointEngine::pyJoints() const
+{
+	boost::python::list all;
+	for (const auto& j : joints)
+		all.append(j);
+	return all;
+}
+
+boost::python::list JointEngine::pyBreaks() const
+{
+	boost::python::list all;
+	for (const auto& b : breaks)
+		all.append(b);
+	return all;
+}
+
+bool JointEngine::hasBody(Body::id_t id) const { return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists; }
+
+void JointEngine::collectBodies()
+{
+	bodies.resize(scene->bodies->size());
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const Body* b = (*scene->bodies)[id].get();
+		bodies[id].exists = b;
+		if (!b) continue;
+		bodies[id].axes = b->state->ori.toRotationMatrix();
+		bodies[id].position = b->state->pos;
+	}
+}
+
+void JointEngine::checkJoints() const
+{
+	std::set<const TimberJoint*> known;
+	const auto refuse = [](size_t k, const string& fault) { throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault); };
+	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
+	for (size_t k = 0; k < joints.size(); ++k) {
+		const TimberJoint& joint = *joints[k];
+		if (!known.insert(&joint).second) refuse(k, "the same joint is in the list before");
+		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
+			refuse(k, "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2) + ": they must be ids of two bodies");
+	}
+}
+
+/// Packs the joints again if there are others, or if attributes have changed.
+void JointEngine::packJoints()
+{
+	if (packed->isCurrent && packed->joints.size() == joints.size()) return;
+	checkJoints();
+	packed.reset(new timber::PackedJoints);
+	for (const shared_ptr<TimberJoint>& joint : joints)
+		joint->pack(packed);
+	packed->isCurrent = true;
+}
+
+void JointEngine::computeForce(size_t index)
+{
+	const timber::PackedJoint& joint = packed->joints[index];
+	timber::JointForce& total = jointForces[index];
+	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
+	if (!joint.isActive) total = {};
+	else if (joint.yields) {
+		TimberJoint& j = *joints[index];
+		total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+	} else timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint), packed->end(joint), total);
+}
+
+void JointEngine::computeForces()
+{
+	jointForces.resize(joints.size());
+	timber::forAll(int(joints.size()), [this](int k) { computeForce(k); });
+}
+
+/// Breaks a spring and logs it.
+void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& found)
+{
+	static const char* const names[] = { "tension", "compression", "shear" };
+	const shared_ptr<JointBreak> entry(new JointBreak);
+	entry->time = scene->time;
+	entry->joint = int(joint);
+	entry->spring = int(found.spring);
+	entry->cause = names[int(found.cause)];
+	entry->force = found.force;
+	breaks.push_back(entry);
+	released += found.energy;
+	joints[joint]->breakSpring(found.spring);
+}
+
+/// Breaks the overloaded springs of a joint and computes the forces of the others again.
+void JointEngine::breakSprings(size_t index)
+{
+	TimberJoint& joint = *joints[index];
+	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
+	for (const timber::SpringBreak& found :
+	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(packed->joints[index]), joint.normal, joint.springs(), motion))
+		breakSpring(index, found);
+	computeForce(index);
+}
+
+/// Breaks the springs of a joint that have reached their ultimate stretch; they have no force any more.
+void JointEngine::breakYielded(size_t index)
+{
+	TimberJoint& joint = *joints[index];
+	for (const timber::SpringBreak& found :
+	        timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(), joint.slipHistories()))
+		breakSpring(index, found);
+}
+
+/// Breaks and sums in the order of the joints: results do not depend on the number of threads.
+void JointEngine::breakAndSum()
+{
+	elastic = 0;
+	sums.clear(bodies.size());
+	for (size_t k = 0; k < joints.size(); ++k) {
+		const timber::PackedJoint& joint = packed->joints[k];
+		if (!joint.isActive) continue;
+		if (joint.yields) breakYielded(k);
+		else if (timber::isOverloaded(joint.strength, jointForces[k])) breakSprings(k);
+		const timber::JointForce& total = jointForces[k];
+		yielded += total.dissipated;
+		if (total.energy == 0) continue; // all springs broken or unstretched
+		elastic += total.energy;
+		sums.add(joint.bodyA, total.force, total.torqueA);
+		sums.add(joint.bodyB, -total.force, total.torqueB);
+	}
+}
+
+Real JointEngine::elasticPower(const Scene& current) const
+{
+	Real power = 0;
+	vector<Vector3r> stretches, forces;
+	for (const shared_ptr<TimberJoint>& j : joints) {
+		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
+		j->readSprings(stretches, forces);
+		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
+			if (j->broken[k]) continue;
+			const State &s1 = *b1->state, &s2 = *b2->state;
+			const Vector3r end = s2.pos + s2.ori * j->anchors2[k];
+			power += forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
+		}
+	}
+	return power;
+}
+
+void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& springs) const
+{
+	for (const shared_ptr<TimberJoint>& j : joints) {
+		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
+		const timber::JointStiffness stiffness = j->stiffness();
+		const vector<Vector3r> forces = j->springForces();
+		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
+			if (j->broken[k]) continue;
+			const State &s1 = *b1->state, &s2 = *b2->state;
+			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
+			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, stiffness.normal, stiffness.shear, -forces[k] });
+		}
+	}
+}
+
+void JointEngine::action()
+{
+	packJoints();
+	collectBodies();
+	computeForces();
+	breakAndSum();
+	sums.handOver(*scene);
+}
+
+} // namespace yade
