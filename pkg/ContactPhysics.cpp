@@ -2,6 +2,7 @@
 #include <ContactPhysics.hpp>
 #include <bodies.hpp>
 #include <validation.hpp>
+#include <set>
 
 namespace yade {
 
@@ -83,6 +84,25 @@ namespace {
 	}
 
 } // namespace
+
+const std::vector<ContactLaw>& contactLaws()
+{
+	static const std::vector<ContactLaw> laws {
+		{ "TimberMat", "TimberMat", "TimberMat", "TimberPhys", "Hertz" },
+		{ "TimberMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
+		{ "SnowMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
+	};
+	return laws;
+}
+
+boost::python::list pyContactLaws()
+{
+	boost::python::list names;
+	std::set<string> listed;
+	for (const ContactLaw& law : contactLaws())
+		if (listed.insert(law.phys).second) names.append(boost::python::make_tuple(law.ip2(), law.phys, law.law2()));
+	return names;
+}
 
 void ManifoldPhys::validate() const
 {

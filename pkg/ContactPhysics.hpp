@@ -137,4 +137,18 @@ public:
 };
 REGISTER_SERIALIZABLE(Law2_ManifoldGeom_SnowPhys_Linear);
 
+/// Contact law of two materials. Its functors have the names of their classes.
+struct ContactLaw {
+	const char *material1, *material2; ///< in either order
+	const char* argument; ///< both materials of the Ip2 functor
+	const char* phys; ///< IPhys that it makes
+	const char* law; ///< end of the name of the Law2 functor
+	string ip2() const { return string("Ip2_") + argument + "_" + argument + "_" + phys; }
+	string law2() const { return string("Law2_ManifoldGeom_") + phys + "_" + law; }
+};
+/// The registration of all laws, from which engines() makes the functors, checkContacts() requires them, and the tests take their attributes.
+const std::vector<ContactLaw>& contactLaws();
+/// (Ip2, IPhys, Law2) of each IPhys: names of classes.
+boost::python::list pyContactLaws();
+
 } // namespace yade

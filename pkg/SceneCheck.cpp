@@ -139,26 +139,14 @@ namespace {
 		        + " functor for " + classA + " and " + classB);
 	}
 
-	/// Contact law of two materials.
-	struct ContactLaw {
-		const char *material1, *material2; ///< in either order
-		const char* argument; ///< both materials of the Ip2 functor
-		const char* phys; ///< IPhys that it makes
-	};
-	const std::vector<ContactLaw> contactLaws {
-		{ "TimberMat", "TimberMat", "TimberMat", "TimberPhys" },
-		{ "TimberMat", "SnowMat", "ElementMat", "SnowPhys" },
-		{ "SnowMat", "SnowMat", "ElementMat", "SnowPhys" },
-	};
-
 	/// Null if there is no law for the two materials.
 	const ContactLaw* findLaw(const string& a, const string& b)
 	{
 		const auto matches = [&](const ContactLaw& law) {
 			return (isKindOf(a, law.material1) && isKindOf(b, law.material2)) || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
 		};
-		const auto found = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
-		return found == contactLaws.end() ? nullptr : &*found;
+		const auto found = std::find_if(contactLaws().begin(), contactLaws().end(), matches);
+		return found == contactLaws().end() ? nullptr : &*found;
 	}
 
 	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite stiffness.

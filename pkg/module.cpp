@@ -2,6 +2,7 @@
 // The Python module _yade_timber. Loading it defines functions only; host.py calls register_classes() once the layout is verified.
 #include <pch.hpp>
 
+#include <ContactPhysics.hpp>
 #include <Gl1_RoundedPolyhedron.hpp>
 #include <PackedScene.hpp>
 #include <SceneAdvance.hpp>
@@ -81,6 +82,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
 	boost::python::def("advance_scenes", &yade::advanceScenes, (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
+	boost::python::def("contact_laws", &yade::pyContactLaws);
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);

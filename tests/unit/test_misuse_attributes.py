@@ -8,6 +8,7 @@ import yade_timber as yt
 from column_sample import column_on_plate, is_one_line
 from yade import O
 from yade.minieigenHP import Vector3
+from yade_timber.plugin import compiled
 
 NAN, INF = math.nan, math.inf
 
@@ -77,8 +78,7 @@ REFUSED = [
     ("ContactForces", "sweeps", -3),
     ("ContactForces", "tolerance", -1.0),
     ("Bo1_RoundedPolyhedron_Aabb", "margin", -1.0),
-    ("Ip2_TimberMat_TimberMat_TimberPhys", "dampingRatio", -1.0),
-    ("Ip2_ElementMat_ElementMat_SnowPhys", "dampingRatio", INF),
+    *[(ip2, "dampingRatio", value) for ip2, _, _ in compiled.contact_laws() for value in (-1.0, INF)],
 ]
 
 
@@ -131,7 +131,7 @@ RESULTS = {
     "JointEngine": {"released", "elastic", "yielded"},
 }
 """Attributes that the engines compute."""
-PAIRS = {"ManifoldPhys", "TimberPhys", "SnowPhys"}
+PAIRS = {"ManifoldPhys", *(phys for _, phys, _ in compiled.contact_laws())}
 """Classes whose attributes Ip2 functors compute."""
 
 

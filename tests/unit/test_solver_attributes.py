@@ -6,24 +6,29 @@ import pytest
 import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
+from yade_timber.plugin import compiled
 from yade_timber.scene.engines import find_engine
 
 NAN, INF = math.nan, math.inf
 PAIR = {"mass": 1, "friction": 0.5, "shearRatio": 0.4, "dampingRatio": 1, "overlapLimit": 0.01}
+PARAMETERS = {phys: set(getattr(yw, phys)().dict()) - set(yw.ManifoldPhys().dict()) for _, phys, _ in compiled.contact_laws()}
+"""Parameters of each contact law."""
 JOINT = {"anchors1": [(0, 0, 0)], "anchors2": [(0, 0, 0)], "kn": 1, "ks": 1, "strength": 1}
 SLIP = JOINT | {"law": "slip", "frictionShare": 0.5, "softeningStretch": 2, "ultimateStretch": 3}
 POSITIVE, POSITIVE_OR_INFINITE, NOT_NEGATIVE = (0, -1, NAN, INF), (0, -1, NAN), (-1, NAN, INF)
 
 RANGES = [  # class, attributes that make it complete, owner of the attribute in the message, attribute, refused values
     *[(yw.ContactForces, {}, "ContactForces", *one) for one in (("sweeps", (-1,)), ("tolerance", POSITIVE))],
-    *[(kind, {}, kind.__name__, "dampingRatio", NOT_NEGATIVE) for kind in (yw.Ip2_TimberMat_TimberMat_TimberPhys, yw.Ip2_ElementMat_ElementMat_SnowPhys)],
+    *[(getattr(yw, ip2), {}, ip2, "dampingRatio", NOT_NEGATIVE) for ip2, _, _ in compiled.contact_laws()],
     *[
         (yw.SnowPhys, PAIR | {"stiffness": 1}, "ManifoldPhys", *one)
         for one in (("mass", POSITIVE_OR_INFINITE), ("friction", NOT_NEGATIVE), ("shearRatio", POSITIVE), ("dampingRatio", NOT_NEGATIVE), ("overlapLimit", POSITIVE))
     ],
-    (yw.SnowPhys, PAIR, "SnowPhys", "stiffness", POSITIVE),
-    (yw.TimberPhys, PAIR | {"radius": 1}, "TimberPhys", "modulus", POSITIVE),
-    (yw.TimberPhys, PAIR | {"modulus": 1}, "TimberPhys", "radius", POSITIVE),
+    *[
+        (getattr(yw, phys), PAIR | dict.fromkeys(own - {name}, 1), phys, name, POSITIVE)
+        for phys, own in PARAMETERS.items()
+        for name in sorted(own)
+    ],
     *[(yw.TimberJoint, JOINT, "TimberJoint", *one) for one in (("kn", POSITIVE), ("ks", NOT_NEGATIVE), ("strength", POSITIVE_OR_INFINITE))],
     *[(yw.TimberJoint, JOINT, "TimberJoint", name, refused) for name, refused in (("frictionShare", (-0.1, 1.1, NAN)), ("softeningStretch", POSITIVE_OR_INFINITE))],
     *[
@@ -47,7 +52,7 @@ def test_values_out_of_range_are_refused(kind, complete, owner, name, refused):
         assert owner in str(refusal.value) and (name in str(refusal.value) or name == "anchors1")  # two lengths that differ: the second one is named
         if isinstance(value, (int, float)):
             assert f"{value:g}" in str(refusal.value)
-        given = kind(**{**complete, name: 1} if name in ("modulus", "radius", "stiffness") else complete)
+        given = kind(**{**complete, name: 1} if name in PARAMETERS.get(kind.__name__, ()) else complete)
         with pytest.raises(ValueError):
             setattr(given, name, value)
 

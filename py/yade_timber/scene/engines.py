@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
+from ..plugin import compiled
 from . import arguments
 
 GRAVITY = tuple(yw.UniformGravity().gravity)
@@ -35,11 +36,13 @@ class ContactOptions:
         arguments.positive("engines: tolerance", self.tolerance)
 
     def loop(self):
-        """ContactLoop with the functors of timber and snow. YADE ends the process for a pair of materials without a functor."""
+        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a functor."""
         geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge, flushSupports=self.flush_supports)
-        functors = (yw.Ip2_TimberMat_TimberMat_TimberPhys, yw.Ip2_ElementMat_ElementMat_SnowPhys)
-        physics = [functor(dampingRatio=self.damping_ratio) for functor in functors]
-        laws = [yw.Law2_ManifoldGeom_TimberPhys_Hertz(increment=self.increment), yw.Law2_ManifoldGeom_SnowPhys_Linear()]
+        physics = [getattr(yw, ip2)(dampingRatio=self.damping_ratio) for ip2, _, _ in compiled.contact_laws()]
+        laws = [getattr(yw, law2)() for _, _, law2 in compiled.contact_laws()]
+        for law in laws:
+            if hasattr(law, "increment"):
+                law.increment = self.increment
         return yw.ContactLoop(loop=yw.InteractionLoop([geometry], physics, laws))
 
     def forces(self):
