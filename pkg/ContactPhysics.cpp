@@ -85,21 +85,17 @@ namespace {
 
 } // namespace
 
-const std::vector<ContactLaw>& contactLaws()
-{
-	static const std::vector<ContactLaw> laws {
-		{ "TimberMat", "TimberMat", "TimberMat", "TimberPhys", "Hertz" },
-		{ "TimberMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
-		{ "SnowMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
-	};
-	return laws;
-}
+const std::vector<ContactLaw> contactLaws {
+	{ "TimberMat", "TimberMat", "TimberMat", "TimberPhys", "Hertz" },
+	{ "TimberMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
+	{ "SnowMat", "SnowMat", "ElementMat", "SnowPhys", "Linear" },
+};
 
 boost::python::list pyContactLaws()
 {
 	boost::python::list names;
 	std::set<string> listed;
-	for (const ContactLaw& law : contactLaws())
+	for (const ContactLaw& law : contactLaws)
 		if (listed.insert(law.phys).second) names.append(boost::python::make_tuple(law.ip2(), law.phys, law.law2()));
 	return names;
 }

@@ -147,7 +147,7 @@ struct ContactLaw {
 	string law2() const { return string("Law2_ManifoldGeom_") + phys + "_" + law; }
 };
 /// The registration of all laws, from which engines() makes the functors, checkContacts() requires them, and the tests take their attributes.
-const std::vector<ContactLaw>& contactLaws();
+extern const std::vector<ContactLaw> contactLaws;
 /// (Ip2, IPhys, Law2) of each IPhys: names of classes.
 boost::python::list pyContactLaws();
 

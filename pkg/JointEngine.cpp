@@ -7,6 +7,28 @@ namespace yade {
 
 YADE_PLUGIN((JointBreak)(JointEngine));
 
+namespace {
+	template <class T> boost::python::list listOf(const vector<shared_ptr<T>>& objects)
+	{
+		boost::python::list list;
+		for (const shared_ptr<T>& object : objects)
+			list.append(object);
+		return list;
+	}
+
+	/// Calls visit(joint, spring, force of the spring, states of the bodies) for each unbroken spring between bodies of a scene.
+	template <class Visit> void visitSprings(const vector<shared_ptr<TimberJoint>>& joints, const Scene& scene, Visit visit)
+	{
+		for (const shared_ptr<TimberJoint>& j : joints) {
+			const Body *b1 = bodyAt(scene, j->id1), *b2 = bodyAt(scene, j->id2);
+			if (!b1 || !b2) continue;
+			const vector<Vector3r> forces = j->springForces();
+			for (size_t k = 0; k < j->broken.size(); ++k)
+				if (!j->broken[k]) visit(*j, k, forces[k], *b1->state, *b2->state);
+		}
+	}
+}
+
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
 	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
@@ -16,21 +38,8 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 	return int(joints.size()) - 1;
 }
 
-boost::python::list JointEngine::pyJoints() const
-{
-	boost::python::list all;
-	for (const auto& j : joints)
-		all.append(j);
-	return all;
-}
-
-boost::python::list JointEngine::pyBreaks() const
-{
-	boost::python::list all;
-	for (const auto& b : breaks)
-		all.append(b);
-	return all;
-}
+boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
+boost::python::list JointEngine::pyBreaks() const { return listOf(breaks); }
 
 bool JointEngine::hasBody(Body::id_t id) const { return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists; }
 
@@ -146,33 +155,20 @@ void JointEngine::breakAndSum()
 Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
-	vector<Vector3r> stretches, forces;
-	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
-		j->readSprings(stretches, forces);
-		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
-			if (j->broken[k]) continue;
-			const State &s1 = *b1->state, &s2 = *b2->state;
-			const Vector3r end = s2.pos + s2.ori * j->anchors2[k];
-			power += forces[k].dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
-		}
-	}
+	visitSprings(joints, current, [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
+		power += force.dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
+	});
 	return power;
 }
 
 void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& springs) const
 {
-	for (const shared_ptr<TimberJoint>& j : joints) {
-		const Body *b1 = bodyAt(current, j->id1), *b2 = bodyAt(current, j->id2);
-		const timber::JointStiffness stiffness = j->stiffness();
-		const vector<Vector3r> forces = j->springForces();
-		for (size_t k = 0; b1 && b2 && k < j->broken.size(); ++k) {
-			if (j->broken[k]) continue;
-			const State &s1 = *b1->state, &s2 = *b2->state;
-			const Vector3r x = s1.pos + s1.ori * j->anchors1[k];
-			springs.push_back({ j->id1, j->id2, x - s1.pos, x - s2.pos, s1.ori * j->normal, stiffness.normal, stiffness.shear, -forces[k] });
-		}
-	}
+	visitSprings(joints, current, [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		const timber::JointStiffness stiffness = j.stiffness();
+		const Vector3r x = s1.pos + s1.ori * j.anchors1[k];
+		springs.push_back({ j.id1, j.id2, x - s1.pos, x - s2.pos, s1.ori * j.normal, stiffness.normal, stiffness.shear, -force });
+	});
 }
 
 void JointEngine::action()

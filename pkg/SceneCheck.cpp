@@ -145,8 +145,8 @@ namespace {
 		const auto matches = [&](const ContactLaw& law) {
 			return (isKindOf(a, law.material1) && isKindOf(b, law.material2)) || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
 		};
-		const auto found = std::find_if(contactLaws().begin(), contactLaws().end(), matches);
-		return found == contactLaws().end() ? nullptr : &*found;
+		const auto found = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
+		return found == contactLaws.end() ? nullptr : &*found;
 	}
 
 	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite stiffness.

@@ -67,7 +67,7 @@ void TimberJoint::validateEnvelope() const
 
 void TimberJoint::postLoad(TimberJoint&)
 {
-	readSprings(stretches, forces);
+	storeSprings();
 	if (packed) packed->isCurrent = false;
 	packed.reset();
 	isSlip = law == "slip";
@@ -111,42 +111,22 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
 }
 
-void TimberJoint::readSprings(vector<Vector3r>& stretched, vector<Vector3r>& pulling) const
+TimberJoint::SpringVectors TimberJoint::lastSprings() const
 {
-	if (!packed || yields()) {
-		stretched = stretches;
-		pulling = forces;
-		return;
-	}
-	stretched.resize(forces.size());
-	pulling.resize(forces.size());
-	timber::unpackSprings(packed->first(packed->joints[index]), stretched, pulling);
+	SpringVectors last { stretches, forces };
+	if (packed && !yields()) timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
+	return last;
+}
+
+void TimberJoint::storeSprings()
+{
+	if (packed && !yields()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
 }
 
 timber::JointSprings TimberJoint::springs()
 {
-	readSprings(stretches, forces);
+	storeSprings();
 	return { anchors1, anchors2, broken, stretches, forces };
-}
-
-vector<Vector3r> TimberJoint::springForces() const
-{
-	vector<Vector3r> stretched, pulling;
-	readSprings(stretched, pulling);
-	return pulling;
-}
-
-vector<Vector3r> TimberJoint::springStretches() const
-{
-	vector<Vector3r> stretched, pulling;
-	readSprings(stretched, pulling);
-	return stretched;
-}
-
-timber::JointStiffness TimberJoint::stiffness() const
-{
-	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
-	return { share * kn, share * ks };
 }
 
 std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
@@ -159,9 +139,8 @@ std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
 
 std::vector<timber::BackbonePoint> TimberJoint::backbone() const
 {
-	const Real share = perJoint ? Real(1) / anchors1.size() : 1;
-	if (!envelope.empty()) return envelopePoints(share);
-	return { { strength / kn, share * strength }, { softeningStretch, share * strength }, { ultimateStretch, 0 } };
+	if (!envelope.empty()) return envelopePoints(share());
+	return { { strength / kn, share() * strength }, { softeningStretch, share() * strength }, { ultimateStretch, 0 } };
 }
 
 Real TimberJoint::loadOf(const timber::JointForce& total) const { return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength; }

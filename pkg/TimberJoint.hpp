@@ -28,24 +28,32 @@ class TimberJoint : public Serializable {
 	size_t index = 0; ///< in `packed`
 	size_t intact = 0; ///< number of unbroken springs
 
+	struct SpringVectors {
+		vector<Vector3r> stretches, forces;
+	};
+	/// In the last step.
+	SpringVectors lastSprings() const;
+	/// Sets the attributes to those of the last step.
+	void storeSprings();
+	/// Of a spring in the joint's stiffness and strength.
+	Real share() const { return perJoint ? Real(1) / anchors1.size() : 1; }
+
 public:
-	void preSave(TimberJoint&) { readSprings(stretches, forces); }
+	void preSave(TimberJoint&) { storeSprings(); }
 	void postLoad(TimberJoint&);
 	void validate() const;
 	void validateLaw() const;
 	void validateEnvelope() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
-	timber::JointStiffness stiffness() const;
+	timber::JointStiffness stiffness() const { return { share() * kn, share() * ks }; }
 	size_t intactSprings() const { return intact; }
 	bool isBroken() const { return intact == 0; }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
 	/// Of a joint with these forces.
 	Real loadOf(const timber::JointForce&) const;
-	/// Stretches and forces of the springs in the last step.
-	void readSprings(vector<Vector3r>& stretched, vector<Vector3r>& pulling) const;
-	vector<Vector3r> springForces() const;
-	vector<Vector3r> springStretches() const;
+	vector<Vector3r> springForces() const { return lastSprings().forces; }
+	vector<Vector3r> springStretches() const { return lastSprings().stretches; }
 	boost::python::list pySprings() const;
 	boost::python::dict pyDictCustom() const override;
 	/// Appends the joint to packed joints, which have its forces and stretches from then on.
