@@ -7,23 +7,22 @@ namespace yade {
 namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
-	/// Modes of a joint's bodies, of which one is free. pairInverseMass: theirs [1/kg].
-	void updateModes(TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b, Real pairInverseMass)
+	/// Modes of a joint's bodies, of which one is free. qA, qB: their orientations.
+	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a, const timber::SolverBody& b)
 	{
-		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori, &qB = bodyAt(scene, joint.id2)->state->ori;
-		const timber::JointState now { joint.intactSprings(), joint.stiffness(), pairInverseMass, a.inverseInertia.trace() + b.inverseInertia.trace(),
-			qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, axesOf(scene, joint.id1), joint.springGroup(), now);
+		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
+			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
+		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
 	bool isImplicit(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
 	{
 		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
-		if (!bodyAt(scene, joint.id1) || !bodyAt(scene, joint.id2)) return false;
+		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
+		if (!b1 || !b2) return false;
 		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
-		const Real inverseMass = timber::pairInverseMass(a, b);
-		if (inverseMass == 0) return false;
-		updateModes(joint, scene, a, b, inverseMass);
+		if (timber::pairInverseMass(a, b) == 0) return false;
+		updateModes(joint, b1->state->ori, b2->state->ori, a, b);
 		return joint.dampingRatio > 0 || joint.modes.isStiff(scene.dt);
 	}
 }

@@ -21,7 +21,7 @@ namespace {
 	{
 		for (const shared_ptr<TimberJoint>& j : joints) {
 			const Body *b1 = bodyAt(scene, j->id1), *b2 = bodyAt(scene, j->id2);
-			if (!b1 || !b2) continue;
+			if (!b1 || !b2 || j->isBroken()) continue;
 			const vector<Vector3r> forces = j->springForces();
 			for (size_t k = 0; k < j->broken.size(); ++k)
 				if (!j->broken[k]) visit(*j, k, forces[k], *b1->state, *b2->state);
