@@ -11,9 +11,11 @@ import importlib
 import json
 import mmap
 import os
+import socket
 import socketserver
 import sys
 import threading
+from contextlib import suppress
 from pathlib import Path
 
 RECORD_MARK = b"@timber-build"
@@ -184,7 +186,7 @@ def has_prompt() -> bool:
 
 
 def close_servers():
-    """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads that do it.
+    """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads that end them.
 
     YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the other one
     lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
@@ -192,7 +194,9 @@ def close_servers():
     handlers = {"PythonConsoleSocketEmulator"} | ({"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ else set())
     servers = [o for o in gc.get_objects() if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers]
     threads = [threading.Thread(target=_close, args=(server,), daemon=True) for server in servers]
-    for thread in threads:
+    for server, thread in zip(servers, threads):
+        with suppress(OSError):  # an earlier call closes it
+            server.socket.shutdown(socket.SHUT_RDWR)  # the port is closed at once
         thread.start()
     return threads
 
