@@ -55,4 +55,5 @@ def _texts(samples, scale):
     for name, k, effect in AXES:
         if abs(means[k]) > max(LARGEST_SHARE * peaks[k], VISIBLE * peaks.max(), ROUNDING):
             share, strength = abs(means[k]) / peaks[k], abs(means[k]) / STANDARD_GRAVITY
-            yield f"{means[k] / GAL:.3g} gal {name} ({100 * share:.0f} % of the peak) acts like {effect} of {100 * strength:.3g} %"
+            gal = means[k] / GAL
+            yield f"{gal:{'.0f' if abs(gal) >= 100 else '.3g'}} gal {name} ({100 * share:.0f} % of the peak) acts like {effect} of {100 * strength:.3g} %"
