@@ -3,12 +3,14 @@
 
 YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both for
 the classes that it is given: unknown names are refused, and after a refused value the object is as before. `updateAttrs` of
-all classes sets what the attributes themselves would set.
+all classes sets what the attributes themselves would set. Numbers of a scene are finite, unless the class's own value is not.
 """
 import difflib
+import math
 import re
 from contextlib import contextmanager
 
+import numpy as np
 import yade.wrapper as yw
 
 from .arguments import shown
@@ -39,6 +41,9 @@ VALIDATED_OF_YADE = ("density",)
 RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel")}
 """Attributes of YADE's classes whose assignment `background` guards."""
 
+FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
+"""Classes of YADE's own whose numbers must be finite, too."""
+
 _guarded = set()
 _update_attributes = yw.Serializable.updateAttrs
 
@@ -49,6 +54,9 @@ def guard(classes):
     for cls in classes:
         cls.__init__ = _initialiser(cls.__init__)
         cls.__setattr__ = _set_attribute
+    for cls in FINITE:
+        cls.__init__ = _initialiser(cls.__init__)
+        cls.__setattr__ = _set_finite
     yw.Serializable.updateAttrs = _update
 
 
@@ -65,6 +73,26 @@ def _set_attribute(self, name, value):
         _refuse_shape_in_scene(self, name)
     with _restored(self):
         _assign(self, attribute, name, value)
+        _require_finite(cls, {name: value})  # after the class's own check, which names its range
+
+
+def _set_finite(self, name, value):
+    _require_finite(type(self), {name: value})
+    object.__setattr__(self, name, value)
+
+
+def _require_finite(cls, attributes):
+    """Raise ValueError for a value that is not finite, where the class's own value is."""
+    for name, value in attributes.items():
+        if not _is_finite(value) and _is_finite(getattr(cls(), name, None)):
+            raise ValueError(f"{cls.__name__}.{name} = {shown(value)}: it must be finite")
+
+
+def _is_finite(value):
+    """Whether no number of a value, such as a vector or a list of them, is infinite or NaN."""
+    if isinstance(value, (float, np.floating)):
+        return math.isfinite(value)
+    return not hasattr(value, "__len__") or isinstance(value, (str, dict)) or all(_is_finite(value[k]) for k in range(len(value)))
 
 
 def _refuse_shape_in_scene(shape, name):
@@ -88,6 +116,8 @@ def _assign(self, attribute, name, value):
 def _update(self, attributes):
     """Update object attributes from given dictionary"""
     cls = type(self)
+    if isinstance(self, FINITE):
+        _require_finite(cls, attributes)
     if not isinstance(self, tuple(_guarded)):
         return _update_of_yade(self, attributes)
     for name in attributes:
@@ -97,6 +127,7 @@ def _update(self, attributes):
             _refuse_shape_in_scene(self, name)
     with _restored(self), _named_errors(cls, attributes):
         _update_attributes(self, attributes)
+        _require_finite(cls, attributes)
 
 
 def _update_of_yade(self, attributes):
@@ -134,6 +165,7 @@ def _initialiser(construct):
     def __init__(self, *args, **attributes):
         with _named_errors(type(self), attributes):
             construct(self, *args, **attributes)
+            _require_finite(type(self), attributes)
 
     return __init__
 
