@@ -19,7 +19,8 @@ class BulletPair {
 	static btVector3 vector(const Vec3& v) { return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z())); }
 	static btTransform pose(const Quat& q, const Vec3& x)
 	{
-		return btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())), vector(x));
+		return btTransform(
+		        btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())), vector(x));
 	}
 	static std::unique_ptr<btConvexShape> shape(const std::vector<Vec3>& points, const Vec3& box)
 	{
@@ -30,7 +31,10 @@ class BulletPair {
 		hull->setMargin(btScalar(1e-3)); // [m]; the default of 4 cm is wider than the prism
 		return hull;
 	}
-	double margin(const Vec3& box, const btConvexShape& s) const { return box.x() > 0 ? 0. : double(s.getMargin()); }
+	double margin(const Vec3& box, const btConvexShape& s) const
+	{
+		return box.x() > 0 ? 0. : double(s.getMargin());
+	}
 
 public:
 	const Configuration& configuration;

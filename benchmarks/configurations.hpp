@@ -25,7 +25,8 @@ struct Configuration {
 inline std::vector<Configuration> configurations()
 {
 	const Vec3 plate(1, 1, 0.2), cube(0.3, 0.3, 0.3), beam(1, 0.2, 0.2), wall(0.2, 1, 1);
-	const Quat none = Quat::Identity(), edgeUp = shapes::about(Vec3::UnitX(), M_PI / 4), across = shapes::about(Vec3::UnitZ(), M_PI / 2) * edgeUp;
+	const Quat none = Quat::Identity(), edgeUp = shapes::about(Vec3::UnitX(), M_PI / 4),
+	           across = shapes::about(Vec3::UnitZ(), M_PI / 2) * edgeUp;
 	const Quat cornerDown = Quat::FromTwoVectors(Vec3(1, 1, 1), -Vec3::UnitZ());
 	const auto brace = shapes::Brace { 0.91, 2.73, 0.09, 0.045 };
 	const Vec3 centre = massProperties(Polyhedron::fromVertices(brace.vertices())).centroid;
@@ -35,9 +36,12 @@ inline std::vector<Configuration> configurations()
 	return {
 		{ "face on face", box(plate), box(cube), plate, cube, none, none, up, Vec3(0.01, 0.02, 0), depth, 4 },
 		{ "edge on edge", box(beam), box(beam), beam, beam, edgeUp, across, up, Vec3::Zero(), depth, 1 },
-		{ "corner on face", box(plate), box(cube), plate, cube, none, cornerDown, up, Vec3(0.01, 0.02, 0), depth, 1 },
-		{ "hexagonal prism on floor", box(plate), prism, plate, Vec3::Zero(), none, none, up, Vec3(centre.x() - 0.02, 0, 0), depth, 4 },
-		{ "hexagonal prism on wall", box(wall), prism, wall, Vec3::Zero(), none, none, east, Vec3(0, 0, centre.z() - 0.1), depth, 4 },
+		{ "corner on face", box(plate), box(cube), plate, cube, none, cornerDown, up, Vec3(0.01, 0.02, 0),
+		        depth, 1 },
+		{ "hexagonal prism on floor", box(plate), prism, plate, Vec3::Zero(), none, none, up,
+		        Vec3(centre.x() - 0.02, 0, 0), depth, 4 },
+		{ "hexagonal prism on wall", box(wall), prism, wall, Vec3::Zero(), none, none, east,
+		        Vec3(0, 0, centre.z() - 0.1), depth, 4 },
 		{ "near faces", box(plate), box(cube), plate, cube, none, none, up, Vec3(0.01, 0.02, 0), -nearGap, 0 },
 	};
 }
@@ -51,10 +55,12 @@ inline double support(const std::vector<Vec3>& points, const Quat& rotation, con
 	return largest;
 }
 
-/// Position of body B for the closed-form overlap. margins: sum of the collision margins that a library adds to the corners [m].
+/// Position of body B for the closed-form overlap. margins: sum of the collision margins that a library adds to the
+/// corners [m].
 inline Vec3 positionOfB(const Configuration& c, const std::vector<Vec3>& a, const std::vector<Vec3>& b, double margins)
 {
-	const double distance = support(a, c.rotationA, c.normal) + support(b, c.rotationB, -c.normal) + margins - c.overlap;
+	const double distance
+	        = support(a, c.rotationA, c.normal) + support(b, c.rotationB, -c.normal) + margins - c.overlap;
 	return c.offset - c.offset.dot(c.normal) * c.normal + distance * c.normal;
 }
 

@@ -27,12 +27,13 @@ class OdePair {
 			convex.points.insert(convex.points.end(), { dReal(p.x()), dReal(p.y()), dReal(p.z()) });
 		for (const Face& f : body.faces) {
 			const Vec3& n = f.plane.normal;
-			convex.planes.insert(convex.planes.end(), { dReal(n.x()), dReal(n.y()), dReal(n.z()), dReal(f.plane.offset) });
+			convex.planes.insert(convex.planes.end(),
+			        { dReal(n.x()), dReal(n.y()), dReal(n.z()), dReal(f.plane.offset) });
 			convex.polygons.push_back(unsigned(f.corners.size()));
 			convex.polygons.insert(convex.polygons.end(), f.corners.begin(), f.corners.end());
 		}
-		return dCreateConvex(
-		        nullptr, convex.planes.data(), unsigned(body.faces.size()), convex.points.data(), unsigned(points.size()), convex.polygons.data());
+		return dCreateConvex(nullptr, convex.planes.data(), unsigned(body.faces.size()), convex.points.data(),
+		        unsigned(points.size()), convex.polygons.data());
 	}
 	static void rotate(dGeomID geom, const Quat& q)
 	{
@@ -68,7 +69,8 @@ public:
 		stepAt(position);
 		Found f;
 		for (int k = 0; k < count; ++k) // ODE's normals point into the first body
-			f.add(configuration, -Vec3(contacts[k].normal[0], contacts[k].normal[1], contacts[k].normal[2]), contacts[k].depth);
+			f.add(configuration, -Vec3(contacts[k].normal[0], contacts[k].normal[1], contacts[k].normal[2]),
+			        contacts[k].depth);
 		return f;
 	}
 };

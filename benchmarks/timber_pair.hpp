@@ -47,11 +47,14 @@ public:
 		poseB.orientation = c.rotationB;
 		position = positionOfB(c, a.core.vertices, b.core.vertices, a.radius + b.radius);
 		const MassProperties m = massProperties(b.sharp);
-		bodies.assign(2, SolverBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
+		bodies.assign(
+		        2, SolverBody { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero() });
 		bodies[1].inverseMass = 1 / (density * m.volume);
 		bodies[1].inverseInertia = (density * m.inertia).inverse();
 		properties = { 2 * density * m.volume, 0.5, 1 / 2.8, a.radius + b.radius };
-		if (c.points > 0) law.modulus = gravity * density * m.volume / (c.points * HertzLaw { 1, law.radius }.force(c.overlap));
+		if (c.points > 0)
+			law.modulus = gravity * density * m.volume
+			        / (c.points * HertzLaw { 1, law.radius }.force(c.overlap));
 		updatePoints(0);
 	}
 	double sweepsPerStep() const { return steps > 0 ? double(sweeps) / double(steps) : 0; }
@@ -69,8 +72,10 @@ public:
 		if (points.empty()) return;
 		const Vec3 zero = Vec3::Zero();
 		const bool placedInContact = steps == 0;
-		elasticPair(law, { properties, { poseA.position, zero, zero }, { poseB.position, zero, zero }, h, NormalForm::Closed, placedInContact }, points,
-		        records);
+		elasticPair(law,
+		        { properties, { poseA.position, zero, zero }, { poseB.position, zero, zero }, h,
+		                NormalForm::Closed, placedInContact },
+		        points, records);
 		solve();
 	}
 	Found found()

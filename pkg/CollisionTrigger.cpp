@@ -19,7 +19,9 @@ CollisionTrigger::MotionSinceCollision CollisionTrigger::motionOf(const Body& b)
 	const BodySnapshot& before = snapshots[b.getId()];
 	const State& now = *b.state;
 	const Vector3r displacement = now.pos - before.position;
-	if (before.isRounded) return { displacement, timber::rotationDisplacement(before.orientation.conjugate() * now.ori, before.halfExtents) };
+	if (before.isRounded)
+		return { displacement,
+			timber::rotationDisplacement(before.orientation.conjugate() * now.ori, before.halfExtents) };
 	return { displacement, now.ori.coeffs() == before.orientation.coeffs() ? 0 : infinity };
 }
 
@@ -31,8 +33,9 @@ bool CollisionTrigger::mayHaveLeftBox()
 	timber::forAll(count, [this](int id) {
 		if (const shared_ptr<Body>& b = (*scene->bodies)[id]) motions[id] = motionOf(*b);
 	});
-	const auto isInside
-	        = [](const MotionSinceCollision& m, const BodySnapshot& before) { return m.displacement.norm() + m.rotationBound <= before.margin; };
+	const auto isInside = [](const MotionSinceCollision& m, const BodySnapshot& before) {
+		return m.displacement.norm() + m.rotationBound <= before.margin;
+	};
 	return !std::equal(motions.begin(), motions.end(), snapshots.begin(), isInside);
 }
 
@@ -53,15 +56,18 @@ void CollisionTrigger::takeSnapshots()
 		if (!b) continue;
 		const RoundedPolyhedron* shape = roundedShape(*b);
 		const Vector3r halfExtents = shape ? shape->geometry->halfExtents : Vector3r(Vector3r::Zero());
-		snapshots[b->getId()] = { b->state->pos, b->state->ori, bool(shape), halfExtents, boxMargin(*b, margin, scene->dt) };
+		snapshots[b->getId()]
+		        = { b->state->pos, b->state->ori, bool(shape), halfExtents, boxMargin(*b, margin, scene->dt) };
 	}
 }
 
 void CollisionTrigger::action()
 {
-	if (!dynamic_cast<Collider*>(collider.get())) throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
+	if (!dynamic_cast<Collider*>(collider.get()))
+		throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
 	lastStep = scene->iter;
-	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort; // doSort: bodies were added
+	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty
+	        || scene->doSort; // doSort: bodies were added
 	if (!changed && !mayHaveLeftBox()) return;
 	collider->scene = scene;
 	const OneThread serial;

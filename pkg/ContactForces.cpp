@@ -52,8 +52,8 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& foun
 		if (!I->isReal() || I->geom->getClassIndex() != manifoldIndex) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
-			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys, phys.records.size(), phys.releasedEnergy,
-			        phys.placedEnergy });
+			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys,
+			        phys.records.size(), phys.releasedEnergy, phys.placedEnergy });
 	}
 }
 
@@ -62,7 +62,8 @@ void ContactForces::collectPairs()
 	findPairs(*scene, found);
 	// the order of the last step is reused while the pairs are the same
 	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(found[k]); };
-	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds)) sortPairs();
+	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds))
+		sortPairs();
 	pairs.resize(found.size());
 	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t k) { return found[k]; });
 }
@@ -92,25 +93,29 @@ void ContactForces::checkPlacements() const
 {
 	for (const ContactPair& pair : pairs)
 		if (pair.placed > 0 && pair.phys->placedOverlap > timber::largestPlacedOverlap)
-			throw std::runtime_error("bodies " + std::to_string(pair.id1) + " and " + std::to_string(pair.id2) + " were placed with an overlap of "
-			        + std::to_string(1000 * pair.phys->placedOverlap) + " mm: at most " + std::to_string(1000 * timber::largestPlacedOverlap)
-			        + " mm; move one of them");
+			throw std::runtime_error("bodies " + std::to_string(pair.id1) + " and "
+			        + std::to_string(pair.id2) + " were placed with an overlap of "
+			        + std::to_string(1000 * pair.phys->placedOverlap) + " mm: at most "
+			        + std::to_string(1000 * timber::largestPlacedOverlap) + " mm; move one of them");
 }
 
 void ContactForces::findIslands()
 {
 	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
 	links.resize(pairs.size() + joints.size());
-	std::transform(pairs.begin(), pairs.end(), links.begin(),
-	        [&](const ContactPair& p) { return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink; });
-	std::transform(
-	        joints.begin(), joints.end(), links.begin() + pairs.size(), [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const ContactPair& p) {
+		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
+	});
+	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
+	        [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
 	islands.find(bodies.size(), links);
 }
 
 void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
 {
-	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA); // a fixed body may belong to several islands, which other threads solve
+	if (bodies[id1].inverseMass > 0)
+		sums.add(id1, -f.onB,
+		        f.torqueA); // a fixed body may belong to several islands, which other threads solve
 	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
 }
 
@@ -119,7 +124,8 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 {
 	IslandResult result;
 	timber::ContactSolver& solver = solvers[timber::threadNumber()];
-	const int count = int(island.size()), pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
+	const int count = int(island.size()),
+	          pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
 	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
 	solver.begin(bodies, scene->dt, sweeps);
@@ -128,14 +134,17 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = pairCount; k < count; ++k)
 		solver.addJoint(joint(k).id1, joint(k).id2);
 	timber::forAll(count, [&](int k) {
-		if (k < pairCount) timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
+		if (k < pairCount)
+			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k)
-		addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies), pair(k).id1, pair(k).id2);
+		addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies), pair(k).id1,
+		        pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
-		addForce(storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
+		addForce(
+		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
 	return result;
 }
 
@@ -201,20 +210,23 @@ std::vector<timber::SolverBody> ContactForces::placements(const Scene& scene)
 	return found;
 }
 
-std::vector<timber::PointSpring> ContactForces::linearSprings(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+std::vector<timber::PointSpring> ContactForces::linearSprings(
+        const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 {
 	std::vector<ContactPair> contacts;
 	findPairs(scene, contacts);
-	std::sort(contacts.begin(), contacts.end(),
-	        [](const ContactPair& p, const ContactPair& q) { return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2); });
+	std::sort(contacts.begin(), contacts.end(), [](const ContactPair& p, const ContactPair& q) {
+		return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2);
+	});
 	std::vector<timber::PointSpring> springs;
 	for (const ContactPair& pair : contacts)
 		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
 			const timber::PointRecord& record = pair.phys->records[k];
 			const Real kn = record.stiffness;
-			springs.push_back({ pair.id1, pair.id2, at.position - bodies[pair.id1].position, at.position - bodies[pair.id2].position, at.normal, kn,
-			        pair.phys->shearRatio * kn, record.normalForce * at.normal + record.shearForce });
+			springs.push_back({ pair.id1, pair.id2, at.position - bodies[pair.id1].position,
+			        at.position - bodies[pair.id2].position, at.normal, kn, pair.phys->shearRatio * kn,
+			        record.normalForce * at.normal + record.shearForce });
 		}
 	if (const JointEngine* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
 	return springs;
@@ -222,7 +234,8 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(const Scene& scene
 
 Real ContactForces::largestEigenvalue() const
 {
-	const Scene& now = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
+	const Scene& now
+	        = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
 	const std::vector<timber::SolverBody> masses = placements(now);
 	return timber::largestEigenvalue(masses, linearSprings(now, masses));
 }

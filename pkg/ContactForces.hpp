@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Engine of the contact solver: collects pairs, damped joints and bodies, solves island by island, sums forces and energies.
+/// Engine of the contact solver: collects pairs, damped joints and bodies, solves island by island, sums forces and
+/// energies.
 #pragma once
 #include <ContactPhysics.hpp>
 #include <ImplicitJoints.hpp>
@@ -10,9 +11,9 @@
 namespace yade {
 
 class ContactForces : public GlobalEngine {
-	/// A pair in this step. Pairs are ordered by body ids (an island lists indices of them), not in the container's order: the sums then
-	/// depend neither on threads nor on the history of the collider. Copies of phys's numbers save reading phys for them: it is seldom in
-	/// the processor's cache.
+	/// A pair in this step. Pairs are ordered by body ids (an island lists indices of them), not in the container's
+	/// order: the sums then depend neither on threads nor on the history of the collider. Copies of phys's numbers
+	/// save reading phys for them: it is seldom in the processor's cache.
 	struct ContactPair {
 		Body::id_t id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
@@ -54,33 +55,49 @@ public:
 	void action() override;
 	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
 	Real largestEigenvalue() const;
-	/// Linearised springs of the present contacts and joints of a scene. bodies: masses and placements, indexed by body id
+	/// Linearised springs of the present contacts and joints of a scene. bodies: masses and placements, indexed by
+	/// body id
 	static std::vector<timber::PointSpring> linearSprings(const Scene&, const std::vector<timber::SolverBody>&);
 	/// Masses and placements of a scene's bodies, indexed by body id; zero for those that were erased.
 	static std::vector<timber::SolverBody> placements(const Scene&);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
-		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, 21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots (TimberJoint.dampingRatio), too. "
-		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's explicit springs and dashpots, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its impulses by more than this share of the island's root mean square, each over the root of the pair's equivalent mass; islands at rest are solved further, to the size of their own changes. [-]"))
+		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
+		"21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots "
+		"(TimberJoint.dampingRatio), too. "
+		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
+		"the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
+		((int, sweeps, 500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
+			"springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's "
+			"explicit springs and dashpots, stable only for very small steps. [-]"))
+		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its "
+			"impulses by more than this share of the island's root mean square, each over the root of the "
+			"pair's equivalent mass; islands at rest are solved further, to the size of their own changes. "
+			"[-]"))
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
 		((int, sweepsMax, 0, , "Largest number of sweeps of a step. [-]"))
-		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still changed. [-]"))
-		((Real, worstChange, 0, , "Largest change of a pair's or joint's impulses in the last sweep of such a step, as twice its kinetic energy. [J]"))
+		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still "
+			"changed. [-]"))
+		((Real, worstChange, 0, , "Largest change of a pair's or joint's impulses in the last sweep of such a "
+			"step, as twice its kinetic energy. [J]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding. [J]"))
 		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
-		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the energy given to new points. [J]"))
+		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the "
+			"energy given to new points. [J]"))
 		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
-		((Real, created, 0, , "Energy that contact points and joints had returned beyond what they had when they ceased to exist. [J]"))
+		((Real, created, 0, , "Energy that contact points and joints had returned beyond what they had when "
+			"they ceased to exist. [J]"))
 		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
-		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and the next one. [J]"))
-		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement and the next one. [J]")),
+		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "
+			"the next one. [J]"))
+		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement "
+			"and the next one. [J]")),
 		,
-		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the present contacts and joints of the scene. [1/s2]")
+		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the "
+			"present contacts and joints of the scene. [1/s2]")
 	);
 	// clang-format on
 };

@@ -10,12 +10,14 @@ boost::python::list ManifoldGeom::pyPoints() const
 {
 	boost::python::list all;
 	for (const timber::ContactPoint& p : contactPoints)
-		all.append(boost::python::make_tuple(Vector3r(p.position), Vector3r(p.normal), Real(p.overlap), p.id.bits));
+		all.append(boost::python::make_tuple(
+		        Vector3r(p.position), Vector3r(p.normal), Real(p.overlap), p.id.bits));
 	return all;
 }
 
-bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
-        const State& state2, const Vector3r&, const bool&, const shared_ptr<Interaction>& I)
+bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(const shared_ptr<Shape>& shape1,
+        const shared_ptr<Shape>& shape2, const State& state1, const State& state2, const Vector3r&, const bool&,
+        const shared_ptr<Interaction>& I)
 {
 	if (!isFree(state1) && !isFree(state2) && !I->geom) return false;
 	if (!I->geom) I->geom = shared_ptr<IGeom>(new ManifoldGeom);
@@ -23,7 +25,8 @@ bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(const shared_ptr<S
 	const timber::RoundedPolyhedron &a = *static_cast<RoundedPolyhedron*>(shape1.get())->geometry,
 	                                &b = *static_cast<RoundedPolyhedron*>(shape2.get())->geometry;
 	const timber::Pose poseA { state1.pos, state1.ori }, poseB { state2.pos, state2.ori };
-	geom.safeDisplacement = timber::updateManifold(a, b, poseA, poseB, { vertexEdge, flushSupports }, geom.cache, geom.contactPoints);
+	geom.safeDisplacement = timber::updateManifold(
+	        a, b, poseA, poseB, { vertexEdge, flushSupports }, geom.cache, geom.contactPoints);
 	return true;
 }
 

@@ -15,13 +15,16 @@ bool ContactLoop::areBothFixed(const TrackedInteraction& t) const
 	return b1 && b2 && !isFree(*b1->state) && !isFree(*b2->state);
 }
 
-/// Whether the tracked interactions are valid: the trigger ran in this step and the collider did not, no interaction was added, erased or
-/// reset, and no fixed body was freed.
+/// Whether the tracked interactions are valid: the trigger ran in this step and the collider did not, no interaction
+/// was added, erased or reset, and no fixed body was freed.
 bool ContactLoop::isCurrent(const CollisionTrigger* trigger) const
 {
-	return trigger && trigger->isCurrent() && colliderRuns == trigger->runs && interactionCount == scene->interactions->size()
-	        && std::all_of(tracked.begin(), tracked.end(), [](const TrackedInteraction& t) { return t.interaction->isReal(); })
-	        && std::all_of(fixedPairs.begin(), fixedPairs.end(), [this](const TrackedInteraction& t) { return areBothFixed(t); });
+	return trigger && trigger->isCurrent() && colliderRuns == trigger->runs
+	        && interactionCount == scene->interactions->size()
+	        && std::all_of(tracked.begin(), tracked.end(),
+	                [](const TrackedInteraction& t) { return t.interaction->isReal(); })
+	        && std::all_of(fixedPairs.begin(), fixedPairs.end(),
+	                [this](const TrackedInteraction& t) { return areBothFixed(t); });
 }
 
 void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
@@ -59,7 +62,8 @@ void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& t
 	const ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 	if (!geom.contactPoints.empty() || !phys.isIdle()) {
 		I->functorCache.phys->go(b1.material, b2.material, I); // for changed materials and masses
-		if (!I->functorCache.constLaw->go(I->geom, I->phys, I.get())) return scene->interactions->requestErase(I);
+		if (!I->functorCache.constLaw->go(I->geom, I->phys, I.get()))
+			return scene->interactions->requestErase(I);
 	}
 	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }

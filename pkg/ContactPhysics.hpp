@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Properties and history of a pair in contact (IPhys), made by Ip2, and the elastic part of the contact laws (Law2). Dashpots, friction
-/// and the forces on the bodies: ContactForces.
+/// Properties and history of a pair in contact (IPhys), made by Ip2, and the elastic part of the contact laws (Law2).
+/// Dashpots, friction and the forces on the bodies: ContactForces.
 #pragma once
 #include <ContactGeometry.hpp>
 #include <Materials.hpp>
@@ -14,9 +14,11 @@ namespace serialization {
 	}
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
-		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
-		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce) & make_nvp("dashpot", p.dashpotForce)
-		        & make_nvp("normalStored", p.normalStored) & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
+		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap)
+		        & make_nvp("stiffness", p.stiffness);
+		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce)
+		        & make_nvp("dashpot", p.dashpotForce) & make_nvp("normalStored", p.normalStored)
+		        & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
 	}
 	/// The step of the solver is not saved.
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
@@ -33,26 +35,37 @@ class ManifoldPhys : public IPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
-	long materialChanges = -1; ///< sum of ElementMat::changes when the attributes were taken from the materials; -1: unknown, they were loaded
-	Real placedEnergy = 0, placedOverlap = 0; ///< of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
+	long materialChanges = -1; ///< sum of ElementMat::changes when the attributes were taken from the materials;
+	                           ///< -1: unknown, they were loaded
+	Real placedEnergy = 0, placedOverlap = 0; ///< of bodies that were placed in contact, in this step only: of all
+	                                          ///< springs [J], of the deepest point [m]
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
-	timber::PairProperties properties() const { return { mass, friction, shearRatio, overlapLimit, dampingRatio, power }; }
+	timber::PairProperties properties() const
+	{
+		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power };
+	}
 	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, IPhys, "Properties of a pair in contact and the history of its points.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, IPhys, "Properties of a pair in contact and the history of its "
+		"points.",
 		((Real, mass, NaN, Attr::triggerPostLoad, "Equivalent mass of the two elements. [kg] (paper, Eq. 43)"))
 		((Real, friction, NaN, Attr::triggerPostLoad, "Coulomb friction coefficient. [-]"))
 		((Real, shearRatio, NaN, Attr::triggerPostLoad, "K_s / K_n. [-] (paper, Eq. 40)"))
-		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping, C = 2 ratio sqrt(m K). [-] (paper, Eqs. 41-42: 1)"))
-		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: the cores touch. [m]"))
+		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping, C = 2 ratio sqrt(m K). [-] "
+			"(paper, Eqs. 41-42: 1)"))
+		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: "
+			"the cores touch. [m]"))
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
-		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by feature id. [-]"))
-		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded points that ceased to exist, minus the energy given to new points. [J]")),
+		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
+			"feature id. [-]"))
+		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded "
+			"points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,
-		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
+		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: "
+			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ManifoldPhys, IPhys);
@@ -67,7 +80,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberPhys, ManifoldPhys, "Hertz contact between two timber elements.",
 		((Real, modulus, NaN, Attr::triggerPostLoad, "Equivalent Young's modulus. [Pa] (paper, Eq. 35)"))
-		((Real, radius, NaN, Attr::triggerPostLoad, "Relative radius of curvature, from spheres of the elements' volumes. [m] (paper, Eq. 36)")),
+		((Real, radius, NaN, Attr::triggerPostLoad, "Relative radius of curvature, from spheres of the "
+			"elements' volumes. [m] (paper, Eq. 36)")),
 		createIndex();
 	);
 	// clang-format on
@@ -97,8 +111,10 @@ public:
 	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
 	FUNCTOR2D(TimberMat, TimberMat);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ip2_TimberMat_TimberMat_TimberPhys, IPhysFunctor, "Timber on timber (paper, section 3.1 (1)).",
-		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping. [-] (paper, Eqs. 41-42: 1)")));
+	YADE_CLASS_BASE_DOC_ATTRS(Ip2_TimberMat_TimberMat_TimberPhys, IPhysFunctor, "Timber on timber (paper, section "
+		"3.1 (1)).",
+		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping. [-] (paper, Eqs. 41-42: "
+			"1)")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Ip2_TimberMat_TimberMat_TimberPhys);
@@ -110,7 +126,8 @@ public:
 	void go(const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&) override;
 	FUNCTOR2D(ElementMat, ElementMat);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ip2_ElementMat_ElementMat_SnowPhys, IPhysFunctor, "Snow on snow or timber (paper, section 3.1 (2)): stiffness by the mass of the snow element, the lighter one of two.",
+	YADE_CLASS_BASE_DOC_ATTRS(Ip2_ElementMat_ElementMat_SnowPhys, IPhysFunctor, "Snow on snow or timber (paper, "
+		"section 3.1 (2)): stiffness by the mass of the snow element, the lighter one of two.",
 		((Real, dampingRatio, 1, Attr::triggerPostLoad, "Share of critical damping. [-] (paper, Table 1: 1)")));
 	// clang-format on
 };
@@ -121,8 +138,10 @@ public:
 	bool go(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*) override;
 	FUNCTOR2D(ManifoldGeom, TimberPhys);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Law2_ManifoldGeom_TimberPhys_Hertz, LawFunctor, "Elastic forces of timber contacts (paper, Eqs. 15-20, 37-40). They act through :yref:`ContactForces`.",
-		((bool, increment, false, , "Whether the normal force is summed from increments (paper, Eq. 38) instead of the closed form (Eq. 37). [-]")));
+	YADE_CLASS_BASE_DOC_ATTRS(Law2_ManifoldGeom_TimberPhys_Hertz, LawFunctor, "Elastic forces of timber contacts "
+		"(paper, Eqs. 15-20, 37-40). They act through :yref:`ContactForces`.",
+		((bool, increment, false, , "Whether the normal force is summed from increments (paper, Eq. 38) "
+			"instead of the closed form (Eq. 37). [-]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Law2_ManifoldGeom_TimberPhys_Hertz);
@@ -132,7 +151,8 @@ public:
 	bool go(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*) override;
 	FUNCTOR2D(ManifoldGeom, SnowPhys);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Law2_ManifoldGeom_SnowPhys_Linear, LawFunctor, "Elastic forces of snow contacts (paper, Table 1). They act through :yref:`ContactForces`.");
+	YADE_CLASS_BASE_DOC(Law2_ManifoldGeom_SnowPhys_Linear, LawFunctor, "Elastic forces of snow contacts (paper, "
+		"Table 1). They act through :yref:`ContactForces`.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Law2_ManifoldGeom_SnowPhys_Linear);
@@ -146,7 +166,8 @@ struct ContactLaw {
 	string ip2() const { return string("Ip2_") + argument + "_" + argument + "_" + phys; }
 	string law2() const { return string("Law2_ManifoldGeom_") + phys + "_" + law; }
 };
-/// The registration of all laws, from which engines() makes the functors, checkContacts() requires them, and the tests take their attributes.
+/// The registration of all laws, from which engines() makes the functors, checkContacts() requires them, and the tests
+/// take their attributes.
 extern const std::vector<ContactLaw> contactLaws;
 /// (Ip2, IPhys, Law2) of each IPhys: names of classes.
 boost::python::list pyContactLaws();

@@ -49,7 +49,10 @@ void Gl1_RoundedPolyhedron::go(const shared_ptr<Shape>& shape, const shared_ptr<
 	glEnable(GL_LIGHTING);
 }
 
-void refreshViewer(const boost::python::object& renderer) { boost::python::extract<shared_ptr<OpenGLRenderer>>(renderer)()->init(); }
+void refreshViewer(const boost::python::object& renderer)
+{
+	boost::python::extract<shared_ptr<OpenGLRenderer>>(renderer)()->init();
+}
 
 } // namespace yade
 #endif

@@ -9,9 +9,14 @@ namespace yade {
 YADE_PLUGIN((GlExtra_TimberJoints));
 
 namespace {
-	const Vector3r blue(0, 0.45, 0.70), yellow(0.94, 0.89, 0.26), red(0.84, 0.37, 0), amber(0.90, 0.62, 0); // Okabe and Ito 2008
+	const Vector3r blue(0, 0.45, 0.70), yellow(0.94, 0.89, 0.26), red(0.84, 0.37, 0),
+	        amber(0.90, 0.62, 0); // Okabe and Ito 2008
 
-	Vector3r loadColor(Real load) { return load < 0.5 ? Vector3r(blue + 2 * load * (yellow - blue)) : Vector3r(yellow + (2 * load - 1) * (red - yellow)); }
+	Vector3r loadColor(Real load)
+	{
+		return load < 0.5 ? Vector3r(blue + 2 * load * (yellow - blue))
+		                  : Vector3r(yellow + (2 * load - 1) * (red - yellow));
+	}
 
 	/// Centre of the springs' anchors on the first body, world frame. [m]
 	Vector3r positionOf(const TimberJoint& joint, const State& state)
@@ -36,7 +41,8 @@ namespace {
 		glLineWidth(2);
 		glColor3d(red.x(), red.y(), red.z());
 		glBegin(GL_LINES);
-		for (const Vector3r& d : { Vector3r(1, 1, 1), Vector3r(-1, 1, 1), Vector3r(1, -1, 1), Vector3r(1, 1, -1) })
+		for (const Vector3r& d :
+		        { Vector3r(1, 1, 1), Vector3r(-1, 1, 1), Vector3r(1, -1, 1), Vector3r(1, 1, -1) })
 			for (const Vector3r& end : { Vector3r(x - arm * d), Vector3r(x + arm * d) })
 				glVertex3d(end.x(), end.y(), end.z());
 		glEnd();
@@ -46,8 +52,11 @@ namespace {
 
 void GlExtra_TimberJoints::validate() const
 {
-	if (!(size > 0)) throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
-	if (!(cross > 0)) throw std::invalid_argument("GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
+	if (!(size > 0))
+		throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
+	if (!(cross > 0))
+		throw std::invalid_argument(
+		        "GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
 }
 
 void GlExtra_TimberJoints::render()
@@ -63,7 +72,8 @@ void GlExtra_TimberJoints::render()
 			if (!b || j->anchors1.empty()) continue;
 			const Vector3r x = positionOf(*j, *b->state);
 			if (j->isBroken()) drawCross(x, cross);
-			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size())) drawDot(x, amber, 1.5 * size);
+			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size()))
+				drawDot(x, amber, 1.5 * size);
 			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
 		}
 	}

@@ -7,7 +7,10 @@ namespace yade {
 
 YADE_PLUGIN((UniformGravity));
 
-void UniformGravity::validate() const { require(gravity.allFinite(), "UniformGravity.gravity", gravity.transpose(), "finite"); }
+void UniformGravity::validate() const
+{
+	require(gravity.allFinite(), "UniformGravity.gravity", gravity.transpose(), "finite");
+}
 
 void UniformGravity::action() { addBodyForce(*scene, gravity); }
 

@@ -12,7 +12,8 @@ public:
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(UniformGravity, GlobalEngine,
-		"Adds m g to every free body. Unlike YADE's GravityEngine it runs on one thread, so that sums do not depend on the number of threads by rounding.",
+		"Adds m g to every free body. Unlike YADE's GravityEngine it runs on one thread, so that sums do not "
+		"depend on the number of threads by rounding.",
 		((Vector3r, gravity, Vector3r(0, 0, -9.81), Attr::triggerPostLoad, "Acceleration of gravity. [m/s2]")));
 	// clang-format on
 };

@@ -14,7 +14,9 @@ void GroundMotionEngine::validate() const
 	if (acceleration.empty() && std::isnan(step)) return; // default-constructed
 	requirePositive("GroundMotionEngine.step", step);
 	for (size_t k = 0; k < acceleration.size(); ++k)
-		if (!acceleration[k].allFinite()) throw std::invalid_argument("GroundMotionEngine.acceleration[" + std::to_string(k) + "]: it must be finite");
+		if (!acceleration[k].allFinite())
+			throw std::invalid_argument(
+			        "GroundMotionEngine.acceleration[" + std::to_string(k) + "]: it must be finite");
 }
 
 Vector3r GroundMotionEngine::at(Real time) const
@@ -30,7 +32,8 @@ Vector3r GroundMotionEngine::at(Real time) const
 Real GroundMotionEngine::peakBetween(Real from, Real until) const
 {
 	Real peak = math::max(at(from).norm(), at(until).norm());
-	for (Real k = math::max(Real(0), math::ceil((from - start) / step)); k < acceleration.size() && start + k * step < until; ++k) // linear between samples
+	for (Real k = math::max(Real(0), math::ceil((from - start) / step));
+	        k < acceleration.size() && start + k * step < until; ++k) // linear between samples
 		peak = math::max(peak, math::abs(scale) * acceleration[size_t(k)].norm());
 	return peak;
 }
@@ -46,9 +49,15 @@ namespace {
 	}
 }
 
-Real GroundMotionEngine::workUntil(const Vector3r& momentum, Real dt) const { return work - dt * lastAcceleration.dot(lastMomentum + momentum) / 2; }
+Real GroundMotionEngine::workUntil(const Vector3r& momentum, Real dt) const
+{
+	return work - dt * lastAcceleration.dot(lastMomentum + momentum) / 2;
+}
 
-Real GroundMotionEngine::workUntilNow(const Scene& current) const { return workUntil(freeMomentum(current), current.dt); }
+Real GroundMotionEngine::workUntilNow(const Scene& current) const
+{
+	return workUntil(freeMomentum(current), current.dt);
+}
 
 void GroundMotionEngine::action()
 {

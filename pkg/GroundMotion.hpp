@@ -22,16 +22,21 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GroundMotionEngine, GlobalEngine,
-		"Adds -m a_g(t) to every free body (paper, Eqs. 1-3, external force). The frame of reference moves with the ground: fixed bodies are at rest.",
+		"Adds -m a_g(t) to every free body (paper, Eqs. 1-3, external force). The frame of reference moves "
+		"with the ground: fixed bodies are at rest.",
 		((Real, step, NaN, Attr::triggerPostLoad, "Time between two samples. [s]"))
-		((vector<Vector3r>, acceleration, , Attr::triggerPostLoad, "Ground acceleration: east, north, up. [m/s2]"))
+		((vector<Vector3r>, acceleration, , Attr::triggerPostLoad, "Ground acceleration: east, north, up. "
+			"[m/s2]"))
 		((Real, start, 0, Attr::triggerPostLoad, "Simulated time of the first sample. [s]"))
 		((Real, scale, 1, Attr::triggerPostLoad, "Factor on the acceleration. [-]"))
 		((Real, work, 0, , "Work done on the bodies until the start of the last step. [J]"))
-		((Vector3r, lastMomentum, Vector3r::Zero(), Attr::hidden, "Momentum of the free bodies at the start of the last step. [kg m/s]"))
-		((Vector3r, lastAcceleration, Vector3r::Zero(), Attr::hidden, "Ground acceleration in the last step. [m/s2]")),
+		((Vector3r, lastMomentum, Vector3r::Zero(), Attr::hidden, "Momentum of the free bodies at the start of "
+			"the last step. [kg m/s]"))
+		((Vector3r, lastAcceleration, Vector3r::Zero(), Attr::hidden, "Ground acceleration in the last step. "
+			"[m/s2]")),
 		,
-		.def("at", &GroundMotionEngine::at, (boost::python::arg("time")), "Ground acceleration at a simulated time. [m/s2]")
+		.def("at", &GroundMotionEngine::at, (boost::python::arg("time")), "Ground acceleration at a simulated "
+			"time. [m/s2]")
 	);
 	// clang-format on
 };

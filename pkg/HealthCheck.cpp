@@ -38,12 +38,16 @@ namespace {
 	}
 }
 
-bool HealthCheck::CheckedBody::hasPartsOf(const Body& b) const { return areSame(shape, b.shape) && areSame(material, b.material); }
+bool HealthCheck::CheckedBody::hasPartsOf(const Body& b) const
+{
+	return areSame(shape, b.shape) && areSame(material, b.material);
+}
 
 bool HealthCheck::CheckedBody::isCurrent(const Body& b) const
 {
-	return hasPartsOf(b) && areSame(state, b.state) && id == b.id && clumpId == b.clumpId && flags == b.flags && mask == b.groupMask
-	        && (!rounded || rounded->geometry == geometry) && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass && inertia == b.state->inertia;
+	return hasPartsOf(b) && areSame(state, b.state) && id == b.id && clumpId == b.clumpId && flags == b.flags
+	        && mask == b.groupMask && (!rounded || rounded->geometry == geometry)
+	        && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass && inertia == b.state->inertia;
 }
 
 bool HealthCheck::haveBodiesChanged() const
@@ -60,7 +64,8 @@ bool HealthCheck::haveBodiesChanged() const
 bool HealthCheck::hasSceneChanged()
 {
 	findParts(*scene, parts);
-	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size() || checkedParts != parts || haveBodiesChanged();
+	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size()
+	        || checkedParts != parts || haveBodiesChanged();
 }
 
 /// Boxes, contacts and mass of a body would remain those of its old geometry.
@@ -70,8 +75,9 @@ void HealthCheck::checkGeometry(const Body& b) const
 	if (id >= checkedBodies.size() || !checkedBodies[id] || !checkedBodies[id]->hasPartsOf(b)) return;
 	const CheckedBody& before = *checkedBodies[id];
 	if (before.rounded && before.rounded->geometry != before.geometry)
-		throw std::runtime_error(
-		        "body " + std::to_string(id) + ": vertices or radius of its shape were changed in the scene. Assign another shape to the body");
+		throw std::runtime_error("body " + std::to_string(id)
+		        + ": vertices or radius of its shape were changed in the scene. Assign another shape to the "
+		          "body");
 }
 
 void HealthCheck::checkBodies() const
@@ -80,15 +86,15 @@ void HealthCheck::checkBodies() const
 		const Body* b = (*scene->bodies)[id].get();
 		if (!b) continue;
 		if (size_t(b->getId()) != id)
-			throw std::runtime_error(
-			        "O.bodies[" + std::to_string(id) + "]: its id is " + std::to_string(b->getId()) + ": it must be its place in O.bodies");
+			throw std::runtime_error("O.bodies[" + std::to_string(id) + "]: its id is "
+			        + std::to_string(b->getId()) + ": it must be its place in O.bodies");
 		checkBody(*b);
 		checkGeometry(*b);
 	}
 }
 
-/// Removes the contacts of bodies whose shape or material was replaced, and those of an earlier list of bodies. The collider finds the
-/// present ones.
+/// Removes the contacts of bodies whose shape or material was replaced, and those of an earlier list of bodies. The
+/// collider finds the present ones.
 void HealthCheck::forgetContacts()
 {
 	InteractionContainer& contacts = *scene->interactions;
@@ -115,7 +121,8 @@ void HealthCheck::takeOverRotations()
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		if (!b || !isFree(*b->state)) continue;
 		State& s = *b->state;
-		if (s.angMom.isZero(0) && !s.angVel.isZero(0)) s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
+		if (s.angMom.isZero(0) && !s.angVel.isZero(0))
+			s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
 	}
 }
 
@@ -124,7 +131,8 @@ void HealthCheck::checkScene()
 {
 	const shared_ptr<Scene>& current = Omega::instance().getScene();
 	if (!checkedParts.empty() && checkedScene.lock() != current)
-		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = yade_timber.engines(...) again");
+		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = "
+		                         "yade_timber.engines(...) again");
 	checkBodies();
 	checkEngines(*scene);
 	checkContacts(*scene);
@@ -142,20 +150,25 @@ void HealthCheck::checkScene()
 void HealthCheck::checkState(const Body& b) const
 {
 	const State& s = *b.state;
-	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0)) checkBody(b);
+	if (b.isClump() || (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL) || !(s.mass > 0))
+		checkBody(b);
 	const bool turns = isFree(s) && !(s.angVel.norm() * scene->dt <= turnLimit);
-	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite() && s.vel.norm() <= speedLimit && !turns) return;
+	if (s.pos.allFinite() && s.vel.allFinite() && s.angVel.allFinite() && s.ori.coeffs().allFinite()
+	        && s.vel.norm() <= speedLimit && !turns)
+		return;
 	checkBodies(); // another cause than the time step
 	std::ostringstream message;
-	message << "body " << b.getId() << " left the physical range before step " << scene->iter << " (t = " << scene->time << " s): position "
-	        << s.pos.transpose() << " m, velocity " << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step "
+	message << "body " << b.getId() << " left the physical range before step " << scene->iter
+	        << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity "
+	        << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step "
 	        << scene->dt << " s is probably too large";
 	throw std::runtime_error(message.str());
 }
 
 void HealthCheck::action()
 {
-	if (!(scene->dt > 0 && std::isfinite(scene->dt))) throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
+	if (!(scene->dt > 0 && std::isfinite(scene->dt)))
+		throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
 	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
 	const bool changed = hasSceneChanged();
 	if (changed) checkScene();

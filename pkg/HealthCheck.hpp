@@ -26,7 +26,8 @@ class HealthCheck : public GlobalEngine {
 		bool isCurrent(const Body&) const;
 	};
 	std::vector<boost::optional<CheckedBody>> checkedBodies; ///< by id, as those of the scene at the last check
-	std::vector<const void*> checkedParts, parts; ///< of the engines (findParts): at the last check of the scene, and in this step
+	std::vector<const void*> checkedParts,
+	        parts; ///< of the engines (findParts): at the last check of the scene, and in this step
 	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
 
@@ -48,12 +49,17 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HealthCheck, GlobalEngine,
 		"Stops a run with an error before a step that cannot be computed. Must come before the collider. "
-		"When bodies, their parts and masses, engines, functors or the time step were changed it checks that the list of engines is complete, in order, without a second integrator and of this scene, that all pairs of shapes and materials have functors, that materials and masses are valid, and that the step is small enough for the joints. "
+		"When bodies, their parts and masses, engines, functors or the time step were changed it checks that "
+		"the list of engines is complete, in order, without a second integrator and of this scene, that all "
+		"pairs of shapes and materials have functors, that materials and masses are valid, and that the step "
+		"is small enough for the joints. "
 		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
-		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations plausible.",
+		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations "
+		"plausible.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]"))
-		((Real, turnLimit, 1.5, Attr::triggerPostLoad, "Largest plausible rotation of a free body in a step. [rad]")),
+		((Real, turnLimit, 1.5, Attr::triggerPostLoad, "Largest plausible rotation of a free body in a step. "
+			"[rad]")),
 		,
 		.def("check", &HealthCheck::check, "Checks the bodies' numbers now; raises RuntimeError.")
 	);

@@ -12,10 +12,12 @@ YADE_PLUGIN((HouseMonitor));
 
 namespace {
 	/// Names of energies(), in the same order.
-	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal", "dashpot_shear",
-		"friction", "broken_springs", "lost_contacts", "joint_dashpot", "joint_yield" };
+	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion",
+		"dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot",
+		"joint_yield" };
 	/// Columns of each level and their units.
-	const std::pair<const char*, const char*> levelColumns[] = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
+	const std::pair<const char*, const char*> levelColumns[]
+	        = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
 
 	/// Acceleration of gravity, this package's or YADE's. [m/s2]
 	Vector3r gravityOf(const Scene& scene)
@@ -31,7 +33,8 @@ namespace {
 		Real sum = 0;
 		for (const shared_ptr<Body>& b : *scene.bodies) {
 			if (!b || !isFree(*b->state)) continue;
-			sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel)) / 2;
+			sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel))
+			        / 2;
 		}
 		return sum;
 	}
@@ -54,7 +57,8 @@ namespace {
 	{
 		const JointEngine* engine = findEngine<JointEngine>(scene);
 		if (!engine) return 0;
-		return int(std::count_if(engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
+		return int(std::count_if(
+		        engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
 	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
@@ -64,9 +68,12 @@ namespace {
 		const JointEngine* j = findEngine<JointEngine>(scene);
 		const GroundMotionEngine* g = findEngine<GroundMotionEngine>(scene);
 		const Real half = scene.dt / 2;
-		return { kineticEnergy(scene), gravityEnergy(scene), c ? c->elasticNormal + c->elasticShear - c->placed : 0,
-			(j ? j->elastic + half * j->elasticPower(scene) : 0) + (c ? c->newmark : 0), g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0,
-			c ? c->dashpotShear : 0, c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0, j ? j->yielded : 0 };
+		return { kineticEnergy(scene), gravityEnergy(scene),
+			c ? c->elasticNormal + c->elasticShear - c->placed : 0,
+			(j ? j->elastic + half * j->elasticPower(scene) : 0) + (c ? c->newmark : 0),
+			g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
+			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0,
+			j ? j->yielded : 0 };
 	}
 }
 

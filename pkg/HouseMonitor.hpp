@@ -20,17 +20,23 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
-		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean horizontal displacement of the bodies of the level above it minus that of the level below, over the storey's height. A level that has dropped by half the height of its storey counts as collapsed. "
-		"Must come after the integrator. Energies are those at the half step to which the velocities belong: elastic energies of the last placement are extrapolated with their rate.",
+		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the mean "
+		"horizontal displacement of the bodies of the level above it minus that of the level below, over the "
+		"storey's height. A level that has dropped by half the height of its storey counts as collapsed. "
+		"Must come after the integrator. Energies are those at the half step to which the velocities belong: "
+		"elastic energies of the last placement are extrapolated with their rate.",
 		((Real, interval, 0.01, Attr::triggerPostLoad, "Simulated time between samples; 0: every step. [s]"))
-		((vector<Real>, heights, , Attr::triggerPostLoad, "Height of each storey: its drift is a displacement over this height. [m]"))
+		((vector<Real>, heights, , Attr::triggerPostLoad, "Height of each storey: its drift is a displacement "
+			"over this height. [m]"))
 		((vector<int>, bodies, , Attr::triggerPostLoad, "Ids of the bodies that mark levels. [-]"))
-		((vector<int>, levels, , Attr::triggerPostLoad, "Level of each of these bodies: 1 is the top of the first storey; level 0 is the ground, which does not move. [-]"))
+		((vector<int>, levels, , Attr::triggerPostLoad, "Level of each of these bodies: 1 is the top of the "
+			"first storey; level 0 is the ground, which does not move. [-]"))
 		((Real, tiltDrift, 0.1, Attr::triggerPostLoad, "Drift at which a storey counts as tilted. [-]"))
 		((Real, tiltTime, NaN, , "Time at which the first storey drift exceeded tiltDrift. [s]"))
 		((string, tiltDirection, , , "Direction of the drift that exceeded tiltDrift first: ns or ew. [-]"))
 		((Real, collapseTime, NaN, , "Time at which a level had dropped by half a storey. [s]"))
-		((vector<Real>, peak, , , "Largest drift so far: north-south and east-west of storey 1, of storey 2, ... [-]"))
+		((vector<Real>, peak, , , "Largest drift so far: north-south and east-west of storey 1, of storey 2, "
+			"... [-]"))
 		((Real, nextSample, 0, Attr::readonly, "Simulated time of the next sample. [s]"))
 		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
 		,

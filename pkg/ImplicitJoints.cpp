@@ -8,14 +8,17 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free. qA, qB: their orientations.
-	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a, const timber::SolverBody& b)
+	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
+	        const timber::SolverBody& b)
 	{
 		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now)) joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
+		if (!joint.modes.state.fits(now))
+			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
-	bool isImplicit(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
+	bool isImplicit(
+	        TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
 	{
 		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
 		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
@@ -27,7 +30,8 @@ namespace {
 	}
 }
 
-void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff, std::vector<TimberJoint*>& found, Real& lost)
+void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
+        std::vector<TimberJoint*>& found, Real& lost)
 {
 	found.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
@@ -45,7 +49,8 @@ void prepareJoint(timber::ContactSolver& solver, size_t k, TimberJoint& joint, c
 	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmarkEnergy);
 }
 
-timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene, TimberJoint& joint, JointEnergies& energies)
+timber::PairForce storeJoint(
+        const timber::ContactSolver& solver, size_t k, const Scene& scene, TimberJoint& joint, JointEnergies& energies)
 {
 	const timber::ModalConstraint& c = solver.joint(k);
 	const timber::JointImpulse P = timber::jointImpulse(c);

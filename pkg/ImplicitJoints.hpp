@@ -12,14 +12,17 @@ struct JointEnergies {
 	Real dissipated = 0;
 };
 
-/// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which at least one is free.
-/// bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of Newmark's term of the others, added to [J].
-void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff, std::vector<TimberJoint*>& found, Real& lost);
+/// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which
+/// at least one is free. bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of
+/// Newmark's term of the others, added to [J].
+void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
+        std::vector<TimberJoint*>& found, Real& lost);
 
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(timber::ContactSolver&, size_t k, TimberJoint&, const Scene&);
 
 /// Force of the modes of the solver's k-th joint. energies: added to.
-timber::PairForce storeJoint(const timber::ContactSolver&, size_t k, const Scene&, TimberJoint&, JointEnergies& energies);
+timber::PairForce storeJoint(
+        const timber::ContactSolver&, size_t k, const Scene&, TimberJoint&, JointEnergies& energies);
 
 } // namespace yade

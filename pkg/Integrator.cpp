@@ -27,7 +27,8 @@ void SymplecticIntegrator::kickAndDrift(Body::id_t id, State& s) const
 	s.pos += dt * s.vel;
 }
 
-/// Motion of a fixed body with its prescribed velocities. Its angular momentum follows them, so that it is right once the body is released.
+/// Motion of a fixed body with its prescribed velocities. Its angular momentum follows them, so that it is right once
+/// the body is released.
 void SymplecticIntegrator::moveFixed(State& s) const
 {
 	s.pos += scene->dt * s.vel;
@@ -47,7 +48,9 @@ template <class Number> void SymplecticIntegrator::rotate(State* const* states, 
 	const timber::Vec3Of<Number> momentum = all([](State & s) -> auto& { return s.angMom; }).vectors(),
 	                             inertia = all([](State & s) -> auto& { return s.inertia; }).vectors();
 	timber::QuatOf<Number> rotated(orientation.vectors());
-	all([](State & s) -> auto& { return s.angVel; }).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
+	all([](State & s) -> auto& {
+		return s.angVel;
+	}).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
 	orientation.set(rotated.coeffs());
 }
 

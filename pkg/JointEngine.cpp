@@ -16,8 +16,10 @@ namespace {
 		return list;
 	}
 
-	/// Calls visit(joint, spring, force of the spring, states of the bodies) for each unbroken spring between bodies of a scene.
-	template <class Visit> void visitSprings(const vector<shared_ptr<TimberJoint>>& joints, const Scene& scene, Visit visit)
+	/// Calls visit(joint, spring, force of the spring, states of the bodies) for each unbroken spring between
+	/// bodies of a scene.
+	template <class Visit>
+	void visitSprings(const vector<shared_ptr<TimberJoint>>& joints, const Scene& scene, Visit visit)
 	{
 		for (const shared_ptr<TimberJoint>& j : joints) {
 			const Body *b1 = bodyAt(scene, j->id1), *b2 = bodyAt(scene, j->id2);
@@ -32,7 +34,8 @@ namespace {
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
 	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
-		throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
+		throw std::invalid_argument(
+		        "JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
 	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
@@ -58,13 +61,17 @@ void JointEngine::collectBodies()
 void JointEngine::checkJoints() const
 {
 	std::set<const TimberJoint*> known;
-	const auto refuse = [](size_t k, const string& fault) { throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault); };
+	const auto refuse = [](size_t k, const string& fault) {
+		throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
+	};
 	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
 		if (!known.insert(&joint).second) refuse(k, "the same joint is in the list before");
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
-			refuse(k, "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2) + ": they must be ids of two bodies");
+			refuse(k,
+			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)
+			                + ": they must be ids of two bodies");
 	}
 }
 
@@ -88,7 +95,9 @@ void JointEngine::computeForce(size_t index)
 	else if (joint.yields) {
 		TimberJoint& j = *joints[index];
 		total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
-	} else timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint), packed->end(joint), total);
+	} else
+		timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
+		        packed->end(joint), total);
 }
 
 void JointEngine::computeForces()
@@ -118,8 +127,8 @@ void JointEngine::breakSprings(size_t index)
 	TimberJoint& joint = *joints[index];
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
-	for (const timber::SpringBreak& found :
-	        timber::springBreaks(joint.stiffness(), joint.jointStrength(), placement(packed->joints[index]), joint.normal, joint.springs(), motion))
+	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.jointStrength(),
+	             placement(packed->joints[index]), joint.normal, joint.springs(), motion))
 		breakSpring(index, found);
 	computeForce(index);
 }
@@ -128,8 +137,8 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& found :
-	        timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(), joint.slipHistories()))
+	for (const timber::SpringBreak& found : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
+	             joint.normal, joint.springs(), joint.slipHistories()))
 		breakSpring(index, found);
 }
 
@@ -155,20 +164,24 @@ void JointEngine::breakAndSum()
 Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
-	visitSprings(joints, current, [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
-		const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
-		power += force.dot(timber::relativeVelocity<double>(end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
-	});
+	visitSprings(joints, current,
+	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		        const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
+		        power += force.dot(timber::relativeVelocity<double>(
+		                end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
+	        });
 	return power;
 }
 
 void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& springs) const
 {
-	visitSprings(joints, current, [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
-		const timber::JointStiffness stiffness = j.stiffness();
-		const Vector3r x = s1.pos + s1.ori * j.anchors1[k];
-		springs.push_back({ j.id1, j.id2, x - s1.pos, x - s2.pos, s1.ori * j.normal, stiffness.normal, stiffness.shear, -force });
-	});
+	visitSprings(joints, current,
+	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		        const timber::JointStiffness stiffness = j.stiffness();
+		        const Vector3r x = s1.pos + s1.ori * j.anchors1[k];
+		        springs.push_back({ j.id1, j.id2, x - s1.pos, x - s2.pos, s1.ori * j.normal, stiffness.normal,
+		                stiffness.shear, -force });
+	        });
 }
 
 void JointEngine::action()

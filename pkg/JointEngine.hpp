@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking: kernel/joint_law.hpp. Yielding springs:
-/// kernel/slip_law.hpp.
+/// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
+/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp.
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>
@@ -54,22 +54,29 @@ public:
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
 	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
-	timber::JointForce lastForce(size_t joint) const { return joint < jointForces.size() ? jointForces[joint] : timber::JointForce(); }
-	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the rate of change of the elastic
-	/// energy. What yielding springs dissipate of it is known after the next step. [W]
+	timber::JointForce lastForce(size_t joint) const
+	{
+		return joint < jointForces.size() ? jointForces[joint] : timber::JointForce();
+	}
+	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the
+	/// rate of change of the elastic energy. What yielding springs dissipate of it is known after the next step.
+	/// [W]
 	Real elasticPower(const Scene&) const;
 	/// Adds the linearised unbroken springs. Those that yield have their initial stiffness, with which they unload.
 	void addSprings(const Scene&, std::vector<timber::PointSpring>&) const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a brittle spring whose force exceeds the strength breaks and never acts again, a yielding one breaks at its ultimate stretch.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointEngine, GlobalEngine, "Forces of all joints; a brittle spring whose "
+		"force exceeds the strength breaks and never acts again, a yielding one breaks at its ultimate "
+		"stretch.",
 		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
 		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
 		((Real, released, 0, , "Energy stored in springs when they broke. [J]"))
 		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
 		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]")),
 		,
-		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its index. [-]")
+		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its "
+			"index. [-]")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
 		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order. [-]")
 	);

@@ -8,7 +8,8 @@ YADE_PLUGIN((ElementMat)(TimberMat)(SnowMat));
 
 void ElementMat::validate() const
 {
-	require(density >= 1e-3 && std::isfinite(density), (getClassName() + ".density").c_str(), density, ">= 0.001 kg/m3");
+	require(density >= 1e-3 && std::isfinite(density), (getClassName() + ".density").c_str(), density,
+	        ">= 0.001 kg/m3");
 	require(friction >= 0 && friction <= 1e6, (getClassName() + ".friction").c_str(), friction, "from 0 to 1e6");
 }
 
@@ -20,7 +21,8 @@ void TimberMat::validate() const
 
 void SnowMat::validate() const
 {
-	require(stiffnessPerMass >= 1 && stiffnessPerMass <= 1e9, "SnowMat.stiffnessPerMass", stiffnessPerMass, "from 1 to 1e9 N/m/kg");
+	require(stiffnessPerMass >= 1 && stiffnessPerMass <= 1e9, "SnowMat.stiffnessPerMass", stiffnessPerMass,
+	        "from 1 to 1e9 N/m/kg");
 }
 
 } // namespace yade

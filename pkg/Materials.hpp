@@ -16,8 +16,10 @@ public:
 	void validate() const;
 	long changes = 0; ///< number of times that attributes were set: contacts read them again (ContactPhysics.cpp)
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not a material by itself.",
-		((Real, friction, 0.5, Attr::triggerPostLoad, "Coulomb friction coefficient; a pair has the smaller one of its two materials. [-]")),
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not "
+		"a material by itself.",
+		((Real, friction, 0.5, Attr::triggerPostLoad, "Coulomb friction coefficient; a pair has the smaller "
+			"one of its two materials. [-]")),
 		createIndex();
 	);
 	// clang-format on
@@ -34,8 +36,10 @@ public:
 	}
 	void validate() const;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberMat, ElementMat, "Timber, or any other stiff material in Hertz contact (paper, section 3.1).",
-		((Real, young, 90e3 * 9.8e4, Attr::triggerPostLoad, "Young's modulus: 90e3 kgf/cm2, with the paper's 9.8 N per kgf. [Pa] (paper, section 3.1)"))
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberMat, ElementMat, "Timber, or any other stiff material in Hertz contact "
+		"(paper, section 3.1).",
+		((Real, young, 90e3 * 9.8e4, Attr::triggerPostLoad, "Young's modulus: 90e3 kgf/cm2, with the paper's "
+			"9.8 N per kgf. [Pa] (paper, section 3.1)"))
 		((Real, poisson, 0.4, Attr::triggerPostLoad, "Poisson's ratio. [-] (paper, section 3.1)")),
 		createIndex(); density = 340;
 	);
@@ -53,8 +57,10 @@ public:
 	}
 	void validate() const;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 (2)).",
-		((Real, stiffnessPerMass, 3.948e4, Attr::triggerPostLoad, "Contact stiffness, normal and tangential, per kilogram of the snow element. [N/m/kg] (paper, Table 1)")),
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 "
+		"(2)).",
+		((Real, stiffnessPerMass, 3.948e4, Attr::triggerPostLoad, "Contact stiffness, normal and tangential, "
+			"per kilogram of the snow element. [N/m/kg] (paper, Table 1)")),
 		createIndex(); density = 90;
 	);
 	// clang-format on

@@ -7,11 +7,14 @@ namespace yade {
 namespace {
 	template <class T> boost::python::object bytes(const std::vector<T>& values)
 	{
-		return boost::python::object(boost::python::handle<>(
-		        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
+		return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(
+		        reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
 	}
 
-	void append(std::vector<float>& to, const Vector3r& v) { to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) }); }
+	void append(std::vector<float>& to, const Vector3r& v)
+	{
+		to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) });
+	}
 
 	/// Interactions of near bodies, ordered by their ids: the order of the container depends on the run's history.
 	std::vector<Interaction*> interactionsById(const Scene& scene)
@@ -61,8 +64,8 @@ boost::python::tuple packedContacts()
 		const auto phys = dynamic_cast<const ManifoldPhys*>(i->phys.get());
 		if (!geom || !phys) continue;
 		for (const timber::ContactPoint& point : geom->contactPoints) {
-			const auto record
-			        = std::find_if(phys->records.begin(), phys->records.end(), [&](const timber::PointRecord& p) { return p.id == point.id; });
+			const auto record = std::find_if(phys->records.begin(), phys->records.end(),
+			        [&](const timber::PointRecord& p) { return p.id == point.id; });
 			if (record == phys->records.end()) continue;
 			pairs.insert(pairs.end(), { i->getId1(), i->getId2() });
 			append(positions, point.position);

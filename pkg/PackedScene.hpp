@@ -5,19 +5,21 @@
 
 namespace yade {
 
-/// (positions, orientations) of all bodies: bytes of float32 (n, 3) [m] and (n, 4) w, x, y, z [-]; NaN where a body was erased.
+/// (positions, orientations) of all bodies: bytes of float32 (n, 3) [m] and (n, 4) w, x, y, z [-]; NaN where a body was
+/// erased.
 boost::python::tuple packedPlacements();
 
-/// (load, broken) of all joints: bytes of float32, the largest spring force (of a joint as a whole: their sum) over the strength,
-/// and of uint8, the number of broken springs. [-]
+/// (load, broken) of all joints: bytes of float32, the largest spring force (of a joint as a whole: their sum) over the
+/// strength, and of uint8, the number of broken springs. [-]
 boost::python::tuple packedJoints(const shared_ptr<JointEngine>&);
 
-/// (pairs, positions, forces) of all contact points, ordered by body ids: bytes of int32 (n, 2) [-], float32 (n, 3) [m] and float32 (n, 3),
-/// force of the last step on the second body [N]; world frame.
+/// (pairs, positions, forces) of all contact points, ordered by body ids: bytes of int32 (n, 2) [-], float32 (n, 3) [m]
+/// and float32 (n, 3), force of the last step on the second body [N]; world frame.
 boost::python::tuple packedContacts();
 
-/// (pairs, values) of the linearised springs of all contact points and joints: bytes of int32 (n, 2), body ids [-], and of float64 (n, 14):
-/// arms from both centres of mass [m], unit normal [-], normal and tangential stiffness [N/m], force on the second body [N]; world frame.
+/// (pairs, values) of the linearised springs of all contact points and joints: bytes of int32 (n, 2), body ids [-], and
+/// of float64 (n, 14): arms from both centres of mass [m], unit normal [-], normal and tangential stiffness [N/m],
+/// force on the second body [N]; world frame.
 boost::python::tuple packedSprings();
 
 } // namespace yade

@@ -30,7 +30,8 @@ Real RestSkipper::largestSpeed() const
 {
 	Real largest = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && isFree(*b->state)) largest = math::max(largest, b->state->vel.norm() + b->state->angVel.norm());
+		if (b && isFree(*b->state))
+			largest = math::max(largest, b->state->vel.norm() + b->state->angVel.norm());
 	return largest;
 }
 
@@ -54,11 +55,14 @@ long RestSkipper::stridesPerHalf() const { return math::max(1L, std::lround(rest
 /// Displacements are compared, not speeds: residuals of the contact solver make light members vibrate on the spot.
 void RestSkipper::observe()
 {
-	if (startPositions.size() != scene->bodies->size() || largestSpeed() > speed || largestDisplacement(startPositions) > displacement) return restart();
+	if (startPositions.size() != scene->bodies->size() || largestSpeed() > speed
+	        || largestDisplacement(startPositions) > displacement)
+		return restart();
 	const long half = stridesPerHalf();
 	++observedStrides;
 	const bool halfway = middlePositions.empty() && observedStrides >= half;
-	const bool grows = !middlePositions.empty() && observedStrides >= 2 * half && largestDisplacement(middlePositions) > growth * firstHalfDisplacement;
+	const bool grows = !middlePositions.empty() && observedStrides >= 2 * half
+	        && largestDisplacement(middlePositions) > growth * firstHalfDisplacement;
 	if (!halfway && !grows) return;
 	if (grows) startPositions = middlePositions; // the second half becomes the first one of a new observation
 	middlePositions = positions();
@@ -79,7 +83,8 @@ bool RestSkipper::isEndBeyondStride() const
 {
 	const long next = scene->iter + stride;
 	const auto isBefore = [next](long end) { return end <= 0 || next < end; };
-	return isBefore(last) && isBefore(scene->stopAtIter) && (scene->stopAtTime <= 0 || scene->time + stride * scene->dt < scene->stopAtTime);
+	return isBefore(last) && isBefore(scene->stopAtIter)
+	        && (scene->stopAtTime <= 0 || scene->time + stride * scene->dt < scene->stopAtTime);
 }
 
 void RestSkipper::action()

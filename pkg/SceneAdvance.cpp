@@ -50,11 +50,13 @@ shared_ptr<Scene> swapScene(const shared_ptr<Scene>& next)
 	return std::exchange(current, next);
 }
 
-boost::python::list advanceScenes(const boost::python::list& scenes, const boost::python::list& steps, const shared_ptr<Scene>& idle)
+boost::python::list advanceScenes(
+        const boost::python::list& scenes, const boost::python::list& steps, const shared_ptr<Scene>& idle)
 {
 	std::vector<Job> jobs;
 	for (long k = 0; k < boost::python::len(scenes); ++k)
-		jobs.push_back({ boost::python::extract<shared_ptr<Scene>>(scenes[k]), boost::python::extract<long>(steps[k]), 0, "" });
+		jobs.push_back({ boost::python::extract<shared_ptr<Scene>>(scenes[k]),
+		        boost::python::extract<long>(steps[k]), 0, "" });
 	{
 		const CurrentScene none(idle);
 		timber::forAllLong(int(jobs.size()), [&](int k) { advance(jobs[k]); });

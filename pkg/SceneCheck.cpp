@@ -16,7 +16,10 @@
 namespace yade {
 
 namespace {
-	bool isKindOf(const string& name, const string& base) { return name == base || Omega::instance().isInheritingFrom_recursive(name, base); }
+	bool isKindOf(const string& name, const string& base)
+	{
+		return name == base || Omega::instance().isInheritingFrom_recursive(name, base);
+	}
 
 	const char* const integrator = "an integrator (SymplecticIntegrator)";
 
@@ -47,7 +50,8 @@ namespace {
 	{
 		const string name = engine.getClassName();
 		const auto match = [&](const Role& role) {
-			return std::any_of(role.classes.begin(), role.classes.end(), [&](const char* base) { return isKindOf(name, base); });
+			return std::any_of(role.classes.begin(), role.classes.end(),
+			        [&](const char* base) { return isKindOf(name, base); });
 		};
 		const auto found = std::find_if(roles.begin(), roles.end(), match);
 		return found == roles.end() ? nullptr : &*found;
@@ -58,14 +62,23 @@ namespace {
 		const char *base, *remedy;
 	};
 	const std::vector<ForeignEngine> foreignEngines {
-		{ "NewtonIntegrator", "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
+		{ "NewtonIntegrator",
+		        "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
 		{ "Integrator", "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
-		{ "TimeStepper", "would change the time step, and finds no stiffness in these contacts. Remove it and set O.dt" },
+		{ "TimeStepper",
+		        "would change the time step, and finds no stiffness in these contacts. Remove it and set "
+		        "O.dt" },
 	};
 
-	[[noreturn]] void refuseEngines(const string& fault) { throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list"); }
+	[[noreturn]] void refuseEngines(const string& fault)
+	{
+		throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list");
+	}
 
-	[[noreturn]] void refuseBody(const Body& b, const string& fault) { throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault); }
+	[[noreturn]] void refuseBody(const Body& b, const string& fault)
+	{
+		throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault);
+	}
 
 	/// Visits live engines, and those inside them.
 	template <class Visit> void visitLive(const std::vector<shared_ptr<Engine>>& engines, const Visit& visit)
@@ -82,20 +95,23 @@ namespace {
 	/// Whether an engine stands in the list itself, not inside another engine.
 	bool isListed(const Scene& scene, const Engine* engine)
 	{
-		return std::any_of(scene.engines.begin(), scene.engines.end(), [=](const auto& e) { return e.get() == engine; });
+		return std::any_of(
+		        scene.engines.begin(), scene.engines.end(), [=](const auto& e) { return e.get() == engine; });
 	}
 
 	void refuseForeign(const Engine& engine)
 	{
 		for (const ForeignEngine& foreign : foreignEngines)
-			if (isKindOf(engine.getClassName(), foreign.base)) refuseEngines(engine.getClassName() + " " + foreign.remedy);
+			if (isKindOf(engine.getClassName(), foreign.base))
+				refuseEngines(engine.getClassName() + " " + foreign.remedy);
 	}
 
 	/// The scene's contact loop, alone or in a ContactLoop.
 	const InteractionLoop& findLoop(const Scene& scene)
 	{
 		const auto* wrapper = findEngine<ContactLoop>(scene);
-		const auto* loop = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get()) : findEngine<InteractionLoop>(scene);
+		const auto* loop = wrapper ? dynamic_cast<InteractionLoop*>(wrapper->loop.get())
+		                           : findEngine<InteractionLoop>(scene);
 		if (!loop) refuseEngines("ContactLoop.loop is no InteractionLoop");
 		if (!loop->geomDispatcher || !loop->physDispatcher || !loop->lawDispatcher)
 			refuseEngines("the InteractionLoop has no geomDispatcher, physDispatcher or lawDispatcher");
@@ -106,7 +122,8 @@ namespace {
 	const Collider& findCollider(const Scene& scene)
 	{
 		const auto* wrapper = findEngine<CollisionTrigger>(scene);
-		const auto* collider = wrapper ? dynamic_cast<Collider*>(wrapper->collider.get()) : findEngine<Collider>(scene);
+		const auto* collider
+		        = wrapper ? dynamic_cast<Collider*>(wrapper->collider.get()) : findEngine<Collider>(scene);
 		if (!collider) refuseEngines("CollisionTrigger.collider is no collider");
 		if (!collider->boundDispatcher) refuseEngines("the collider has no boundDispatcher");
 		return *collider;
@@ -117,44 +134,52 @@ namespace {
 	{
 		return std::any_of(functors.begin(), functors.end(), [&](const auto& f) {
 			const string first = f->get2DFunctorType1(), second = f->get2DFunctorType2();
-			return (isKindOf(a, first) && isKindOf(b, second)) || (isKindOf(b, first) && isKindOf(a, second));
+			return (isKindOf(a, first) && isKindOf(b, second))
+			        || (isKindOf(b, first) && isKindOf(a, second));
 		});
 	}
 
-	/// One body of each combination of shape, material and group. Bodies without a shape or a bounding box never touch others.
+	/// One body of each combination of shape, material and group. Bodies without a shape or a bounding box never
+	/// touch others.
 	std::vector<const Body*> kindsOfBodies(const Scene& scene)
 	{
 		std::set<std::tuple<int, int, mask_t>> known;
 		std::vector<const Body*> kinds;
 		for (const shared_ptr<Body>& b : *scene.bodies)
 			if (b && b->shape && b->isBounded()
-			        && known.emplace(b->shape->getClassIndex(), b->material ? b->material->getClassIndex() : -1, b->groupMask).second)
+			        && known.emplace(b->shape->getClassIndex(),
+			                        b->material ? b->material->getClassIndex() : -1, b->groupMask)
+			                   .second)
 				kinds.push_back(b.get());
 		return kinds;
 	}
 
-	[[noreturn]] void refusePair(const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
+	[[noreturn]] void refusePair(
+	        const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
 	{
-		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId()) + ": the InteractionLoop has no " + functor
-		        + " functor for " + classA + " and " + classB);
+		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId())
+		        + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB);
 	}
 
 	/// Null if there is no law for the two materials.
 	const ContactLaw* findLaw(const string& a, const string& b)
 	{
 		const auto matches = [&](const ContactLaw& law) {
-			return (isKindOf(a, law.material1) && isKindOf(b, law.material2)) || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
+			return (isKindOf(a, law.material1) && isKindOf(b, law.material2))
+			        || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
 		};
 		const auto found = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
 		return found == contactLaws.end() ? nullptr : &*found;
 	}
 
-	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite stiffness.
+	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite
+	/// stiffness.
 	bool hasIp2(const InteractionLoop& loop, const ContactLaw& law)
 	{
 		const auto& functors = loop.physDispatcher->functors;
-		return std::any_of(functors.begin(), functors.end(),
-		        [&](const auto& f) { return f->get2DFunctorType1() == law.argument && f->get2DFunctorType2() == law.argument; });
+		return std::any_of(functors.begin(), functors.end(), [&](const auto& f) {
+			return f->get2DFunctorType1() == law.argument && f->get2DFunctorType2() == law.argument;
+		});
 	}
 
 	void checkPair(const InteractionLoop& loop, const Body& a, const Body& b)
@@ -165,7 +190,8 @@ namespace {
 		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
 		const ContactLaw* law = findLaw(materialA, materialB);
 		if (!law || !hasIp2(loop, *law)) refusePair(a, b, "Ip2", materialA, materialB);
-		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", law->phys)) refusePair(a, b, "Law2", "ManifoldGeom", law->phys);
+		if (!dispatches(loop.lawDispatcher->functors, "ManifoldGeom", law->phys))
+			refusePair(a, b, "Law2", "ManifoldGeom", law->phys);
 	}
 }
 
@@ -180,15 +206,20 @@ void checkEngines(const Scene& scene)
 		const Role* role = roleOf(*engine);
 		if (!role && last && last->name == string("ContactForces")) late = engine;
 		if (!role) continue;
-		if (!isListed(scene, engine)) refuseEngines(engine->getClassName() + " stands in a ParallelEngine. Put it into the list itself");
+		if (!isListed(scene, engine))
+			refuseEngines(
+			        engine->getClassName() + " stands in a ParallelEngine. Put it into the list itself");
 		if (late && role->name == integrator) {
 			refuseForeign(*late);
 			refuseEngines(late->getClassName()
-			        + " stands between ContactForces and the integrator, so that contacts would not know its forces. Move it before ContactForces "
+			        + " stands between ContactForces and the integrator, so that contacts would not know "
+			          "its forces. Move it before ContactForces "
 			          "or to the end");
 		}
-		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor")) refuseEngines(string(role->name) + " is there twice");
-		if (last && role->rank < last->rank) refuseEngines(string(role->name) + " must come before " + last->name);
+		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor"))
+			refuseEngines(string(role->name) + " is there twice");
+		if (last && role->rank < last->rank)
+			refuseEngines(string(role->name) + " must come before " + last->name);
 		last = role;
 	}
 	for (const Role& role : roles)
@@ -203,11 +234,14 @@ void checkContacts(const Scene& scene)
 	const auto& boxes = findCollider(scene).boundDispatcher->functors;
 	const std::vector<const Body*> kinds = kindsOfBodies(scene);
 	for (const Body* b : kinds)
-		if (roundedShape(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) { return f->get1DFunctorType1() == "RoundedPolyhedron"; }))
+		if (roundedShape(*b) && std::none_of(boxes.begin(), boxes.end(), [](const auto& f) {
+			    return f->get1DFunctorType1() == "RoundedPolyhedron";
+		    }))
 			refuseEngines("the collider has no Bo1_RoundedPolyhedron_Aabb");
 	for (size_t i = 0; i < kinds.size(); ++i)
 		for (size_t k = i; k < kinds.size(); ++k)
-			if ((roundedShape(*kinds[i]) || roundedShape(*kinds[k])) && (kinds[i]->groupMask & kinds[k]->groupMask))
+			if ((roundedShape(*kinds[i]) || roundedShape(*kinds[k]))
+			        && (kinds[i]->groupMask & kinds[k]->groupMask))
 				checkPair(loop, *kinds[i], *kinds[k]);
 }
 
@@ -225,13 +259,16 @@ void findParts(const Scene& scene, std::vector<const void*>& parts)
 			append(loop->geomDispatcher);
 			append(loop->physDispatcher);
 			append(loop->lawDispatcher);
-		} else if (const auto* collider = dynamic_cast<const Collider*>(engine)) append(collider->boundDispatcher);
+		} else if (const auto* collider = dynamic_cast<const Collider*>(engine))
+			append(collider->boundDispatcher);
 	};
 	visitLive(scene.engines, [&](const Engine& engine) {
 		parts.push_back(&engine);
 		const auto* contactLoop = dynamic_cast<const ContactLoop*>(&engine);
 		const auto* trigger = contactLoop ? nullptr : dynamic_cast<const CollisionTrigger*>(&engine);
-		const Engine* inner = contactLoop ? contactLoop->loop.get() : trigger ? trigger->collider.get() : nullptr;
+		const Engine* inner = contactLoop ? contactLoop->loop.get()
+		        : trigger                 ? trigger->collider.get()
+		                                  : nullptr;
 		if (inner) parts.push_back(inner);
 		appendInner(inner ? inner : &engine);
 	});
@@ -244,7 +281,8 @@ namespace {
 	void refuseStep(const Scene& scene, const string& cause, Real limit)
 	{
 		std::ostringstream message;
-		message << "O.dt = " << scene.dt << " s: too large for " << cause << ": it must be at most " << std::setprecision(2) << limit << " s";
+		message << "O.dt = " << scene.dt << " s: too large for " << cause << ": it must be at most "
+		        << std::setprecision(2) << limit << " s";
 		throw std::runtime_error(message.str());
 	}
 
@@ -253,7 +291,8 @@ namespace {
 	{
 		std::vector<timber::PointSpring> springs;
 		if (const auto* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
-		const Real squared = springs.empty() ? 0 : timber::largestEigenvalue(ContactForces::placements(scene), springs);
+		const Real squared
+		        = springs.empty() ? 0 : timber::largestEigenvalue(ContactForces::placements(scene), springs);
 		return squared > 0 ? explicitLimits * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
 	}
 }
@@ -262,7 +301,8 @@ void checkStep(const Scene& scene)
 {
 	if (!(scene.dt <= largestStep)) refuseStep(scene, "contacts", largestStep);
 	const Real limit = jointStep(scene);
-	if (scene.dt > limit) refuseStep(scene, "the joints between the lightest bodies (or take less stiff joints)", limit);
+	if (scene.dt > limit)
+		refuseStep(scene, "the joints between the lightest bodies (or take less stiff joints)", limit);
 }
 
 void checkBody(const Body& b)
@@ -274,9 +314,11 @@ void checkBody(const Body& b)
 	const State& s = *b.state;
 	if (s.blockedDOFs != State::DOF_NONE && s.blockedDOFs != State::DOF_ALL)
 		refuseBody(b, "some degrees of freedom are blocked: contacts allow for free and fixed bodies only");
-	if (isFree(s) && !(s.mass > 0 && std::isfinite(s.mass) && (s.inertia.array() > 0).all() && s.inertia.allFinite())) {
+	if (isFree(s)
+	        && !(s.mass > 0 && std::isfinite(s.mass) && (s.inertia.array() > 0).all() && s.inertia.allFinite())) {
 		std::ostringstream fault;
-		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose() << " kg m2: they must be finite and > 0";
+		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose()
+		      << " kg m2: they must be finite and > 0";
 		refuseBody(b, fault.str());
 	}
 	const RoundedPolyhedron* shape = roundedShape(b);
@@ -284,7 +326,9 @@ void checkBody(const Body& b)
 	if (shape->vertices.empty()) refuseBody(b, "its shape has no vertices");
 	const auto* material = dynamic_cast<const ElementMat*>(b.material.get());
 	if (!material || material->getClassIndex() == ElementMat::getClassIndexStatic())
-		refuseBody(b, "material " + (b.material ? b.material->getClassName() : string("None")) + ": it must be a TimberMat or SnowMat");
+		refuseBody(b,
+		        "material " + (b.material ? b.material->getClassName() : string("None"))
+		                + ": it must be a TimberMat or SnowMat");
 }
 
 } // namespace yade

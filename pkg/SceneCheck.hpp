@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Checks of a scene before a step. Errors in YADE's contact loop end the process, so they have to be found before it runs.
+/// Checks of a scene before a step. Errors in YADE's contact loop end the process, so they have to be found before it
+/// runs.
 #pragma once
 #include <pch.hpp>
 
@@ -11,14 +12,16 @@ void checkEngines(const Scene&);
 /// Each pair of shapes, materials and contact laws that can occur has a functor. Throws std::runtime_error.
 void checkContacts(const Scene&);
 
-/// The scene's time step is one that its joints and the smallest bodies can be computed with. Throws std::runtime_error.
+/// The scene's time step is one that its joints and the smallest bodies can be computed with. Throws
+/// std::runtime_error.
 void checkStep(const Scene&);
 
-/// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their functors, in order.
-/// parts: out.
+/// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their
+/// functors, in order. parts: out.
 void findParts(const Scene&, std::vector<const void*>& parts);
 
-/// Shape, material, state and mass of a body are those that the package's engines can deal with. Throws std::runtime_error.
+/// Shape, material, state and mass of a body are those that the package's engines can deal with. Throws
+/// std::runtime_error.
 void checkBody(const Body&);
 
 } // namespace yade

@@ -44,7 +44,8 @@ namespace {
 			const auto place = geometries.find(key);
 			shared_ptr<Geometry> found = place == geometries.end() ? nullptr : place->second.lock();
 			if (found) return found;
-			found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(timber::Polyhedron::fromVertices(vertices), radius));
+			found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(
+			        timber::Polyhedron::fromVertices(vertices), radius));
 			geometries[key] = found;
 			return found;
 		}
@@ -55,7 +56,8 @@ namespace {
 void RoundedPolyhedron::validate() const
 {
 	if (!(radius >= 0 && std::isfinite(radius)))
-		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius) + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
+		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius)
+		        + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
@@ -72,7 +74,8 @@ boost::python::tuple RoundedPolyhedron::massProperties() const
 {
 	if (vertices.empty()) throw std::runtime_error("RoundedPolyhedron.massProperties: the shape has no vertices");
 	const timber::MassProperties p = timber::massProperties(geometry->sharp);
-	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia), Quaternionr(timber::principalAxes(p.inertia)));
+	return boost::python::make_tuple(Real(p.volume), Vector3r(p.centroid), Matrix3r(p.inertia),
+	        Quaternionr(timber::principalAxes(p.inertia)));
 }
 
 boost::python::list RoundedPolyhedron::faces() const
@@ -95,17 +98,22 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 	const RoundedPolyhedron* shape = roundedShape(b);
 	if (!shape) return 0;
 	const State& s = *b.state;
-	const Real displacement = dt * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
+	const Real displacement = dt
+	        * (s.vel.norm()
+	                + timber::rotationSpeed(
+	                        s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
 	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
 }
 
 void Bo1_RoundedPolyhedron_Aabb::validate() const
 {
 	if (!(margin >= 0 && std::isfinite(margin)))
-		throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
+		throw std::invalid_argument(
+		        "Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
 }
 
-void Bo1_RoundedPolyhedron_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)
+void Bo1_RoundedPolyhedron_Aabb::go(
+        const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)
 {
 	const timber::RoundedPolyhedron& body = *static_cast<RoundedPolyhedron*>(shape.get())->geometry;
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);

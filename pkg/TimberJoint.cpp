@@ -7,11 +7,13 @@ namespace yade {
 YADE_PLUGIN((TimberJoint));
 
 namespace {
-	/// Stiffness and strength may be missing (NaN) as long as a joint has no springs: attributes are set one after the other.
+	/// Stiffness and strength may be missing (NaN) as long as a joint has no springs: attributes are set one after
+	/// the other.
 	void requireGiven(bool hasSprings, const char* attribute, Real value, bool mayBeInfinite)
 	{
 		if (!hasSprings && std::isnan(value)) return;
-		require(value > 0 && (mayBeInfinite || std::isfinite(value)), attribute, value, mayBeInfinite ? "> 0" : "finite and > 0");
+		require(value > 0 && (mayBeInfinite || std::isfinite(value)), attribute, value,
+		        mayBeInfinite ? "> 0" : "finite and > 0");
 	}
 
 	void requireAnchors(const char* attribute, const vector<Vector3r>& anchors)
@@ -33,8 +35,10 @@ void TimberJoint::validate() const
 	requireAnchors("TimberJoint.anchors2", anchors2);
 	validateLaw();
 	if (!hasSprings && broken.empty()) return; // not complete yet
-	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(), "that of anchors1");
-	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(), "that of anchors1");
+	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(),
+	        "that of anchors1");
+	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(),
+	        "that of anchors1");
 }
 
 void TimberJoint::validateLaw() const
@@ -46,10 +50,10 @@ void TimberJoint::validateLaw() const
 	if (!yields() || std::isnan(kn)) return;
 	require(kn == ks || ks == 0, "TimberJoint.ks", ks, "equal to kn, or 0, with the law slip");
 	if (!envelope.empty()) return validateEnvelope();
-	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch", softeningStretch,
-	        "finite and > strength / kn with the law slip");
-	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch", ultimateStretch,
-	        "finite and > softeningStretch with the law slip");
+	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch",
+	        softeningStretch, "finite and > strength / kn with the law slip");
+	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch",
+	        ultimateStretch, "finite and > softeningStretch with the law slip");
 }
 
 void TimberJoint::validateEnvelope() const
@@ -62,7 +66,8 @@ void TimberJoint::validateEnvelope() const
 	}
 	const char* const unmet = timber::SlipLaw::unmetBy(kn, envelopePoints(1));
 	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
-	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength, "the largest force of TimberJoint.envelope");
+	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength,
+	        "the largest force of TimberJoint.envelope");
 }
 
 void TimberJoint::postLoad(TimberJoint&)
@@ -114,7 +119,8 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 TimberJoint::SpringVectors TimberJoint::lastSprings() const
 {
 	SpringVectors last { stretches, forces };
-	if (packed && !yields()) timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
+	if (packed && !yields())
+		timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
 	return last;
 }
 
@@ -140,10 +146,14 @@ std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
 std::vector<timber::BackbonePoint> TimberJoint::backbone() const
 {
 	if (!envelope.empty()) return envelopePoints(share());
-	return { { strength / kn, share() * strength }, { softeningStretch, share() * strength }, { ultimateStretch, 0 } };
+	return { { strength / kn, share() * strength }, { softeningStretch, share() * strength },
+		{ ultimateStretch, 0 } };
 }
 
-Real TimberJoint::loadOf(const timber::JointForce& total) const { return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength; }
+Real TimberJoint::loadOf(const timber::JointForce& total) const
+{
+	return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength;
+}
 
 Real TimberJoint::load() const
 {

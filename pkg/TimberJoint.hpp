@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A breakable joint between two bodies (paper, sections 2.4 and 3.2): its attributes, their ranges and what is saved. JointEngine computes it.
+/// A breakable joint between two bodies (paper, sections 2.4 and 3.2): its attributes, their ranges and what is saved.
+/// JointEngine computes it.
 #pragma once
 #include <kernel/joint_modes.hpp>
 #include <kernel/packed_joints.hpp>
@@ -10,9 +11,12 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
-		ar& make_nvp("centre", m.centre) & make_nvp("spread", m.spread) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
-		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal) & make_nvp("shear", m.state.stiffness.shear);
-		ar& make_nvp("pairInverseMass", m.state.pairInverseMass) & make_nvp("inverseInertia", m.state.inverseInertia);
+		ar& make_nvp("centre", m.centre) & make_nvp("spread", m.spread) & make_nvp("modes", m.modes)
+		        & make_nvp("frequencies", m.frequencies);
+		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
+		        & make_nvp("shear", m.state.stiffness.shear);
+		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)
+		        & make_nvp("inverseInertia", m.state.inverseInertia);
 		ar& make_nvp("relative", m.state.relative);
 	}
 }
@@ -23,7 +27,8 @@ namespace yade {
 class TimberJoint : public Serializable {
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
 	timber::SlipLaw slip; ///< of a spring, from the attributes
-	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them, and may have been changed.
+	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
+	/// and may have been changed.
 	shared_ptr<timber::PackedJoints> packed;
 	size_t index = 0; ///< in `packed`
 	size_t intact = 0; ///< number of unbroken springs
@@ -59,7 +64,8 @@ public:
 	/// Appends the joint to packed joints, which have its forces and stretches from then on.
 	void pack(const shared_ptr<timber::PackedJoints>&);
 	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
-	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not write them.
+	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not
+	/// write them.
 	timber::JointSprings springs();
 	bool yields() const { return isSlip; }
 	/// Points of the envelope, with a share of its forces.
@@ -76,37 +82,65 @@ public:
 	void breakAll();
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in both (paper, section 4: at the four corners of the contact area). It acts beside contact.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in "
+		"both (paper, section 4: at the four corners of the contact area). It acts beside contact.",
 		((Body::id_t, id1, -1, Attr::triggerPostLoad, "First body. [-]"))
 		((Body::id_t, id2, -1, Attr::triggerPostLoad, "Second body. [-]"))
-		((vector<Vector3r>, anchors1, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 1. [m]"))
-		((vector<Vector3r>, anchors2, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 2. [m]"))
-		((Vector3r, normal, Vector3r(0, 0, 1), Attr::triggerPostLoad, "Unit normal of the contact area in the frame of body 1, towards body 2. [-]"))
-		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see perJoint. [N/m] (paper, Table 1)"))
-		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; 0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table 1)"))
-		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: the yield force. [N] (paper, section 3.2)"))
-		((bool, perJoint, false, Attr::triggerPostLoad, "Whether stiffness and strength are those of the joint: the springs share the stiffness equally, and all break when the sum of their forces exceeds the strength. With the law slip they share the strength as well, yield and break one by one. [-]"))
-		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at the strength, slips in cycles and loses its strength between softeningStretch and ultimateStretch, or follows envelope. [-]"))
-		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is elastic and perfectly plastic; the rest slips. [-]"))
-		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring beyond which its strength falls. [m]"))
-		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: stretch of a spring at which its strength is zero and it breaks. [m]"))
-		((vector<Vector2r>, envelope, , Attr::triggerPostLoad, "Law slip: points (stretch, force) of the first loading of each spring or of the whole joint, see perJoint, in place of softeningStretch and ultimateStretch. The stretches ascend, the last force is 0, the largest one is the strength, and no line is steeper than kn. Empty: yields at the strength, which falls from softeningStretch to ultimateStretch. [m, N]"))
-		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
+		((vector<Vector3r>, anchors1, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 1. "
+			"[m]"))
+		((vector<Vector3r>, anchors2, , Attr::triggerPostLoad, "Ends of the springs in the frame of body 2. "
+			"[m]"))
+		((Vector3r, normal, Vector3r(0, 0, 1), Attr::triggerPostLoad, "Unit normal of the contact area in the "
+			"frame of body 1, towards body 2. [-]"))
+		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see "
+			"perJoint. [N/m] (paper, Table 1)"))
+		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; "
+			"0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table "
+			"1)"))
+		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: "
+			"the yield force. [N] (paper, section 3.2)"))
+		((bool, perJoint, false, Attr::triggerPostLoad, "Whether stiffness and strength are those of the "
+			"joint: the springs share the stiffness equally, and all break when the sum of their forces "
+			"exceeds the strength. With the law slip they share the strength as well, yield and break one "
+			"by one. [-]"))
+		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at "
+			"the strength, slips in cycles and loses its strength between softeningStretch and "
+			"ultimateStretch, or follows envelope. [-]"))
+		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is "
+			"elastic and perfectly plastic; the rest slips. [-]"))
+		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "
+			"stretch of a spring beyond which its strength falls. [m]"))
+		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "
+			"stretch of a spring at which its strength is zero and it breaks. [m]"))
+		((vector<Vector2r>, envelope, , Attr::triggerPostLoad, "Law slip: points (stretch, force) of the first "
+			"loading of each spring or of the whole joint, see perJoint, in place of softeningStretch and "
+			"ultimateStretch. The stretches ascend, the last force is 0, the largest one is the strength, "
+			"and no line is steeper than kn. Empty: yields at the strength, which falls from "
+			"softeningStretch to ultimateStretch. [m, N]"))
+		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two "
+			"bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
 		((vector<Vector3r>, forces, , Attr::hidden, "Force of each spring when the scene was saved. [N]"))
 		((vector<Vector3r>, stretches, , Attr::hidden, "Stretch of each spring when the scene was saved. [m]"))
-		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, frame of body 1. [m]"))
-		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch so far. [m]"))
+		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, "
+			"frame of body 1. [m]"))
+		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch "
+			"so far. [m]"))
 		((Real, newmarkEnergy, 0, Attr::readonly, "Energy of Newmark's term of a stiff joint. [J]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
-		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, world frame. [N]")
-		.add_property("stretches", &TimberJoint::springStretches, "From the end in body 1 to the end in body 2 of each spring in the last step, world frame. [m]")
-		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch [m], broken.")
+		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "
+			"world frame. [N]")
+		.add_property("stretches", &TimberJoint::springStretches, "From the end in body 1 to the end in body 2 "
+			"of each spring in the last step, world frame. [m]")
+		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch "
+			"[m], broken.")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
-		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of the spring forces over the strength. A spring of the law slip that has yielded carries less than its strength once it softens. [-]")
+		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of "
+			"the spring forces over the strength. A spring of the law slip that has yielded carries less "
+			"than its strength once it softens. [-]")
 	);
 	// clang-format on
 };

@@ -28,8 +28,8 @@ template <class E> E* findEngine(const Scene& scene)
 	return nullptr;
 }
 
-/// YADE's own parallel loops run on one thread while an object of this class exists: they are short, and OpenMP's threads spin for milliseconds
-/// after each of them (kernel/threads.hpp).
+/// YADE's own parallel loops run on one thread while an object of this class exists: they are short, and OpenMP's
+/// threads spin for milliseconds after each of them (kernel/threads.hpp).
 class OneThread {
 	const int before = omp_get_max_threads();
 

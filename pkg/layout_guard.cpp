@@ -16,49 +16,65 @@ struct Field {
 	std::string owner; ///< YADE class, as in yade.wrapper
 	std::string attribute; ///< its attribute
 	std::string pointee; ///< class pointed to, empty for a plain value
-	std::function<py::object(const py::object&, long)> read; ///< value, or the address pointed to, `shift` bytes beside the member
+	std::function<py::object(const py::object&, long)>
+	        read; ///< value, or the address pointed to, `shift` bytes beside the member
 	std::function<void(const py::object&, const py::object&)> write;
 };
 
 template <typename Member> py::object readAt(const Member* member) { return py::object(*member); }
-template <typename T> py::object readAt(const shared_ptr<T>* member) { return py::object(reinterpret_cast<std::uintptr_t>(member->get())); }
+template <typename T> py::object readAt(const shared_ptr<T>* member)
+{
+	return py::object(reinterpret_cast<std::uintptr_t>(member->get()));
+}
 
 /// `member` maps an Owner& to a reference to its member.
-template <typename Owner, typename Access> Field makeField(const char* owner, const char* attribute, const char* pointee, Access member)
+template <typename Owner, typename Access>
+Field makeField(const char* owner, const char* attribute, const char* pointee, Access member)
 {
 	using Member = std::decay_t<decltype(member(std::declval<Owner&>()))>;
 	const auto read = [member](const py::object& object, long shift) {
 		const auto* address = reinterpret_cast<const char*>(&member(py::extract<Owner&>(object)()));
 		return readAt(reinterpret_cast<const Member*>(address + shift));
 	};
-	const auto write
-	        = [member](const py::object& object, const py::object& value) { member(py::extract<Owner&>(object)()) = py::extract<Member>(value)(); };
+	const auto write = [member](const py::object& object, const py::object& value) {
+		member(py::extract<Owner&>(object)()) = py::extract<Member>(value)();
+	};
 	return { owner, attribute, pointee, read, write };
 }
 
 // clang-format off
 #define VALUE(Owner, name) makeField<Owner>(#Owner, #name, "", [](Owner& o) -> auto& { return o.name; })
-#define POINTER(Owner, name, Pointee) makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
+#define POINTER(Owner, name, Pointee) \
+	makeField<Owner>(#Owner, #name, #Pointee, [](Owner& o) -> auto& { return o.name; })
 
-/// Members that this package's C++ uses, and the last one of each class. Members without a Python attribute (State::blockedDOFs,
-/// Interaction::functorCache) lie between others. The first difference ends the check, so State's
+/// Members that this package's C++ uses, and the last one of each class. Members without a Python attribute
+/// (State::blockedDOFs, Interaction::functorCache) lie between others. The first difference ends the check, so State's
 /// references (pos, ori), which are dereferenced when read, come after its plain members.
 const std::vector<Field>& fields()
 {
 	static const std::vector<Field> table {
-		VALUE(Body, id), VALUE(Body, groupMask), VALUE(Body, flags), POINTER(Body, material, Material), POINTER(Body, state, State),
+		VALUE(Body, id), VALUE(Body, groupMask), VALUE(Body, flags), POINTER(Body, material, Material),
+		POINTER(Body, state, State),
 		POINTER(Body, shape, Shape), POINTER(Body, bound, Bound), VALUE(Body, clumpId), VALUE(Body, timeBorn),
-		VALUE(State, vel), VALUE(State, mass), VALUE(State, angVel), VALUE(State, angMom), VALUE(State, inertia), VALUE(State, refPos),
-		VALUE(State, refOri), VALUE(State, isDamped), VALUE(State, densityScaling), VALUE(State, pos), VALUE(State, ori),
+		VALUE(State, vel), VALUE(State, mass), VALUE(State, angVel), VALUE(State, angMom),
+		VALUE(State, inertia), VALUE(State, refPos),
+		VALUE(State, refOri), VALUE(State, isDamped), VALUE(State, densityScaling), VALUE(State, pos),
+		VALUE(State, ori),
 		VALUE(Shape, color), VALUE(Shape, wire), VALUE(Shape, highlight),
 		VALUE(Aabb, refPos), VALUE(Aabb, sweepLength), VALUE(Aabb, min), VALUE(Aabb, max),
 		VALUE(Material, id), VALUE(Material, density),
-		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal), POINTER(Interaction, geom, IGeom),
+		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal),
+		POINTER(Interaction, geom, IGeom),
 		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
 		VALUE(Engine, dead), VALUE(Engine, ompThreads),
-		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic), VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter), VALUE(Scene, stopAtTime),
-		VALUE(Scene, doSort), POINTER(Collider, boundDispatcher, BoundDispatcher), VALUE(GravityEngine, gravity),
-		POINTER(InteractionLoop, geomDispatcher, IGeomDispatcher), POINTER(InteractionLoop, physDispatcher, IPhysDispatcher), POINTER(InteractionLoop, lawDispatcher, LawDispatcher),
+		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic),
+		VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter),
+		VALUE(Scene, stopAtTime),
+		VALUE(Scene, doSort), POINTER(Collider, boundDispatcher, BoundDispatcher),
+		VALUE(GravityEngine, gravity),
+		POINTER(InteractionLoop, geomDispatcher, IGeomDispatcher),
+		POINTER(InteractionLoop, physDispatcher, IPhysDispatcher),
+		POINTER(InteractionLoop, lawDispatcher, LawDispatcher),
 	};
 	return table;
 }
@@ -75,18 +91,26 @@ py::list listFields()
 
 py::object readField(int index, const py::object& object, long shift) { return fields().at(index).read(object, shift); }
 
-void writeField(int index, const py::object& object, const py::object& value) { fields().at(index).write(object, value); }
+void writeField(int index, const py::object& object, const py::object& value)
+{
+	fields().at(index).write(object, value);
+}
 
-std::uintptr_t address(const py::object& object) { return reinterpret_cast<std::uintptr_t>(py::extract<Serializable*>(object)()); }
+std::uintptr_t address(const py::object& object)
+{
+	return reinterpret_cast<std::uintptr_t>(py::extract<Serializable*>(object)());
+}
 
-/// Address of a scene's energy tracker, the last of the containers that Scene points to: if its offset is right, so are theirs.
+/// Address of a scene's energy tracker, the last of the containers that Scene points to: if its offset is right, so are
+/// theirs.
 std::uintptr_t energyAddress(Scene& scene) { return reinterpret_cast<std::uintptr_t>(scene.energy.get()); }
 
 /// Contents of Scene without Python attributes: (number of engines, bodies and interactions, force on body 0 [N]).
 py::tuple readContainers(Scene& scene)
 {
 	scene.forces.sync();
-	return py::make_tuple(scene.engines.size(), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
+	return py::make_tuple(
+	        scene.engines.size(), scene.bodies->size(), scene.interactions->size(), scene.forces.getForce(0));
 }
 
 /// Number of a collider's functors for bounding boxes.
@@ -95,7 +119,8 @@ size_t countBoundFunctors(const Collider& collider) { return collider.boundDispa
 /// Numbers of an InteractionLoop's Ig2, Ip2 and Law2 functors.
 py::tuple countContactFunctors(const InteractionLoop& loop)
 {
-	return py::make_tuple(loop.geomDispatcher->functors.size(), loop.physDispatcher->functors.size(), loop.lawDispatcher->functors.size());
+	return py::make_tuple(loop.geomDispatcher->functors.size(), loop.physDispatcher->functors.size(),
+	        loop.lawDispatcher->functors.size());
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The Python module _yade_timber. Loading it defines functions only; host.py calls register_classes() once the layout is verified.
+// The Python module _yade_timber. Loading it defines functions only; host.py calls register_classes() once the layout
+// is verified.
 #include <pch.hpp>
 
 #include <ContactPhysics.hpp>
@@ -16,7 +17,8 @@
 namespace {
 
 /// Registers this module's classes, and only them, with YADE; they appear in yade.wrapper. Returns their names.
-/// Omega::loadPlugins() registers every name in ClassFactory's list, so names that YADE knows already are removed meanwhile.
+/// Omega::loadPlugins() registers every name in ClassFactory's list, so names that YADE knows already are removed
+/// meanwhile.
 boost::python::list registerClasses()
 {
 	auto& names = yade::ClassFactory::instance().pluginClasses;
@@ -43,8 +45,8 @@ void awaitStep(long before)
 	PyEval_RestoreThread(released);
 }
 
-/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes the steps, nor
-/// before the run's thread has started (awaitStep): YADE would free what the thread is about to use.
+/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes
+/// the steps, nor before the run's thread has started (awaitStep): YADE would free what the thread is about to use.
 void finishStep()
 {
 	yade::Omega& omega = yade::Omega::instance();
@@ -54,7 +56,8 @@ void finishStep()
 	PyEval_RestoreThread(released);
 }
 
-/// Checks a body of the scene whose shape, material or state was replaced. Collider and HealthCheck then check the whole scene.
+/// Checks a body of the scene whose shape, material or state was replaced. Collider and HealthCheck then check the
+/// whole scene.
 void checkReplacedPart(const yade::Body& body)
 {
 	yade::checkBody(body);
@@ -63,7 +66,8 @@ void checkReplacedPart(const yade::Body& body)
 
 void setThreadCount(int count)
 {
-	if (count < 1) throw std::invalid_argument("set_thread_count: count = " + std::to_string(count) + ": it must be >= 1");
+	if (count < 1)
+		throw std::invalid_argument("set_thread_count: count = " + std::to_string(count) + ": it must be >= 1");
 	timber::setThreadCount(count);
 }
 
@@ -81,7 +85,8 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
-	boost::python::def("advance_scenes", &yade::advanceScenes, (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
+	boost::python::def("advance_scenes", &yade::advanceScenes,
+	        (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
 	boost::python::def("contact_laws", &yade::pyContactLaws);
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));

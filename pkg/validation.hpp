@@ -13,8 +13,17 @@ template <class T> void require(bool condition, const char* attribute, const T& 
 	message << attribute << " = " << value << ": it must be " << range;
 	throw std::invalid_argument(message.str());
 }
-inline void requirePositive(const char* attribute, Real value) { require(value > 0 && std::isfinite(value), attribute, value, "finite and > 0"); }
-inline void requireNonNegative(const char* attribute, Real value) { require(value >= 0 && std::isfinite(value), attribute, value, "finite and >= 0"); }
-inline void requireFinite(const char* attribute, Real value) { require(std::isfinite(value), attribute, value, "finite"); }
+inline void requirePositive(const char* attribute, Real value)
+{
+	require(value > 0 && std::isfinite(value), attribute, value, "finite and > 0");
+}
+inline void requireNonNegative(const char* attribute, Real value)
+{
+	require(value >= 0 && std::isfinite(value), attribute, value, "finite and >= 0");
+}
+inline void requireFinite(const char* attribute, Real value)
+{
+	require(std::isfinite(value), attribute, value, "finite");
+}
 
 } // namespace yade

@@ -4,8 +4,8 @@
 
     research/paper_table.py [--out results] [--jobs 2] [--record PREFIX | --seed N] [--scale X] [--dt S] [--duration S]
 
-A run is kept if its folder holds a summary.json made from the same options, files and package; otherwise it is done. Writes claims.md,
-claims.csv, claims.json and runs.csv. Needs no YADE itself.
+A run is kept if its folder holds a summary.json made from the same options, files and package; otherwise it is done.
+Writes claims.md, claims.csv, claims.json and runs.csv. Needs no YADE itself.
 """
 from timber_research import SCRIPTS, report
 from timber_research.claims import RUNS, judge, parse_run
@@ -21,7 +21,11 @@ def main():
     options = parser.parse_args()
     given = run_options(options)
     tasks = [Task(run, options.out / run, run_of(run, *parse_run(run), given)) for run in RUNS]
-    summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items() if summary is not None}
+    summaries = {
+        task.script: summary
+        for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items()
+        if summary is not None
+    }
     results = judge(summaries)
     print(report.markdown(results, summaries))
     for path in report.write(options.out, results, summaries):

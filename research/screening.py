@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Screening of the choices that the paper leaves open: 32 sets of houses, each under several motions.
 
-    research/screening.py [-j 2] [--out results/screening] [--seeds 3,0,1,2] [--record PREFIX] [--cells 0-15] [--collect]
+    research/screening.py [-j 2] [--out results/screening] [--seeds 3,0,1,2] [--record PREFIX] [--cells 0-15]
+    [--collect]
 
-A two-level fractional factorial of resolution IV varies twelve choices (timber_research/factors.py) at once. Each cell has eleven runs
-under each motion, and three with snow alone; runs end at a collapse. Cells are run one after the other; the first 16 are a design of
-resolution III. Writes screening.csv (cells), effects.csv, screening.md and screening.png. It can be stopped; the same command continues.
+A two-level fractional factorial of resolution IV varies twelve choices (timber_research/factors.py) at once. Each cell
+has eleven runs under each motion, and three with snow alone; runs end at a collapse. Cells are run one after the other;
+the first 16 are a design of resolution III. Writes screening.csv (cells), effects.csv, screening.md and screening.png.
+It can be stopped; the same command continues.
 """
 import argparse
 
@@ -15,17 +17,35 @@ from timber_research.screening import cells, picture, report
 from timber_research.screening.collect import collect
 from yade_timber.study.batch import read_table, run_rows, write_runs
 from yade_timber.study.batch.tasks import task_of
-from yade_timber.study.options import Parser, add_driver_options, list_of, non_negative, positive, record, run_script, seed
+from yade_timber.study.options import (
+    Parser, add_driver_options, list_of, non_negative, positive, record, run_script, seed,
+)
 
 
 def arguments():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/screening")
-    parser.add_argument("--seeds", type=list_of(seed), default=[3, 0, 1, 2], metavar="N,N", help="synthetic motions (default 3,0,1,2)")
-    parser.add_argument("--record", type=record, action="append", default=[], metavar="FILE_OR_PREFIX",
-                        help=f"a recorded motion besides, {cells.LENGTH:g} s from {cells.LEAD:g} s before its strong shaking; may be repeated")
-    parser.add_argument("--start", type=non_negative, default=15.0, metavar="S", help="start of the part of synthetic motions [s] (default %(default)g)")
-    parser.add_argument("--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)")
+    parser.add_argument(
+        "--seeds", type=list_of(seed), default=[3, 0, 1, 2], metavar="N,N", help="synthetic motions (default 3,0,1,2)"
+    )
+    parser.add_argument(
+        "--record",
+        type=record,
+        action="append",
+        default=[],
+        metavar="FILE_OR_PREFIX",
+        help=(
+            f"a recorded motion besides, {cells.LENGTH:g} s from {cells.LEAD:g} s before its strong shaking; may be"
+            " repeated"
+        ),
+    )
+    parser.add_argument(
+        "--start", type=non_negative, default=15.0, metavar="S",
+        help="start of the part of synthetic motions [s] (default %(default)g)",
+    )
+    parser.add_argument(
+        "--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)"
+    )
     parser.add_argument("--dt", type=positive, default=4e-4, metavar="S", help="time step [s] (default %(default)g)")
     parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9",
                         help=f"cells to run (default 0-{design.RUNS - 1}); all that are done are analysed")
@@ -47,7 +67,9 @@ def numbers(text):
 
 def main():
     options = arguments()
-    motions = [cells.synthetic(n, options.start, options.end) for n in options.seeds] + [cells.recorded(one) for one in options.record]
+    motions = [cells.synthetic(n, options.start, options.end) for n in options.seeds] + [
+        cells.recorded(one) for one in options.record
+    ]
     planned = cells.plan(motions, options.dt)
     rows = read_table(cells.write_inputs(planned, options.out))
     chosen = [entry.cell in options.cells for entry in planned]

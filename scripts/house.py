@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Any house: yade -n -x scripts/house.py my_house.yaml [--quake | --record FILE_OR_PREFIX] [--snow METRES]; all options: -h.
+# Any house: yade -n -x scripts/house.py my_house.yaml [--quake | --record FILE_OR_PREFIX] [--snow METRES]; all options:
+# -h.
 import sys
 
 if "yade.wrapper" not in sys.modules:

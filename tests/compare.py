@@ -6,8 +6,8 @@ import numpy as np
 def assert_close(value, reference, rtol=0.0, atol=0.0):
     """Fail unless shapes agree and |value - reference| <= atol + rtol |reference| for all elements; fails on NaN.
 
-    value, reference: numbers or arrays of any one shape, same unit; rtol [-]; atol in that unit. Raises AssertionError with the
-    largest difference and all values.
+    value, reference: numbers or arrays of any one shape, same unit; rtol [-]; atol in that unit. Raises AssertionError
+    with the largest difference and all values.
     """
     value, reference = np.asarray(value, dtype=float), np.asarray(reference, dtype=float)
     assert value.shape == reference.shape, f"shape {value.shape} instead of {reference.shape}"

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damaged house files, records and motion options for hypothesis, and the check that each is used or refused in one line."""
+"""Damaged house files, records and motion options for hypothesis, and the check that each is used or refused in one
+line.
+"""
 
 import argparse
 import copy
@@ -57,7 +59,7 @@ HOSTILE = [
     "null", "true", "[]", "{}", "[[]]", "[" * 200, "{a: " * 200, "&a [*a, *a]", "*a", "!!int x", "!!float x", "!!bool x", "!!timestamp x", "!!binary x", "!!set {a}",
     "!!python/object:os.system x", '"\\0"', '"\\e[31m"', '"\\ud800"', '"\\UFFFFFFFF"', "\0", "\x1b", "\u2028", "\ufeff", "<<: {a: b}", "%YAML 9.9", "---", "...", "? a",
     "2020-13-45", "x" * 2000, "a/" * 3000, "../" * 50, "A $\\frac{$ B", "\t", "|", ">", "'", '"', "#", ": ", "- ", "1_000", "=", "<", "@", "`", "%",
-]  # fmt: skip
+]
 hostile = st.sampled_from(HOSTILE) | st.floats().map(repr) | st.integers().map(str) | st.text(max_size=20)
 
 
@@ -68,7 +70,7 @@ def record_texts():
     knet = ["Origin Time       2004/10/23 17:56:00", "Lat.              37.3", "Long.             138.9", "Depth. (km)       13", "Mag.              6.8",
             "Station Code      TST001", "Station Lat.      37.3", "Station Long.     138.8", "Station Height(m) 56", "Record Time       2004/10/23 17:56:20",
             "Sampling Freq(Hz) 100Hz", "Duration Time(s)  0.4", "Dir.              N-S", "Scale Factor      2000(gal)/2000000", "Max. Acc. (gal)   100",
-            "Last Correction   2004/10/23 17:56:00", "Memo.             "]  # fmt: skip
+            "Last Correction   2004/10/23 17:56:00", "Memo.             "]
     at2 = ["PEER NGA STRONG MOTION DATABASE RECORD", "Somewhere, 1/1/2000, TST, 090", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=   40, DT=   .0200 SEC,", " ".join(f"{float(v) / 981:.5E}" for v in rows)]
     peknold = ["Data for El Centro 1940 North South Component (Peknold Version)", "40 points at equal spacing of 0.02 sec", "The units are (g)", "", *at2[4:]]
     jma = ["SITE CODE= 1", "LAT.= 35", "LON.= 135", "SAMPLING RATE= 100Hz", "UNIT= gal(cm/s/s)", "INITIAL TIME= 2004 10 23 17 56 00", "NS,EW,UD", *[f"{v},{v},{v}" for v in rows]]
@@ -102,7 +104,7 @@ def _word(text, at):
 
 
 VALUES = st.sampled_from([None, True, [], {}, [[]], "", "x", "timber", "2,73", "x" * 2000, "\x1b", "\ud800", -1, 0, 1, 2, 3, 1e-12, 1e-3, 0.1, 0.5, 5, 50, 1e3, 1e9, 1e308, 10**30, float("inf"), float("nan"),
-                          [0, 1], [0, 1, 2], [2, 0], list(range(300)), [[0, 1]] * 500, [0.1 * i for i in range(20)], [i * 1e-6 for i in range(300)], ["timber", "roofing"], "column", "roof", "north", "hip"]) | st.floats() | st.floats(0, 3) | st.integers(-3, 300)  # fmt: skip
+                          [0, 1], [0, 1, 2], [2, 0], list(range(300)), [[0, 1]] * 500, [0.1 * i for i in range(20)], [i * 1e-6 for i in range(300)], ["timber", "roofing"], "column", "roof", "north", "hip"]) | st.floats() | st.floats(0, 3) | st.integers(-3, 300)
 
 
 @st.composite
@@ -157,7 +159,7 @@ record_files = damaged_texts(record_texts()) | st.binary(max_size=200)
 
 _OPTIONS = ("record", "seed", "component", "units", "azimuth", "start", "end", "detrend", "highpass", "pga", "intensity", "scale")
 _option_values = st.sampled_from(["0", "1", "-1", "0.1", "2", "30", "1e-3", "100", "300", "1e5", "1e6", "nan", "inf", "-inf", "1e308", "9" * 30, "9" * 400, "9" * 5000, "", " ", "nonsense", "x" * 5000,
-                                  "a,b", "," * 500, "ns,ew,ud", "gal", "g", "/", "/dev/zero", "/dev/null", "/proc/kmsg", "~nobody-of-that-name/x", "\ud800", "\x1b[31m"])  # fmt: skip
+                                  "a,b", "," * 500, "ns,ew,ud", "gal", "g", "/", "/dev/zero", "/dev/null", "/proc/kmsg", "~nobody-of-that-name/x", "\ud800", "\x1b[31m"])
 
 
 def _command_line(pairs):
@@ -191,7 +193,9 @@ def use_record(folder, content, name="record.txt"):
 
 
 def use_options(folder, words):
-    """Make the motion of a command line; None or the message of refusal. Seeds are only checked: a synthetic motion takes a second."""
+    """Make the motion of a command line; None or the message of refusal. Seeds are only checked: a synthetic motion
+    takes a second.
+    """
     parser = _Parser(add_help=False)
     add_motion_options(parser)
     record = folder / "small.csv"
@@ -207,7 +211,9 @@ def use_options(folder, words):
 
 
 def _refusal(use):
-    """Message of the refusal, None without one; AssertionError for a message of several lines, more than SECONDS or MEMORY."""
+    """Message of the refusal, None without one; AssertionError for a message of several lines, more than SECONDS or
+    MEMORY.
+    """
     message = None
 
     def stop(_signal, _frame):

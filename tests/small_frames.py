@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames of an invented run of three seconds: two boxes and the ground, three joints; the upper box slides to the east and tips."""
+"""Recorded frames of an invented run of three seconds: two boxes and the ground, three joints; the upper box slides to
+the east and tips.
+"""
 import numpy as np
 from yade_timber.recording.frames import Contacts, Elements, Frames, Joints, Motion
 from yade_timber.recording.history import History

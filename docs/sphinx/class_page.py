@@ -6,8 +6,10 @@ MARKUP = re.compile(r":ydefault:`(?P<default>[^`]*)`|:yattrtype:`(?P<type>[^`]*)
 REFERENCE = re.compile(r":yref:`(?:(?P<text>[^<`]+)<(?P<target>[^>`]+)>|(?P<name>[^`]+))`")
 GROUPS = (
     ("Bodies", ("RoundedPolyhedron", "ElementMat", "TimberMat", "SnowMat", "Bo1_RoundedPolyhedron_Aabb")),
-    ("Contacts", ("ManifoldGeom", "ManifoldPhys", "TimberPhys", "SnowPhys", "Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom",
-                  "Ip2_TimberMat_TimberMat_TimberPhys", "Ip2_ElementMat_ElementMat_SnowPhys", "Law2_ManifoldGeom_TimberPhys_Hertz",
+    ("Contacts", ("ManifoldGeom", "ManifoldPhys", "TimberPhys", "SnowPhys",
+                  "Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom",
+                  "Ip2_TimberMat_TimberMat_TimberPhys", "Ip2_ElementMat_ElementMat_SnowPhys",
+                  "Law2_ManifoldGeom_TimberPhys_Hertz",
                   "Law2_ManifoldGeom_SnowPhys_Linear")),
     ("Joints", ("TimberJoint", "JointBreak", "JointEngine")),
 )

@@ -10,34 +10,37 @@ namespace timber {
 /// Rounding radius as a fraction of the shortest edge (paper, section 2.2). [-]
 constexpr double radiusShare = 0.10;
 
-/// Maximum number of vertices of a polyhedron. [-] The search for the axis of least overlap takes a time that grows with the third power of
-/// this number: a step of a pair with overlapping cores takes 0.02 ms with 12 vertices, 0.8 ms with 64 and 10 ms with 128. A prism of 32 sides
-/// is admissible. Larger: slow steps, and shapes take seconds to construct; smaller: fewer admissible shapes.
+/// Maximum number of vertices of a polyhedron. [-] The search for the axis of least overlap takes a time that grows
+/// with the third power of this number: a step of a pair with overlapping cores takes 0.02 ms with 12 vertices, 0.8 ms
+/// with 64 and 10 ms with 128. A prism of 32 sides is admissible. Larger: slow steps, and shapes take seconds to
+/// construct; smaller: fewer admissible shapes.
 constexpr std::size_t maxVertices = 64;
 constexpr std::size_t maxFaces = 2 * maxVertices - 4; ///< of a polyhedron with maxVertices (Euler's formula) [-]
 
-/// Admissible extent of a polyhedron. [m] Within these bounds the squared product of three lengths neither overflows nor underflows.
+/// Admissible extent of a polyhedron. [m] Within these bounds the squared product of three lengths neither overflows
+/// nor underflows.
 constexpr double smallestSize = 1e-6, largestSize = 1e6;
 
 /// Points closer to a plane than this fraction of the polyhedron's size lie in the plane. [-]
 /// Larger: nearly flat corners are lost; smaller: vertices in single precision no longer give planar faces.
 constexpr double planarShare = 1e-6;
 
-/// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. It is used only if the faces do not close with a
-/// smaller value. [-]
-/// Larger: more warped input is accepted and the core deviates more from it; smaller: it is refused.
+/// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. It is used only if the
+/// faces do not close with a smaller value. [-] Larger: more warped input is accepted and the core deviates more from
+/// it; smaller: it is refused.
 constexpr double warpShare = 1e-3;
 
-/// Corners closer to their face's plane than this fraction of the polyhedron's size are in it but for rounding. [-] Mass properties of bodies with
-/// other faces are those of the convex hull.
-/// Larger: mass properties of warped faces depend on their diagonals; smaller: those of rotated boxes change in their last digits.
+/// Corners closer to their face's plane than this fraction of the polyhedron's size are in it but for rounding. [-]
+/// Mass properties of bodies with other faces are those of the convex hull. Larger: mass properties of warped faces
+/// depend on their diagonals; smaller: those of rotated boxes change in their last digits.
 constexpr double roundingShare = 1e-11;
 
 // --- contact points ---
 
-/// Two positions closer than this coincide: a vertex above the border of a face, a crossing at the end of an edge, two vertices. [m]
-/// It is below any construction tolerance and far above rounding errors, so that flush contacts do not depend on rounding.
-/// Larger: a member slides farther beyond a border before it loses the support of a face; smaller: rounding decides about flush contacts.
+/// Two positions closer than this coincide: a vertex above the border of a face, a crossing at the end of an edge, two
+/// vertices. [m] It is below any construction tolerance and far above rounding errors, so that flush contacts do not
+/// depend on rounding. Larger: a member slides farther beyond a border before it loses the support of a face; smaller:
+/// rounding decides about flush contacts.
 constexpr double flushTolerance = 1e-4;
 
 /// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this. [-]
@@ -45,35 +48,37 @@ constexpr double flushTolerance = 1e-4;
 constexpr double parallelSine = 5e-3;
 
 /// Overlapping cores: minimum cosine between the normal of a contact point and the axis of least overlap. [-]
-/// Larger: fewer points, or the single point of the cores instead; smaller: points with normals across the axis, which rounding decides.
+/// Larger: fewer points, or the single point of the cores instead; smaller: points with normals across the axis, which
+/// rounding decides.
 constexpr double deepNormalCosine = 0.5;
 
 // --- cache of candidate features; none of these values changes a result ---
 
-/// Skin of the candidate search, as in Verlet lists: the candidates stay valid while the pair moves by less than this. [m]
-/// Larger: fewer searches, more candidates in each step.
+/// Skin of the candidate search, as in Verlet lists: the candidates stay valid while the pair moves by less than this.
+/// [m] Larger: fewer searches, more candidates in each step.
 constexpr double candidateSkin = 8e-3;
 
 /// Skin for pairs at rest: those whose displacement changed by less than half of it in restInterval updates. [m]
-/// Larger: more candidates in each step; smaller: more searches. A search pays off within about 20 updates, or 40 with the one that follows
-/// when the pair moves again.
+/// Larger: more candidates in each step; smaller: more searches. A search pays off within about 20 updates, or 40 with
+/// the one that follows when the pair moves again.
 constexpr double restSkin = candidateSkin / 40;
 constexpr int restInterval = 100; ///< [updates]
-static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance, "the skin must cover the distance of a flush support from a corner");
+static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance,
+        "the skin must cover the distance of a flush support from a corner");
 
-/// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs about five updates, and
-/// many such pairs have none (vertex-edge contacts, which are off by default).
-/// Larger: separated pairs are recognised later; smaller: more tests.
+/// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs
+/// about five updates, and many such pairs have none (vertex-edge contacts, which are off by default). Larger:
+/// separated pairs are recognised later; smaller: more tests.
 constexpr int axisInterval = 24;
 
-/// Candidates: the crossing of two edges is extrapolated to first order in the motion if the sine of their angle exceeds this; otherwise
-/// the distance of the edges decides alone. [-]
-/// Larger: more candidates; smaller: the shift of a crossing exceeds the first-order bound.
+/// Candidates: the crossing of two edges is extrapolated to first order in the motion if the sine of their angle
+/// exceeds this; otherwise the distance of the edges decides alone. [-] Larger: more candidates; smaller: the shift of
+/// a crossing exceeds the first-order bound.
 constexpr double crossingSine = 0.2;
 
-/// Minimum radius of the region in which the motion of a pair is bounded, in skins. [-] It limits the rotation between two searches to
-/// its inverse, 0.04 rad.
-/// Larger: a search after smaller rotations; smaller: the small-angle bounds of the search no longer hold.
+/// Minimum radius of the region in which the motion of a pair is bounded, in skins. [-] It limits the rotation between
+/// two searches to its inverse, 0.04 rad. Larger: a search after smaller rotations; smaller: the small-angle bounds of
+/// the search no longer hold.
 constexpr double minRegionSkins = 25;
 
 /// Largest overlap with which bodies may be placed. [m] Loaded members of a house overlap by less than 0.1 mm.
@@ -83,51 +88,56 @@ constexpr double largestPlacedOverlap = 5e-4;
 // --- contact solver ---
 
 /// Convergence threshold of the first sweep of a step, as a share of the tolerance of the later sweeps. [-]
-/// 1: the error of the warm start does not decay, and stiff loaded members (braces under snow, the foot of a stack, at steps of 2.5e-4 s)
-/// jitter; 1e-4: the jitter is smaller by that factor (1e-8 of a stack's weight); 0: a second sweep even where all is at rest.
+/// 1: the error of the warm start does not decay, and stiff loaded members (braces under snow, the foot of a stack, at
+/// steps of 2.5e-4 s) jitter; 1e-4: the jitter is smaller by that factor (1e-8 of a stack's weight); 0: a second sweep
+/// even where all is at rest.
 constexpr double firstSweepShare = 1e-8;
 
-/// Smallest convergence threshold of the sweeps after the first one, as the tolerance. [-] An island at rest is solved to its own residual
-/// changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3 rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps
-/// at rest, and no less motion.
+/// Smallest convergence threshold of the sweeps after the first one, as the tolerance. [-] An island at rest is solved
+/// to its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3
+/// rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
 constexpr double restTolerance = 1e-6;
 
-/// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all impulses are zero after the first
-/// sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger: error of the impulses of soft contacts.
+/// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all
+/// impulses are zero after the first sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger:
+/// error of the impulses of soft contacts.
 constexpr double roundingTolerance = 1e-8;
 
-/// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-] Where a warm start of 1 N s ends as
-/// 1e-4 N s, the threshold of the first sweep is larger than the impulses. 1: sweeps for the last per cent; 0: light members that are struck gain energy.
+/// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-]
+/// Where a warm start of 1 N s ends as 1e-4 N s, the threshold of the first sweep is larger than the impulses. 1:
+/// sweeps for the last per cent; 0: light members that are struck gain energy.
 constexpr double thresholdDrop = 0.25;
 
-/// Duration of the longest impact whose velocity of separation is bounded, in steps. [-] Longer ones are resolved by the steps: the restitution is
-/// right to 10 % at 20 steps for a critical dashpot.
-/// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.
+/// Duration of the longest impact whose velocity of separation is bounded, in steps. [-] Longer ones are resolved by
+/// the steps: the restitution is right to 10 % at 20 steps for a critical dashpot. Larger: points of a face that touch
+/// together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.
 constexpr double impactSteps = 20;
 
-/// Time for which the separation after a touch is bounded, in durations of the undamped impact. [-] Damped impacts that act alone take at most one.
-/// Larger: the velocity at which contacts with other loads separate is bounded for longer; smaller: impacts end without their restitution.
+/// Time for which the separation after a touch is bounded, in durations of the undamped impact. [-] Damped impacts that
+/// act alone take at most one. Larger: the velocity at which contacts with other loads separate is bounded for longer;
+/// smaller: impacts end without their restitution.
 constexpr double impactDurations = 1.5;
 
-/// Velocity by which other contacts and forces press the surfaces together within the duration of an impact, or a step if that is longer, over the touch
-/// speed, from which on the contact counts as loaded. [-] Larger: more bounds, which contradict each other where members are wedged, and twice the
-/// sweeps; smaller: impacts of loaded members are left to the step's scheme.
+/// Velocity by which other contacts and forces press the surfaces together within the duration of an impact, or a step
+/// if that is longer, over the touch speed, from which on the contact counts as loaded. [-] Larger: more bounds, which
+/// contradict each other where members are wedged, and twice the sweeps; smaller: impacts of loaded members are left to
+/// the step's scheme.
 constexpr double impactLoadShare = 1;
 
-/// Softness s of the bound of an impact. [-] Points of an edge have nearly the same equation and bounds that differ by some per cent.
-/// Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single point; 0: their impulses move from one point to
-/// another by 1e-4 a sweep.
+/// Softness s of the bound of an impact. [-] Points of an edge have nearly the same equation and bounds that differ by
+/// some per cent. Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single
+/// point; 0: their impulses move from one point to another by 1e-4 a sweep.
 constexpr double reboundSoftness = 0.02;
 
-/// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff joints and contacts converge
-/// slowly; smaller: longer sweeps.
+/// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff
+/// joints and contacts converge slowly; smaller: longer sweeps.
 constexpr int jointInterval = 4;
 
 /// Rounding error of Coulomb's limit. [-] A point within it slides: its work is friction's.
 constexpr double slidingRounding = 1e-9;
 
-/// Most iterations of Newton's method for the hardening of a contact in a visit of its point [-], and the relative change of the impulse that ends them [-].
-/// Two or three suffice but for overlaps that grow a thousandfold.
+/// Most iterations of Newton's method for the hardening of a contact in a visit of its point [-], and the relative
+/// change of the impulse that ends them [-]. Two or three suffice but for overlaps that grow a thousandfold.
 constexpr int hardeningSteps = 40;
 constexpr double hardeningTolerance = 1e-6;
 
@@ -135,22 +145,23 @@ constexpr double hardeningTolerance = 1e-6;
 /// Larger: contacts that close fast gain energy; smaller: more computation.
 constexpr double hardeningShare = 0.1;
 
-/// Overlap that may be due to rounding. [m] Contacts below it do not harden within a step: flush bodies would move differently with an overlap of
-/// zero and of 1e-16 m.
+/// Overlap that may be due to rounding. [m] Contacts below it do not harden within a step: flush bodies would move
+/// differently with an overlap of zero and of 1e-16 m.
 constexpr double roundingOverlap = 1e-9;
 
-/// Product of the step and a joint's highest frequency above which its springs get Newmark's term. [-] Explicit springs are stable below 2,
-/// several joints of a member together below less.
-/// Larger: stiff joints of a member limit the step; smaller: more joints take part in the sweeps.
+/// Product of the step and a joint's highest frequency above which its springs get Newmark's term. [-] Explicit springs
+/// are stable below 2, several joints of a member together below less. Larger: stiff joints of a member limit the step;
+/// smaller: more joints take part in the sweeps.
 constexpr double stiffPhase = 1;
 
-/// Convergence threshold of the impulses of stiff joints, as a share of the tolerance of the sweeps. [-] Their errors change elastic forces by
-/// (h omega)^2 times as much.
-/// Larger: joints with h omega above 10 gain energy; smaller: more sweeps.
+/// Convergence threshold of the impulses of stiff joints, as a share of the tolerance of the sweeps. [-] Their errors
+/// change elastic forces by (h omega)^2 times as much. Larger: joints with h omega above 10 gain energy; smaller: more
+/// sweeps.
 constexpr double stiffJointShare = 1e-3;
 
-/// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The modes vary only with it.
-/// Larger: slower convergence in a collapse, and a damping ratio of an earlier placement; smaller: longer steps, 2 us for each computation.
+/// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
+/// modes vary only with it. Larger: slower convergence in a collapse, and a damping ratio of an earlier placement;
+/// smaller: longer steps, 2 us for each computation.
 constexpr double modeAngle = 0.05;
 
 } // namespace timber

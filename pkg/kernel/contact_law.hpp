@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Contact laws at one contact point (paper, sections 2.3 and 3.1): elastic forces, dashpot constants, sliding of the tangential spring.
-/// contact_solver.hpp applies the dashpots and Coulomb's limit of the total force.
-/// Adapters: Law2_ManifoldGeom_TimberPhys_Hertz, Law2_ManifoldGeom_SnowPhys_Linear (pkg/ContactPhysics.hpp), by elasticPair().
-/// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and pushes the bodies
-/// apart. Joints have the opposite convention (joint_law.hpp).
+/// Contact laws at one contact point (paper, sections 2.3 and 3.1): elastic forces, dashpot constants, sliding of the
+/// tangential spring. contact_solver.hpp applies the dashpots and Coulomb's limit of the total force. Adapters:
+/// Law2_ManifoldGeom_TimberPhys_Hertz, Law2_ManifoldGeom_SnowPhys_Linear (pkg/ContactPhysics.hpp), by elasticPair().
+/// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and
+/// pushes the bodies apart. Joints have the opposite convention (joint_law.hpp).
 #pragma once
 #include "contact_step.hpp"
 #include "preconditions.hpp"
@@ -26,18 +26,27 @@ inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 /// Radius of the sphere of the same volume (section 3.1). volume [m3]; returns [m].
 inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4 * M_PI)); }
 
-// A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy) [m], and the exponent
-// `power`, q, of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
+// A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy)
+// [m], and the exponent `power`, q, of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
 
 /// Timber on timber: Hertz (Eqs. 37-39). overlap n [m].
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
 	static constexpr double power = 1.5; ///< q [-]
-	template <class Number> Number force(Number n) const { return Number(4. / 3 * modulus) * sqrt(Number(radius) * n) * n; } ///< [N] (Eq. 37)
-	template <class Number> Number stiffness(Number n) const { return Number(2 * modulus) * sqrt(Number(radius) * n); } ///< [N/m] (Eq. 39)
+	template <class Number> Number force(Number n) const
+	{
+		return Number(4. / 3 * modulus) * sqrt(Number(radius) * n) * n;
+	} ///< [N] (Eq. 37)
+	template <class Number> Number stiffness(Number n) const
+	{
+		return Number(2 * modulus) * sqrt(Number(radius) * n);
+	} ///< [N/m] (Eq. 39)
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
-	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); } ///< inverse of energy() [m]
+	double overlapOf(double energy) const
+	{
+		return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4);
+	} ///< inverse of energy() [m]
 };
 
 /// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].
@@ -65,24 +74,25 @@ template <class Number> [[gnu::always_inline]] inline Number normalDamping(const
 {
 	return Number(2 * pair.dampingRatio) * sqrt(Number(pair.mass) * stiffness);
 }
-template <class Number> [[gnu::always_inline]] inline Number shearDamping(const PairProperties& pair, Number normalDamping)
+template <class Number>
+[[gnu::always_inline]] inline Number shearDamping(const PairProperties& pair, Number normalDamping)
 {
 	return normalDamping * Number(std::sqrt(pair.shearRatio));
 }
 
-/// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic energy can
-/// compress. A stiff contact stops a fast light member within the step.
-/// mass: equivalent [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
+/// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic
+/// energy can compress. A stiff contact stops a fast light member within the step. mass: equivalent [kg], speed: of
+/// closing, >= 0 [m/s], h: step [s]; returns [m].
 template <class Law> double approachOverlap(const Law& law, double mass, double speed, double h)
 {
 	assert(mass > 0 && speed >= 0 && h > 0);
 	return std::min(speed * h, law.overlapOf(mass / 2 * speed * speed));
 }
 
-/// Effective overlap of a new point: explained by its approach in the last step, or paid for by the energy released with other points of
-/// the pair in that step (a vertex that slides over a border transfers its load to the crossing edges). Patterns that the paper ignores
-/// (vertex on edge) let a vertex penetrate before a face detects it; the full force at once would create energy.
-/// overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
+/// Effective overlap of a new point: explained by its approach in the last step, or paid for by the energy released
+/// with other points of the pair in that step (a vertex that slides over a border transfers its load to the crossing
+/// edges). Patterns that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the full
+/// force at once would create energy. overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
 template <class Law> double initialOverlap(const Law& law, double overlap, double approach, double energy)
 {
 	assert(overlap > 0 && approach >= 0 && std::isfinite(energy));
@@ -93,13 +103,15 @@ template <class Law> double initialOverlap(const Law& law, double overlap, doubl
 template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number stiffness)
 {
 	return selectLazily(
-	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); }, [] { return Number(0.); });
+	        stiffness > Number(0.), [&] { return Number(force.squaredNorm() / (Number(2.) * stiffness)); },
+	        [] { return Number(0.); });
 }
 
-/// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the plane normal to n.
-/// The magnitude is preserved.
+/// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the
+/// plane normal to n. The magnitude is preserved.
 template <class Number>
-[[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
+[[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(
+        const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)
 {
 	assert(isFinite(rotation));
 	const Number square = shear.squaredNorm(), none = 0.;
@@ -119,22 +131,26 @@ enum class NormalForm { Closed, Increment };
 /// energy. It slides in storeForces(), once the total normal force is known.
 /// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
-[[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point, const RelativeMotion<Number>& motion, double h,
-        NormalForm form, PointSprings<Number>& springs)
+[[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point,
+        const RelativeMotion<Number>& motion, double h, NormalForm form, PointSprings<Number>& springs)
 {
 	assert(h > 0 && pair.shearRatio > 0 && pair.overlapLimit >= 0);
 	const Number none = 0., limit = pair.overlapLimit;
 	springs.excess = min(springs.excess, point.overlap);
-	const Number before = springs.overlap, stiffnessBefore = springs.stiffness, total = point.overlap - springs.excess;
+	const Number before = springs.overlap, stiffnessBefore = springs.stiffness,
+	             total = point.overlap - springs.excess;
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) springs.normalForce = law.force(springs.overlap);
-	else springs.normalForce = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
+	else
+		springs.normalForce
+		        = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);
 	springs.shearForce *= selectLazily(
-	        springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); }, [] { return Number(1.); });
+	        springs.stiffness < stiffnessBefore, [&] { return Number(springs.stiffness / stiffnessBefore); },
+	        [] { return Number(1.); });
 	const Vec3Of<Number> slip = (motion.velocity - motion.velocity.dot(point.normal) * point.normal) * Number(h);
 	springs.shearForce -= Number(pair.shearRatio) * springs.stiffness * slip;
 }

@@ -9,43 +9,56 @@ namespace {
 	using Points = std::vector<ContactPoint>;
 	using Records = std::vector<PointRecord>;
 
-	/// Relative motion at a contact point x, from the velocities that led to the present placement. They belong to the middle of the last
-	/// step, and so do the lever arms: with the present arms, a pair that rotates as a whole would seem to slide, by h/2 omega^2 per metre
-	/// between the centres.
-	template <class Number> [[gnu::always_inline]] inline RelativeMotion<Number> relativeMotion(const Vec3Of<Number>& x, const ElasticInput& input)
+	/// Relative motion at a contact point x, from the velocities that led to the present placement. They belong to
+	/// the middle of the last step, and so do the lever arms: with the present arms, a pair that rotates as a whole
+	/// would seem to slide, by h/2 omega^2 per metre between the centres.
+	template <class Number>
+	[[gnu::always_inline]] inline RelativeMotion<Number> relativeMotion(
+	        const Vec3Of<Number>& x, const ElasticInput& input)
 	{
 		const auto velocity = [&](const BodyKinematics& body) {
-			const Vec3Of<Number> arm = x - broadcast<Number>(body.position), spin = broadcast<Number>(body.spin);
-			return Vec3Of<Number>(broadcast<Number>(body.velocity) + spin.cross(arm - Number(input.h / 2) * spin.cross(arm)));
+			const Vec3Of<Number> arm = x - broadcast<Number>(body.position),
+			                     spin = broadcast<Number>(body.spin);
+			return Vec3Of<Number>(broadcast<Number>(body.velocity)
+			        + spin.cross(arm - Number(input.h / 2) * spin.cross(arm)));
 		};
 		return { velocity(input.b) - velocity(input.a), (input.a.spin + input.b.spin) / 2 };
 	}
 
 	bool haveSameFeatures(const Points& points, const Records& records)
 	{
-		return std::equal(points.begin(), points.end(), records.begin(), records.end(), [](const auto& p, const auto& r) { return p.id == r.id; });
+		return std::equal(points.begin(), points.end(), records.begin(), records.end(),
+		        [](const auto& p, const auto& r) { return p.id == r.id; });
 	}
 
-	template <class Law> void elasticPoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
+	template <class Law>
+	void elasticPoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
 	{
-		elasticStep<Law, ContactPoint, double>(law, input.pair, point, relativeMotion<double>(point.position, input), input.h, input.form, record);
+		elasticStep<Law, ContactPoint, double>(law, input.pair, point,
+		        relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
-	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of it that the point takes. [J]
-	template <class Law> double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available, PointRecord& record)
+	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of
+	/// it that the point takes. [J]
+	template <class Law>
+	double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available,
+	        PointRecord& record)
 	{
-		const double speed = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal)),
-		             approach = approachOverlap(law, input.pair.mass, speed, input.h);
+		const double speed
+		        = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal)),
+		        approach = approachOverlap(law, input.pair.mass, speed, input.h);
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
-		if (input.form == NormalForm::Increment) record.impact = ImpactState::over(); // its force is no function of the overlap
+		if (input.form == NormalForm::Increment)
+			record.impact = ImpactState::over(); // its force is no function of the overlap
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
 		return record.normalStored;
 	}
 
 	/// First step of a point whose bodies were placed in contact: the spring is loaded, without an impact.
-	template <class Law> void placePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
+	template <class Law>
+	void placePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, PointRecord& record)
 	{
 		elasticPoint(law, input, point, record);
 		record.normalStored = record.energy;
@@ -55,7 +68,9 @@ namespace {
 	using SpringsOf = PointSprings<double>;
 
 	/// Springs before the step; the increment form also needs the normal force.
-	template <class Number> [[gnu::always_inline]] inline PointSprings<Number> loadSprings(const Group<Number, PointRecord>& record, NormalForm form)
+	template <class Number>
+	[[gnu::always_inline]] inline PointSprings<Number> loadSprings(
+	        const Group<Number, PointRecord>& record, NormalForm form)
 	{
 		PointSprings<Number> s;
 		s.excess = record.get(&SpringsOf::excess);
@@ -66,7 +81,9 @@ namespace {
 		return s;
 	}
 
-	template <class Number> [[gnu::always_inline]] inline void saveSprings(const PointSprings<Number>& s, const Group<Number, PointRecord>& record)
+	template <class Number>
+	[[gnu::always_inline]] inline void saveSprings(
+	        const PointSprings<Number>& s, const Group<Number, PointRecord>& record)
 	{
 		record.set(&SpringsOf::excess, s.excess);
 		record.set(&SpringsOf::overlap, s.overlap);
@@ -77,7 +94,8 @@ namespace {
 	}
 
 	/// Elastic step of points whose features are those of the last step.
-	template <class Law> void stepSameFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
+	template <class Law>
+	void stepSameFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		inLanes(points.size(), [&](auto number, size_t k) {
 			using Number = decltype(number);
@@ -88,16 +106,20 @@ namespace {
 			const Group<Number, const ContactPoint> point(&points[k], points.size() - k);
 			const Group<Number, PointRecord> record(&records[k], points.size() - k);
 			PointSprings<Number> springs = loadSprings<Number>(record, input.form);
-			const Placement placement { point.get(&ContactPoint::normal), point.get(&ContactPoint::overlap) };
-			elasticStep<Law, Placement, Number>(
-			        law, input.pair, placement, relativeMotion<Number>(point.get(&ContactPoint::position), input), input.h, input.form, springs);
+			const Placement placement { point.get(&ContactPoint::normal),
+				point.get(&ContactPoint::overlap) };
+			elasticStep<Law, Placement, Number>(law, input.pair, placement,
+			        relativeMotion<Number>(point.get(&ContactPoint::position), input), input.h, input.form,
+			        springs);
 			saveSprings<Number>(springs, record);
 		});
 	}
 
-	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy of the others, which do not act
-	/// any more; 2. step all points. Returns the energy released minus that given to new points. [J]
-	template <class Law> double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
+	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy of
+	/// the others, which do not act any more; 2. step all points. Returns the energy released minus that given to
+	/// new points. [J]
+	template <class Law>
+	double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
 		double released = 0;
@@ -122,8 +144,9 @@ namespace {
 
 	/// Physics of points in a step. record: after the elastic step.
 	template <class Number>
-	[[gnu::always_inline]] inline StepInput<Number> stepInput(const SolverBodies& bodies, const PairProperties& pair, double h,
-	        const Group<Number, const ContactPoint>& point, const Group<Number, const PointRecord>& record)
+	[[gnu::always_inline]] inline StepInput<Number> stepInput(const SolverBodies& bodies,
+	        const PairProperties& pair, double h, const Group<Number, const ContactPoint>& point,
+	        const Group<Number, const PointRecord>& record)
 	{
 		const Vec3Of<Number> position = point.get(&ContactPoint::position);
 		StepInput<Number> p;
@@ -137,7 +160,8 @@ namespace {
 		p.normalDamping = normalDamping<Number>(pair, p.normalStiffness);
 		p.shearDamping = shearDamping<Number>(pair, p.normalDamping);
 		p.friction = pair.friction;
-		p.impulse = Number(h) * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
+		p.impulse = Number(h)
+		        * (p.elasticNormal * p.normal + p.elasticShear + record.get(&PointRecord::dashpotForce));
 		p.energy = max(Number(0.), Number(record.get(&PointRecord::normalStored)));
 		p.shearEnergy = max(Number(0.), Number(record.get(&PointRecord::shearStored)));
 		p.overlap = record.get(&PointRecord::overlap);
@@ -146,19 +170,21 @@ namespace {
 		p.power = pair.power;
 		p.room = max(Number(0.), Number(Number(pair.overlapLimit) - p.overlap));
 		const Number excess = p.normalStiffness * p.overlap - p.elasticNormal;
-		p.hardening = select(p.overlap > Number(roundingOverlap), max(Number(0.), Number(excess * Number(1 / (pair.power - 1)))), Number(0.));
+		p.hardening = select(p.overlap > Number(roundingOverlap),
+		        max(Number(0.), Number(excess * Number(1 / (pair.power - 1)))), Number(0.));
 		return p;
 	}
 
-	/// Impacts of a pair's points: prepare phase. The history says that the surfaces have just touched, or are in an impact.
+	/// Impacts of a pair's points: prepare phase. The history says that the surfaces have just touched, or are in
+	/// an impact.
 	void prepareImpacts(const SolverPair& points, const PairProperties& pair, double h)
 	{
 		for (size_t i = 0; i < points.count; ++i) {
 			PointRecord& r = points.points[i];
 			if (r.overlap == 0) r.impact = {};
 			else if (r.impact.isPending() && r.normalForce > 0 && r.step.before[0] < 0)
-				r.impact = startImpact(
-				        { r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio, pair.mass, r.step.response(), -r.step.before[0], h);
+				r.impact = startImpact({ r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio,
+				        pair.mass, r.step.response(), -r.step.before[0], h);
 			r.step.rebound = r.impact.rebound;
 		}
 	}
@@ -166,8 +192,8 @@ namespace {
 	/// Velocity change of B relative to A at a point that the impulses of the pair's points explain. [m/s]
 	double changeByPair(const PointStep& point, const SolverBodies& bodies, const PairForce& impulse)
 	{
-		const Vec3 vA = -bodies.a.inverseMass * impulse.onB, wA = bodies.a.inverseInertia * impulse.torqueA, vB = bodies.b.inverseMass * impulse.onB,
-		           wB = bodies.b.inverseInertia * impulse.torqueB;
+		const Vec3 vA = -bodies.a.inverseMass * impulse.onB, wA = bodies.a.inverseInertia * impulse.torqueA,
+		           vB = bodies.b.inverseMass * impulse.onB, wB = bodies.b.inverseInertia * impulse.torqueB;
 		return relativeVelocity<double>(point.armA, point.armB, vA, wA, vB, wB).dot(point.axes[0]);
 	}
 
@@ -177,34 +203,41 @@ namespace {
 		for (size_t i = 0; i < points.count; ++i) {
 			PointRecord& r = points.points[i];
 			if (!r.impact.isActive()) continue;
-			const double change = bodies.velocity<double>(r.step.armA, r.step.armB).dot(r.step.axes[0]) - r.step.before[0];
+			const double change = bodies.velocity<double>(r.step.armA, r.step.armB).dot(r.step.axes[0])
+			        - r.step.before[0];
 			r.impact.pass(h, r.step.bounded, changeByPair(r.step, bodies, impulse) - change);
 		}
 	}
 
 	/// Energy of the normal spring after a closing displacement `way` from the placement, F = k n + c n^q. [J]
-	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left until the force is constant [m].
-	template <class Number> [[gnu::always_inline]] inline Number energyAfter(Number U, Number F, Number K, Number n, Number room, Number way, double q)
+	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left
+	/// until the force is constant [m].
+	template <class Number>
+	[[gnu::always_inline]] inline Number energyAfter(
+	        Number U, Number F, Number K, Number n, Number room, Number way, double q)
 	{
 		const Number none = 0., g = min(max(way, Number(-n)), room),
 		             rest = max(none, Number(way - room)); // of the way, with and without change of the force
 		Number change = F * g + K * g * g / Number(2.), force = F + K * g;
 		if (q > 1) {
-			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor, hard = (K * n - F) / Number(q - 1), ratio = g / floor,
+			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor,
+			             hard = (K * n - F) / Number(q - 1), ratio = g / floor,
 			             power = powerOf<Number>(s, q);
 			// c ((n + g)^(q+1) - n^(q+1)) / (q+1), less the linear and square terms of the above
-			change += hard * floor * ((s * power - Number(1.)) / Number(q + 1) - ratio - Number(q / 2) * ratio * ratio);
+			change += hard * floor
+			        * ((s * power - Number(1.)) / Number(q + 1) - ratio - Number(q / 2) * ratio * ratio);
 			force += hard * (power - Number(1.) - Number(q) * ratio);
 		}
 		return select(way > -n, max(none, Number(U + change + rest * force)), none);
 	}
 
-	/// What a spring has after a step, and what was dissipated. The account is negative after a step whose sweeps ended with a small error: the point has
-	/// returned too much, and the next work on it settles the debt.
+	/// What a spring has after a step, and what was dissipated. The account is negative after a step whose sweeps
+	/// ended with a small error: the point has returned too much, and the next work on it settles the debt.
 	template <class Number> struct Account {
 		Number stored, dissipated; ///< [J]
 
-		/// before: account before the step; work: of the impulse on the bodies; law: energy that the spring may have after the step. [J]
+		/// before: account before the step; work: of the impulse on the bodies; law: energy that the spring may
+		/// have after the step. [J]
 		Account(Number before, Number work, Number law)
 		{
 			const Number available = before - work;
@@ -215,21 +248,26 @@ namespace {
 
 	[[maybe_unused]] bool isValid(const ElasticInput& input)
 	{
-		const auto isValidBody = [](const BodyKinematics& body) { return isFinite(body.position) && isFinite(body.velocity) && isFinite(body.spin); };
-		return input.h > 0 && std::isfinite(input.h) && input.pair.mass > 0 && isValidBody(input.a) && isValidBody(input.b) && input.pair.shearRatio > 0
-		        && input.pair.overlapLimit >= 0;
+		const auto isValidBody = [](const BodyKinematics& body) {
+			return isFinite(body.position) && isFinite(body.velocity) && isFinite(body.spin);
+		};
+		return input.h > 0 && std::isfinite(input.h) && input.pair.mass > 0 && isValidBody(input.a)
+		        && isValidBody(input.b) && input.pair.shearRatio > 0 && input.pair.overlapLimit >= 0;
 	}
 	[[maybe_unused]] bool isValid(const Points& points)
 	{
 		const auto isBefore = [](const ContactPoint& p, const ContactPoint& q) { return p.id < q.id; };
-		const auto isValidPoint
-		        = [](const ContactPoint& p) { return isFinite(p.position) && isUnit(p.normal) && p.overlap > 0 && std::isfinite(p.overlap); };
-		return std::is_sorted(points.begin(), points.end(), isBefore) && std::all_of(points.begin(), points.end(), isValidPoint);
+		const auto isValidPoint = [](const ContactPoint& p) {
+			return isFinite(p.position) && isUnit(p.normal) && p.overlap > 0 && std::isfinite(p.overlap);
+		};
+		return std::is_sorted(points.begin(), points.end(), isBefore)
+		        && std::all_of(points.begin(), points.end(), isValidPoint);
 	}
 
 } // namespace
 
-template <class Law> double elasticPair(const Law& law, const ElasticInput& input, const Points& points, Records& records)
+template <class Law>
+double elasticPair(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 {
 	assert(isValid(input) && isValid(points));
 	if (!haveSameFeatures(points, records)) return stepChangedFeatures(law, input, points, records);
@@ -260,7 +298,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 	const SolverBodies bodies = solver.bodiesOf(points);
 	const double h = solver.stepLength();
 	Sums<9> impulses;
-	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal, energies.elasticShear);
+	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
+	        energies.elasticShear);
 	inLanes(points.count, [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
@@ -276,27 +315,36 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		}
 		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
 		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)));
-		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness), n = record.get(&PointRecord::overlap),
-		             limit = Number(pair.friction) * (p[0] / Number(h)), none = 0.;
+		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
+		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
+		             none = 0.;
 		const Vec shear = clipped<Number>(record.get(&PointRecord::shearForce), limit);
 		record.set(&PointRecord::shearForce, shear);
 		record.set(&PointRecord::dashpotForce, Vec(force - e * axes[0] - shear));
 
-		const Vec after = bodies.velocity<Number>(armA, armB), mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
-		const Number separation = after.dot(axes[0]), way = Number(-h / 2) * separation; // closing way to the middle of the step
+		const Vec after = bodies.velocity<Number>(armA, armB),
+		          mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
+		const Number separation = after.dot(axes[0]),
+		             way = Number(-h / 2) * separation; // closing way to the middle of the step
 		const Number room = max(none, Number(Number(pair.overlapLimit) - n)),
-		             normalLaw = energyAfter<Number>(record.get(&PointRecord::energy), e, K, n, room, way, pair.power);
-		const Account<Number> normal(record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
+		             normalLaw
+		        = energyAfter<Number>(record.get(&PointRecord::energy), e, K, n, room, way, pair.power);
+		const Account<Number> normal(
+		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
 
 		const Number shearStiffness = Number(pair.shearRatio) * K;
-		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip; // spring in the middle of the step
-		const auto sliding = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
+		const Vec slip = Number(h / 2) * (after - separation * axes[0]),
+		          ahead = shear - shearStiffness * slip; // spring in the middle of the step
+		const auto sliding
+		        = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
 		const Vec spring = select(sliding, shear, ahead);
-		const Account<Number> tangential(record.get(&PointRecord::shearStored), p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
+		const Account<Number> tangential(record.get(&PointRecord::shearStored),
+		        p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
 		        shearEnergy<Number>(spring, shearStiffness));
 		record.set(&PointRecord::normalStored, normal.stored);
 		record.set(&PointRecord::shearStored, tangential.stored);
-		const Number friction = select(sliding, tangential.dissipated, none), dashpot = tangential.dissipated - friction;
+		const Number friction = select(sliding, tangential.dissipated, none),
+		             dashpot = tangential.dissipated - friction;
 		sums.add<Number>(count, normal.dissipated, dashpot, friction, normal.stored, tangential.stored);
 	});
 	energies = { sums[0], sums[1], sums[2], sums[3], sums[4] };

@@ -4,9 +4,10 @@
 ///     2. prepareContacts(): the points' steps for the solver, warm start included;
 ///     3. storeForces(): forces on the bodies, history and energies from the solver's impulses.
 ///
-/// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v + v') / 2 that the bodies do on the
-/// point with the impulse p of spring and dashpot. What exceeds the energy of the law there has been dissipated. Rule (5) of the solver keeps the
-/// accounts from going below zero but for errors of the sweeps, which later work settles. No dissipation is negative.
+/// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v +
+/// v') / 2 that the bodies do on the point with the impulse p of spring and dashpot. What exceeds the energy of the law
+/// there has been dissipated. Rule (5) of the solver keeps the accounts from going below zero but for errors of the
+/// sweeps, which later work settles. No dissipation is negative.
 #pragma once
 #include "contact_law.hpp"
 #include "contact_solver.hpp"
@@ -19,16 +20,21 @@ struct ElasticInput {
 	BodyKinematics a, b;
 	double h; ///< length of the step [s]
 	NormalForm form = NormalForm::Closed;
-	bool placedInContact = false; ///< the pair is new and its bodies were placed as they are: new points have their whole overlap, not initialOverlap()
+	bool placedInContact = false; ///< the pair is new and its bodies were placed as they are: new points have their
+	                              ///< whole overlap, not initialOverlap()
 };
 
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.
 /// points: sorted by id; records: in-out.
-/// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J] Negative: those points were in debt.
-template <class Law> double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
+/// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J] Negative:
+/// those points were in debt.
+template <class Law>
+double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points,
+        std::vector<PointRecord>& records);
 
 /// Prepares the points of the solver's k-th pair.
-void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points);
+void prepareContacts(
+        ContactSolver& solver, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points);
 
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {

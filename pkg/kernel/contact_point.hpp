@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Record of a contact point from touch to separation. Its geometry is the ContactPoint of the manifold with the same index; its history is
-/// saved with the scene; its step is prepared for the solver, read and changed by the sweeps, and not saved.
+/// Record of a contact point from touch to separation. Its geometry is the ContactPoint of the manifold with the same
+/// index; its history is saved with the scene; its step is prepared for the solver, read and changed by the sweeps, and
+/// not saved.
 #pragma once
 #include "impact.hpp"
 #include "manifold.hpp"
@@ -14,7 +15,8 @@ template <class Number> struct PointSprings {
 	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
 	Number stiffness = 0.; ///< K_n [N/m]
 	Number normalForce = 0.; ///< elastic normal force e_n [N]
-	Number energy = 0.; ///< U(n) of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
+	Number energy = 0.; ///< U(n) of the normal spring; beyond the limit, where the force is constant, it grows
+	                    ///< linearly [J]
 	Vec3Of<Number> shearForce = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
 };
 
@@ -22,7 +24,9 @@ template <class Number> struct PointSprings {
 struct PointHistory : PointSprings<double> {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
-	double normalStored = 0, shearStored = 0; ///< A: work of the bodies on the springs that these have neither returned nor dissipated [J]
+	double normalStored = 0,
+	       shearStored
+	        = 0; ///< A: work of the bodies on the springs that these have neither returned nor dissipated [J]
 	ImpactState impact;
 };
 

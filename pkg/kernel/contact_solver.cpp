@@ -14,10 +14,12 @@ namespace {
 
 	template <class Number> [[maybe_unused]] bool isValid(const StepInput<Number>& p)
 	{
-		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal) && isNonNegative(p.elasticNormal)
-		        && isFinite(p.elasticShear) && isFinite(p.impulse) && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping)
-		        && isNonNegative(p.friction) && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness) && isNonNegative(p.energy)
-		        && isNonNegative(p.shearEnergy) && isNonNegative(p.hardening) && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
+		return isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal) && isFinite(p.elasticNormal)
+		        && isNonNegative(p.elasticNormal) && isFinite(p.elasticShear) && isFinite(p.impulse)
+		        && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping) && isNonNegative(p.friction)
+		        && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness)
+		        && isNonNegative(p.energy) && isNonNegative(p.shearEnergy) && isNonNegative(p.hardening)
+		        && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
 	}
 
 } // namespace
@@ -44,7 +46,9 @@ void ContactSolver::startBody(int k)
 	weighted[k] = {};
 	weighted[k].root = InverseRootMass(body);
 	weighted[k].step = solveCount;
-	if (body.inverseMass > 0) momentum += body.newVelocity.squaredNorm() / body.inverseMass + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
+	if (body.inverseMass > 0)
+		momentum += body.newVelocity.squaredNorm() / body.inverseMass
+		        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
 }
 
 size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t count)
@@ -70,7 +74,8 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 void ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored)
 {
 	assert(k < joints.size());
-	timber::prepareModes(joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, stored);
+	timber::prepareModes(
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, stored);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& given)
@@ -141,7 +146,8 @@ double ContactSolver::sumOfChanges() const
 	return sum;
 }
 
-/// Convergence threshold of SolverPair::squaredChange per point for the present impulses. firstChanges: sumOfChanges() of the first sweep. [J]
+/// Convergence threshold of SolverPair::squaredChange per point for the present impulses. firstChanges: sumOfChanges()
+/// of the first sweep. [J]
 double ContactSolver::squaredThreshold(double tolerance, double firstChanges) const
 {
 	double size = 0;
@@ -150,7 +156,8 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		double squares = 0;
 		for (size_t k = 0; k < pair.count; ++k) {
 			const PointStep& c = pair.points[k].step;
-			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1] + c.impulse[2] * c.impulse[2];
+			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1]
+			        + c.impulse[2] * c.impulse[2];
 		}
 		size += squares * inverseMass(pair);
 		count += pair.count;
@@ -164,7 +171,8 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 	return std::max(bySize, rounding * rounding * momentum) / std::max(1., double(count));
 }
 
-/// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep and in the next one.
+/// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep
+/// and in the next one.
 template <class Connection> bool ContactSolver::activateNeighbours(const Connection& c, double threshold)
 {
 	if (c.squaredChange <= threshold * double(c.count)) return false;
@@ -173,7 +181,8 @@ template <class Connection> bool ContactSolver::activateNeighbours(const Connect
 	return true;
 }
 
-/// Activates the neighbours of all pairs that changed by more than the threshold in their last visits. Returns whether there is one.
+/// Activates the neighbours of all pairs that changed by more than the threshold in their last visits. Returns whether
+/// there is one.
 bool ContactSolver::activateChanged(double threshold)
 {
 	bool changed = false;
@@ -182,8 +191,8 @@ bool ContactSolver::activateChanged(double threshold)
 	return changed;
 }
 
-/// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with those of contacts.
-/// Returns whether another sweep is needed.
+/// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with
+/// those of contacts. Returns whether another sweep is needed.
 bool ContactSolver::sweepOnce(double threshold, bool forwards)
 {
 	bool changed = false;
@@ -221,7 +230,8 @@ double ContactSolver::largestChange() const
 	return largest;
 }
 
-/// Velocity of separation w of an impact whose single point leaves its overlap within the step, or has no force any more.
+/// Velocity of separation w of an impact whose single point leaves its overlap within the step, or has no force any
+/// more.
 void ContactSolver::applyRestitution(const SolverPair& pair)
 {
 	PointStep* alone = nullptr;
@@ -233,7 +243,8 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	}
 	if (!alone || alone->rebound == noRebound) return;
 	PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
-	const double p = alone->impulse[0], un = alone->velocity[0] + velocity.dots(alone->rows)[0], a = alone->response();
+	const double p = alone->impulse[0], un = alone->velocity[0] + velocity.dots(alone->rows)[0],
+	             a = alone->response();
 	const bool separates = un > 0 && (p == 0 || un * h > alone->overlap);
 	if (!separates || un >= alone->rebound) return;
 	const double more = std::min(p + (alone->rebound - un) / a, energyImpulse(*alone, un - a * p)) - p;
@@ -262,7 +273,8 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold);
 		++result.sweeps;
 		if (changed) continue;
-		const double next = squaredThreshold(tolerance, firstChanges); // the impulses of the warm start may have been much larger
+		const double next = squaredThreshold(
+		        tolerance, firstChanges); // the impulses of the warm start may have been much larger
 		if (next < thresholdDrop * threshold) {
 			threshold = next;
 			changed = activateChanged(threshold);
@@ -285,7 +297,8 @@ Convergence ContactSolver::solve(double tolerance)
 	else
 		for (ModalConstraint& joint : joints)
 			applyExplicitModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
-	if (maxSweeps > 0) std::for_each(pairs.begin(), pairs.end(), [this](const SolverPair& pair) { applyRestitution(pair); });
+	if (maxSweeps > 0)
+		std::for_each(pairs.begin(), pairs.end(), [this](const SolverPair& pair) { applyRestitution(pair); });
 	for (ModalConstraint& joint : joints)
 		finishModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	finishBodies();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Prepare phase of contact points: coefficients of equations (2) to (8) of contact_solver.hpp, whose glossary explains the symbols.
+/// Prepare phase of contact points: coefficients of equations (2) to (8) of contact_solver.hpp, whose glossary explains
+/// the symbols.
 #pragma once
 #include "contact_point.hpp"
 #include "kinematics.hpp"
@@ -31,7 +32,8 @@ struct SolverBodies {
 	const InverseRootMass &rootA, &rootB;
 
 	/// Velocity of B relative to A at a point, before the step, and at present. [m/s]
-	template <class Number> Vec3Of<Number> velocityBefore(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
+	template <class Number>
+	Vec3Of<Number> velocityBefore(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
 	{
 		return relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 	}
@@ -41,19 +43,24 @@ struct SolverBodies {
 	}
 };
 
-/// Prepares a point, or a group of laneCount points of which the first `count` exist, for a step of h [s]. at(i): PointStep of the i-th.
-template <class Number, class At> void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double h, size_t count, At at);
+/// Prepares a point, or a group of laneCount points of which the first `count` exist, for a step of h [s]. at(i):
+/// PointStep of the i-th.
+template <class Number, class At>
+void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double h, size_t count, At at);
 
-/// Impulse of explicit springs and dashpots (Eqs. 17, 18, 21-24). As in the paper, the elastic force alone decides whether a point
-/// slides, and a sliding point has no dashpot. With long steps this rule makes loaded light members chatter between the limits.
-template <class Number> Vec3Of<Number> explicitImpulse(const StepInput<Number>& p, const SolverBodies& bodies, double h);
+/// Impulse of explicit springs and dashpots (Eqs. 17, 18, 21-24). As in the paper, the elastic force alone decides
+/// whether a point slides, and a sliding point has no dashpot. With long steps this rule makes loaded light members
+/// chatter between the limits.
+template <class Number>
+Vec3Of<Number> explicitImpulse(const StepInput<Number>& p, const SolverBodies& bodies, double h);
 
 /// v, shortened to the length if it is longer.
 template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
 {
 	const Number square = v.squaredNorm();
 	return selectLazily(
-	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); }, [&] { return v; });
+	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); },
+	        [&] { return v; });
 }
 
 namespace detail {
@@ -80,14 +87,15 @@ namespace detail {
 	/// A tangent without branches, continuous but at n.z = 0 (Duff et al., J. Comput. Graph. Tech. 6 (2017), 1).
 	template <class Number> Vec3Of<Number> tangentOf(const Vec3Of<Number>& n)
 	{
-		const Number sign = select(n.z() < Number(0.), Number(-1.), Number(1.)), a = Number(-1.) / (sign + n.z());
+		const Number sign = select(n.z() < Number(0.), Number(-1.), Number(1.)),
+		             a = Number(-1.) / (sign + n.z());
 		return { Number(1.) + sign * n.x() * n.x() * a, sign * n.x() * n.y() * a, -sign * n.x() };
 	}
 
 	/// Rows of J R (8) for one body. sign: -1 for A, 1 for B; first: index of the body's first number.
 	template <class Number>
-	[[gnu::always_inline]] inline void setRows(
-	        Number (*rows)[12], const Vec3Of<Number>* axes, const Vec3Of<Number>& arm, const InverseRootMass& root, double sign, int first)
+	[[gnu::always_inline]] inline void setRows(Number (*rows)[12], const Vec3Of<Number>* axes,
+	        const Vec3Of<Number>& arm, const InverseRootMass& root, double sign, int first)
 	{
 		for (int i = 0; i < 3; ++i) {
 			const Vec3Of<Number> linear = Number(sign * root.linear) * axes[i],
@@ -108,7 +116,8 @@ namespace detail {
 	}
 
 	/// Four numbers of each point of a group: quad(i) of the i-th of `count` points.
-	template <class Number, class QuadOf> [[gnu::always_inline]] inline void storeQuads(const Number* x, size_t count, QuadOf quad)
+	template <class Number, class QuadOf>
+	[[gnu::always_inline]] inline void storeQuads(const Number* x, size_t count, QuadOf quad)
 	{
 		if constexpr (std::is_same_v<Number, Lanes> && laneCount == 4) {
 			Number four[4] = { x[0], x[1], x[2], x[3] };
@@ -117,12 +126,14 @@ namespace detail {
 				quad(i) = four[i].v;
 		} else
 			for (size_t i = 0; i < count; ++i)
-				quad(i) = PairVector::Quad { lane(x[0], i), lane(x[1], i), lane(x[2], i), lane(x[3], i) };
+				quad(i) = PairVector::Quad { lane(x[0], i), lane(x[1], i), lane(x[2], i),
+					lane(x[3], i) };
 	}
 
 } // namespace detail
 
-template <class Number, class At> void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double h, size_t count, At at)
+template <class Number, class At>
+void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double h, size_t count, At at)
 {
 	using namespace detail;
 	using Vec = Vec3Of<Number>;
@@ -130,14 +141,19 @@ template <class Number, class At> void prepareSteps(const StepInput<Number>& p, 
 	Number rows[3][12];
 	setRows<Number>(rows, axes, p.armA, bodies.rootA, -1, 0);
 	setRows<Number>(rows, axes, p.armB, bodies.rootB, 1, 6);
-	Number column[4], across[4] { product<Number>(rows, 1, 1), product<Number>(rows, 1, 2), product<Number>(rows, 2, 2), Number(0.) };
+	Number column[4],
+	        across[4] { product<Number>(rows, 1, 1), product<Number>(rows, 1, 2), product<Number>(rows, 2, 2),
+		        Number(0.) };
 	for (int i = 0; i < 3; ++i)
 		column[i] = product<Number>(rows, 0, i);
 	const Number half = (across[0] - across[2]) / Number(2.),
-	             largest = (across[0] + across[2]) / Number(2.) + sqrt(Number(half * half + across[1] * across[1])); // a_s
-	const ImplicitDirection<Number> normal(Number(h) * p.normalDamping, Number(h * h) * p.normalStiffness, column[0]);
+	             largest
+	        = (across[0] + across[2]) / Number(2.) + sqrt(Number(half * half + across[1] * across[1])); // a_s
+	const ImplicitDirection<Number> normal(
+	        Number(h) * p.normalDamping, Number(h * h) * p.normalStiffness, column[0]);
 	const ImplicitDirection<Number> shear(Number(h) * p.shearDamping, Number(h * h) * p.shearStiffness, largest);
-	const Vec velocityBefore = bodies.velocityBefore<Number>(p.armA, p.armB), present = bodies.velocity<Number>(p.armA, p.armB);
+	const Vec velocityBefore = bodies.velocityBefore<Number>(p.armA, p.armB),
+	          present = bodies.velocity<Number>(p.armA, p.armB);
 	Number before[4], velocity[4], impulse[4], factor[4], bias[4], mass[4];
 	for (int i = 0; i < 3; ++i) {
 		const ImplicitDirection<Number>& direction = i == 0 ? normal : shear;
@@ -153,7 +169,8 @@ template <class Number, class At> void prepareSteps(const StepInput<Number>& p, 
 		quad[3] = Number(0.);
 	for (int r = 0; r < 3; ++r)
 		for (int part = 0; part < 3; ++part)
-			storeQuads(rows[r] + 4 * part, count, [&](size_t i) -> PointStep::Quad& { return at(i).rows[r].part[part]; });
+			storeQuads(rows[r] + 4 * part, count,
+			        [&](size_t i) -> PointStep::Quad& { return at(i).rows[r].part[part]; });
 	const auto store = [&](const Number* quad, PointStep::Quad PointStep::*member) {
 		storeQuads(quad, count, [&](size_t i) -> PointStep::Quad& { return at(i).*member; });
 	};
@@ -189,10 +206,12 @@ template <class Number> Vec3Of<Number> explicitImpulse(const StepInput<Number>& 
 {
 	const Vec3Of<Number> v = bodies.velocityBefore<Number>(p.armA, p.armB);
 	const Number vn = v.dot(p.normal);
-	const Number normalForce = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), limit = p.friction * normalForce;
+	const Number normalForce = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)),
+	             limit = p.friction * normalForce;
 	const Vec3Of<Number> dashpotForce = p.shearDamping * (v - vn * p.normal);
 	const Vec3Of<Number> shearForce = selectLazily(
-	        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; }, [&] { return Vec3Of<Number>(p.elasticShear - dashpotForce); });
+	        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; },
+	        [&] { return Vec3Of<Number>(p.elasticShear - dashpotForce); });
 	return Number(h) * (normalForce * p.normal + clipped<Number>(shearForce, limit));
 }
 

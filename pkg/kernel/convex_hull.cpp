@@ -13,8 +13,10 @@
 namespace timber {
 
 // Convex hull of n points, n <= 4 maxVertices:
-//   1. For each pair of points: skip the pair if no supporting plane can contain it (maySupport). This leaves about the edges.
-//   2. For each third point: the plane through the three points is supporting if no point is outside by more than the tolerance. The points
+//   1. For each pair of points: skip the pair if no supporting plane can contain it (maySupport). This leaves about the
+//   edges.
+//   2. For each third point: the plane through the three points is supporting if no point is outside by more than the
+//   tolerance. The points
 //      within the tolerance of the plane are the corners of a face.
 //   3. Sets of corners contained in another set are caused by rounding and are dropped.
 //   4. Sort the corners of each face; find the edges from pairs of faces; check that the surface is closed.
@@ -28,9 +30,11 @@ namespace {
 
 	void checkSize(double extent)
 	{
-		if (extent == 0 || (smallestSize <= extent && extent <= largestSize)) return; // 0: checkDistinct has the better message
+		if (extent == 0 || (smallestSize <= extent && extent <= largestSize))
+			return; // 0: checkDistinct has the better message
 		std::ostringstream what;
-		what << "the vertices extend over " << extent << " m: a polyhedron has " << smallestSize << " to " << largestSize << " m";
+		what << "the vertices extend over " << extent << " m: a polyhedron has " << smallestSize << " to "
+		     << largestSize << " m";
 		throw PolyhedronError(what.str());
 	}
 
@@ -39,8 +43,8 @@ namespace {
 		for (size_t k = 0; k < points.size(); ++k)
 			for (size_t l = k + 1; l < points.size(); ++l)
 				if ((points[k] - points[l]).norm() <= tolerance)
-					throw PolyhedronError(
-					        "vertices " + std::to_string(k) + " and " + std::to_string(l) + " are the same point " + toText(points[k]));
+					throw PolyhedronError("vertices " + std::to_string(k) + " and "
+					        + std::to_string(l) + " are the same point " + toText(points[k]));
 	}
 
 	using Vec2 = Eigen::Vector2d;
@@ -50,12 +54,15 @@ namespace {
 	/// Whether the triangle contains the origin at more than `distance` from each side; it must contain the origin.
 	bool enclosesOrigin(const Vec2& a, const Vec2& b, const Vec2& c, double distance)
 	{
-		const auto isFar = [distance](const Vec2& p, const Vec2& q) { return std::abs(cross(p, q)) > distance * (p - q).norm(); };
+		const auto isFar = [distance](const Vec2& p, const Vec2& q) {
+			return std::abs(cross(p, q)) > distance * (p - q).norm();
+		};
 		return isFar(a, b) && isFar(b, c) && isFar(c, a);
 	}
 
-	/// Whether a plane through points a and b can be supporting. All points are projected along the line ab, which becomes the origin. Their
-	/// directions from there form a cone; once a triangle of projected points encloses the origin, each plane has points on both sides.
+	/// Whether a plane through points a and b can be supporting. All points are projected along the line ab, which
+	/// becomes the origin. Their directions from there form a cone; once a triangle of projected points encloses
+	/// the origin, each plane has points on both sides.
 	bool maySupport(const std::vector<Vec3>& points, int a, int b, double tolerance)
 	{
 		const Vec3 line = (points[b] - points[a]).normalized(), e1 = line.unitOrthogonal(), e2 = line.cross(e1);
@@ -63,7 +70,8 @@ namespace {
 		for (const Vec3& point : points) {
 			const Vec3 x = point - points[a];
 			const Vec2 w(e1.dot(x), e2.dot(x));
-			if (w.squaredNorm() <= 64 * tolerance * tolerance) continue; // too near the line to exclude a plane
+			if (w.squaredNorm() <= 64 * tolerance * tolerance)
+				continue; // too near the line to exclude a plane
 			const double beyondRight = -cross(right, w), beyondLeft = -cross(w, left);
 			if (right.isZero(0)) right = left = w;
 			else if (beyondRight > 0 && beyondLeft > 0) {
@@ -91,7 +99,8 @@ namespace {
 		{
 			const Vec3 &origin = points[a], ab = points[b] - origin, ac = points[c] - origin;
 			Vec3 normal = ab.cross(ac);
-			const bool isExcluded = isOutside(lastAbove, origin, normal), isReverseExcluded = isOutside(lastBelow, origin, -normal);
+			const bool isExcluded = isOutside(lastAbove, origin, normal),
+			           isReverseExcluded = isOutside(lastBelow, origin, -normal);
 			if (isExcluded && isReverseExcluded) return;
 			const double longest = std::max({ ab.norm(), ac.norm(), (points[c] - points[b]).norm() });
 			if (normal.norm() <= 2 * tolerance * longest) return; // collinear points span no plane
@@ -103,9 +112,11 @@ namespace {
 	private:
 		const std::vector<Vec3>& points;
 		const double tolerance;
-		int lastAbove = 0, lastBelow = 0; ///< the last points found outside a plane: they are likely outside the next one
+		int lastAbove = 0,
+		    lastBelow = 0; ///< the last points found outside a plane: they are likely outside the next one
 
-		/// Whether a point is outside the plane by more than twice the tolerance, so that rounding does not matter.
+		/// Whether a point is outside the plane by more than twice the tolerance, so that rounding does not
+		/// matter.
 		bool isOutside(int k, const Vec3& origin, const Vec3& unscaledNormal) const
 		{
 			const double height = unscaledNormal.dot(points[k] - origin);
@@ -130,7 +141,8 @@ namespace {
 	{
 		const auto isSubset = [&](const Corners& small) {
 			return std::any_of(sets.begin(), sets.end(), [&](const Corners& large) {
-				return large.size() > small.size() && std::includes(large.begin(), large.end(), small.begin(), small.end());
+				return large.size() > small.size()
+				        && std::includes(large.begin(), large.end(), small.begin(), small.end());
 			});
 		};
 		std::vector<Corners> maximal;
@@ -156,14 +168,19 @@ namespace {
 	void setSidePlanes(Face& face, const std::vector<Vec3>& points)
 	{
 		const size_t count = face.corners.size();
-		const auto through = [](const Vec3& normal, const Vec3& x) { return HalfSpace { normal, normal.dot(x) }; };
+		const auto through = [](const Vec3& normal, const Vec3& x) {
+			return HalfSpace { normal, normal.dot(x) };
+		};
 		for (size_t k = 0; k < count; ++k) {
 			const Vec3 &corner = points[face.corners[k]], &next = points[face.corners[(k + 1) % count]];
-			face.sidePlanes.push_back(through((next - corner).cross(face.plane.normal).normalized(), corner));
+			face.sidePlanes.push_back(
+			        through((next - corner).cross(face.plane.normal).normalized(), corner));
 		}
 		for (size_t k = 0; k < count; ++k)
 			face.bevelPlanes.push_back(
-			        through((face.sidePlanes[k].normal + face.sidePlanes[(k + count - 1) % count].normal).normalized(), points[face.corners[k]]));
+			        through((face.sidePlanes[k].normal + face.sidePlanes[(k + count - 1) % count].normal)
+			                        .normalized(),
+			                points[face.corners[k]]));
 	}
 
 	Vec3 meanOf(const std::vector<Vec3>& points, const Corners& corners)
@@ -179,7 +196,8 @@ namespace {
 	{
 		Vec3 newell = Vec3::Zero();
 		for (size_t k = 0; k < corners.size(); ++k)
-			newell += (points[corners[k]] - centre).cross(points[corners[(k + 1) % corners.size()]] - centre);
+			newell += (points[corners[k]] - centre)
+			                  .cross(points[corners[(k + 1) % corners.size()]] - centre);
 		Face face;
 		face.plane.normal = newell.normalized();
 		face.plane.offset = face.plane.normal.dot(centre);
@@ -206,10 +224,12 @@ namespace {
 		return faceOf(points, std::move(corners), centre);
 	}
 
-	Edge edgeBetween(const std::vector<Vec3>& points, const std::vector<Face>& faces, int tail, int head, int left, int right)
+	Edge edgeBetween(const std::vector<Vec3>& points, const std::vector<Face>& faces, int tail, int head, int left,
+	        int right)
 	{
 		const Vec3 span = points[head] - points[tail];
-		return { tail, head, left, right, (faces[left].plane.normal + faces[right].plane.normal).normalized(), span.normalized(), span.norm() };
+		return { tail, head, left, right, (faces[left].plane.normal + faces[right].plane.normal).normalized(),
+			span.normalized(), span.norm() };
 	}
 
 	std::vector<Edge> edgesOf(const std::vector<Vec3>& points, const std::vector<Face>& faces)
@@ -217,14 +237,17 @@ namespace {
 		std::map<std::pair<int, int>, int> faceLeftOf;
 		for (size_t f = 0; f < faces.size(); ++f)
 			for (size_t k = 0; k < faces[f].corners.size(); ++k)
-				faceLeftOf[{ faces[f].corners[k], faces[f].corners[(k + 1) % faces[f].corners.size()] }] = int(f);
+				faceLeftOf[{ faces[f].corners[k], faces[f].corners[(k + 1) % faces[f].corners.size()] }]
+				        = int(f);
 		std::vector<Edge> edges;
 		for (const auto& [ends, left] : faceLeftOf) {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
 			if (back == faceLeftOf.end())
-				throw OpenSurface("the faces do not close around the edge between vertices " + std::to_string(ends.first) + " and "
-				        + std::to_string(ends.second));
-			if (ends.first < ends.second) edges.push_back(edgeBetween(points, faces, ends.first, ends.second, left, back->second));
+				throw OpenSurface("the faces do not close around the edge between vertices "
+				        + std::to_string(ends.first) + " and " + std::to_string(ends.second));
+			if (ends.first < ends.second)
+				edges.push_back(
+				        edgeBetween(points, faces, ends.first, ends.second, left, back->second));
 		}
 		return edges;
 	}
@@ -247,12 +270,14 @@ namespace {
 			if (degree[k] < 3) throw noCorner(points, k);
 	}
 
-	/// Largest distance of a point from the planes of triangles, > 0 outside; those without a plane are left out. [m]
+	/// Largest distance of a point from the planes of triangles, > 0 outside; those without a plane are left out.
+	/// [m]
 	double heightAbove(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, const Vec3& x)
 	{
 		double height = -std::numeric_limits<double>::infinity();
 		for (const Triangle& t : triangles) {
-			const Vec3 &a = points[t[0]], ab = points[t[1]] - a, ac = points[t[2]] - a, normal = ab.cross(ac);
+			const Vec3 &a = points[t[0]], ab = points[t[1]] - a, ac = points[t[2]] - a,
+			           normal = ab.cross(ac);
 			const bool isLine = normal.norm() <= 1e-9 * std::max(ab.squaredNorm(), ac.squaredNorm());
 			if (!isLine) height = std::max(height, normal.normalized().dot(x - a));
 		}
@@ -267,14 +292,16 @@ namespace {
 			others.erase(others.begin() + long(k));
 			if (others.size() < 4) continue;
 			const std::vector<Triangle> hull = hullTriangles(others);
-			if (!hull.empty() && heightAbove(others, hull, points[k]) <= tolerance) throw noCorner(points, k);
+			if (!hull.empty() && heightAbove(others, hull, points[k]) <= tolerance)
+				throw noCorner(points, k);
 		}
 	}
 
 	bool isPlanar(const std::vector<Vec3>& points, const Face& face, double tolerance)
 	{
-		return std::all_of(face.corners.begin(), face.corners.end(),
-		        [&](int k) { return std::abs(face.plane.normal.dot(points[k]) - face.plane.offset) <= tolerance; });
+		return std::all_of(face.corners.begin(), face.corners.end(), [&](int k) {
+			return std::abs(face.plane.normal.dot(points[k]) - face.plane.offset) <= tolerance;
+		});
 	}
 
 	/// A face and its triangles.
@@ -286,7 +313,9 @@ namespace {
 	/// Joins two patches that are neighbours in one plane within the tolerance.
 	bool join(const std::vector<Vec3>& points, Patch& patch, const Patch& other, double tolerance)
 	{
-		const auto liesIn = [&](const Face& f, const HalfSpace& plane) { return isPlanar(points, { plane, f.corners, {}, {} }, 4 * tolerance); };
+		const auto liesIn = [&](const Face& f, const HalfSpace& plane) {
+			return isPlanar(points, { plane, f.corners, {}, {} }, 4 * tolerance);
+		};
 		if (!liesIn(other.face, patch.face.plane) && !liesIn(patch.face, other.face.plane)) return false;
 		std::vector<Triangle> triangles = patch.triangles;
 		triangles.insert(triangles.end(), other.triangles.begin(), other.triangles.end());
@@ -299,11 +328,13 @@ namespace {
 	}
 
 	/// Faces of triangles, with neighbours in one plane joined.
-	std::vector<Face> joinedFaces(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
+	std::vector<Face> joinedFaces(
+	        const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
 	{
 		std::vector<Patch> patches;
 		for (const Triangle& t : triangles)
-			patches.push_back({ { t }, faceOf(points, { t.begin(), t.end() }, meanOf(points, { t.begin(), t.end() })) });
+			patches.push_back({ { t },
+			        faceOf(points, { t.begin(), t.end() }, meanOf(points, { t.begin(), t.end() })) });
 		for (size_t k = 0; k < patches.size(); ++k)
 			for (size_t l = k + 1; l < patches.size();)
 				if (join(points, patches[k], patches[l], tolerance)) {
@@ -353,7 +384,9 @@ Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance)
 	for (const Vec3& p : points)
 		inside += p / double(points.size());
 	const std::vector<Corners> sets = supportingSets(points, tolerance);
-	if (sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Corners& s) { return s.size() == points.size(); })) throw PolyhedronError(coplanar);
+	if (sets.empty()
+	        || std::any_of(sets.begin(), sets.end(), [&](const Corners& s) { return s.size() == points.size(); }))
+		throw PolyhedronError(coplanar);
 	std::vector<Face> faces;
 	for (const Corners& corners : sets)
 		faces.push_back(orderedFace(points, corners, inside));
@@ -380,7 +413,8 @@ Polyhedron triangulatedHull(const std::vector<Vec3>& points)
 	if (triangles.empty()) throw PolyhedronError(coplanar);
 	checkHeights(points, tolerance);
 	for (double share = 1; share > 1e-4; share /= 10)
-		if (std::vector<Face> faces = joinedFaces(points, triangles, share * tolerance); leastDegree(points.size(), faces) > 2)
+		if (std::vector<Face> faces = joinedFaces(points, triangles, share * tolerance);
+		        leastDegree(points.size(), faces) > 2)
 			return closedBody(points, std::move(faces));
 	return closedBody(points, joinedFaces(points, triangles, 0));
 }
@@ -388,7 +422,8 @@ Polyhedron triangulatedHull(const std::vector<Vec3>& points)
 void checkPoints(const std::vector<Vec3>& points)
 {
 	for (size_t k = 0; k < points.size(); ++k)
-		if (!points[k].allFinite()) throw PolyhedronError("vertex " + std::to_string(k) + " is not finite: " + toText(points[k]));
+		if (!points[k].allFinite())
+			throw PolyhedronError("vertex " + std::to_string(k) + " is not finite: " + toText(points[k]));
 	const double size = sizeOf(points);
 	checkSize(size);
 	checkDistinct(points, planarShare * size);

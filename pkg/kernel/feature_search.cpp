@@ -8,14 +8,17 @@
 namespace timber {
 
 // Search of the candidates:
-//   1. Find the axis of the largest gap between the cores. A pair far apart has no candidates; its margin is what remains of the gap.
-//   2. Rough search, with the motion bounded about the smaller body: where are features close? Vertices and faces alone answer this
+//   1. Find the axis of the largest gap between the cores. A pair far apart has no candidates; its margin is what
+//   remains of the gap.
+//   2. Rough search, with the motion bounded about the smaller body: where are features close? Vertices and faces alone
+//   answer this
 //      if there are any.
 //   3. Centre the region of contact on these positions. The bound of the motion is smallest there.
 //   4. Final search with this region: all pairs of features that can come into contact within the margin.
 namespace {
 
-	/// One search, for a cache with given centre, regionRadius and margin. Candidates are found in the order of their ids.
+	/// One search, for a cache with given centre, regionRadius and margin. Candidates are found in the order of
+	/// their ids.
 	class FeatureSearch {
 	public:
 		std::vector<Vec3> positions; ///< of the candidates, frame of A [m]
@@ -45,12 +48,12 @@ namespace {
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t f = 0; f < b.faces.size(); ++f)
-					testVertexFace(
-					        { FeatureKind::VertexFace, int(v), int(f) }, verticesA[v], b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
+					testVertexFace({ FeatureKind::VertexFace, int(v), int(f) }, verticesA[v],
+					        b.faces[f], pair.b.coreHalfThickness, a.vertices[v]);
 			for (size_t f = 0; f < a.faces.size(); ++f)
 				for (size_t v = 0; v < b.vertices.size(); ++v)
-					testVertexFace({ FeatureKind::FaceVertex, int(f), int(v) }, verticesB[v], a.faces[f], pair.a.coreHalfThickness,
-					        verticesB[v].position);
+					testVertexFace({ FeatureKind::FaceVertex, int(f), int(v) }, verticesB[v],
+					        a.faces[f], pair.a.coreHalfThickness, verticesB[v].position);
 		}
 		/// Edge-edge, and the extra patterns if they are on.
 		void searchOtherKinds()
@@ -62,7 +65,8 @@ namespace {
 			for (size_t ea = 0; ea < a.edges.size(); ++ea) {
 				const Lanes distance = distanceToB(a.edges[ea]), range = edgeRange(a.edges[ea]);
 				for (const EdgeBatch& batch : edgesB)
-					if (const auto inRange = distance + batch.depth <= range; any(inRange)) testEdges(int(ea), batch, inRange);
+					if (const auto inRange = distance + batch.depth <= range; any(inRange))
+						testEdges(int(ea), batch, inRange);
 			}
 			if (pair.patterns.vertexEdge) searchExtraPatterns();
 		}
@@ -83,14 +87,16 @@ namespace {
 			size_t first; ///< index of the first
 			Vec3s tail, direction, outward;
 			Lanes length; ///< [m]
-			Lanes depth; ///< distance along the axis behind the vertex of B closest to A; infinite in unused lanes [m]
+			Lanes depth; ///< distance along the axis behind the vertex of B closest to A; infinite in
+			             ///< unused lanes [m]
 		};
 		std::vector<EdgeBatch> edgesB;
 
 		/// Bound of the relative motion of a point (frame of A) within the margin. [m]
 		template <class Number> Number motionBound(const Vec3Of<Number>& x) const
 		{
-			const Number distance = Vec3Of<Number>(x - broadcast<Number>(cache.centre)).norm() / Number(cache.regionRadius);
+			const Number distance = Vec3Of<Number>(x - broadcast<Number>(cache.centre)).norm()
+			        / Number(cache.regionRadius);
 			return Number(cache.skin) * max(Number(1.), distance);
 		}
 
@@ -99,22 +105,29 @@ namespace {
 			const std::vector<Edge>& edges = pair.b.core.edges;
 			const size_t count = edges.size() - first;
 			const Group<Lanes, const Edge> group(&edges[first], count);
-			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) { return &verticesB[edges[first + i].tail].position; }).vectors();
+			const auto tails = Group<Lanes, const Vec3>(count, [&](size_t i) {
+				return &verticesB[edges[first + i].tail].position;
+			}).vectors();
 			EdgeBatch batch { first, tails, broadcast<Lanes>(pair.rotation) * group.get(&Edge::direction),
 				broadcast<Lanes>(pair.rotation) * group.get(&Edge::outward), group.get(&Edge::length),
 				std::numeric_limits<double>::infinity() };
 			for (size_t i = 0; i < laneCount && i < count; ++i)
-				setLane(batch.depth, i, std::min(depthInB(edges[first + i].tail), depthInB(edges[first + i].head)));
+				setLane(batch.depth, i,
+				        std::min(depthInB(edges[first + i].tail), depthInB(edges[first + i].head)));
 			return batch;
 		}
-		double depthInB(int vertex) const { return verticesB[vertex].position.dot(cache.axis) - (cache.supportA + gap); }
+		double depthInB(int vertex) const
+		{
+			return verticesB[vertex].position.dot(cache.axis) - (cache.supportA + gap);
+		}
 		/// Distance along the axis between an edge of A and the vertex of B closest to A. [m]
 		double distanceToB(const Edge& ea) const
 		{
 			const std::vector<Vec3>& v = pair.a.core.vertices;
 			return cache.supportA + gap - std::max(v[ea.tail].dot(cache.axis), v[ea.head].dot(cache.axis));
 		}
-		/// Distance within which an edge of B can be in contact with an edge of A within the margin, for nearly parallel edges. [m]
+		/// Distance within which an edge of B can be in contact with an edge of A within the margin, for nearly
+		/// parallel edges. [m]
 		double edgeRange(const Edge& ea) const
 		{
 			return std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation)
@@ -141,24 +154,33 @@ namespace {
 		void testEdges(int edgeA, const EdgeBatch& b, Lanes::Mask inRange)
 		{
 			const Edge& ea = pair.a.core.edges[edgeA];
-			const Vec3s tail = broadcast<Lanes>(pair.a.core.vertices[ea.tail]), direction = broadcast<Lanes>(ea.direction);
+			const Vec3s tail = broadcast<Lanes>(pair.a.core.vertices[ea.tail]),
+			            direction = broadcast<Lanes>(ea.direction);
 			const Lanes lengthA = ea.length;
 			const Crossing<Lanes> c = crossing<Lanes>(tail, direction, b.tail, b.direction);
 			const auto nearlyParallel = c.sine < Lanes(crossingSine);
 			const Vec3s position = tail + c.alongA * direction;
-			const Lanes motion = motionBound<Lanes>(position), range = Lanes(std::max(pair.contactDistance(), pair.depthLimit())) + motion;
-			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation)) / c.sine; // shift of the crossing along the edges
-			const auto inside = [&](Lanes at, Lanes length) { return logicalAnd(at >= -slack, at <= length + slack); };
+			const Lanes motion = motionBound<Lanes>(position),
+			            range = Lanes(std::max(pair.contactDistance(), pair.depthLimit())) + motion;
+			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation))
+			        / c.sine; // shift of the crossing along the edges
+			const auto inside = [&](Lanes at, Lanes length) {
+				return logicalAnd(at >= -slack, at <= length + slack);
+			};
 			const Lanes height = c.normal.dot(Vec3s(b.tail - tail)), distance = max(height, -height);
-			const auto mayFace = c.normal.dot(broadcast<Lanes>(ea.outward)) * c.normal.dot(b.outward) <= Lanes(3 * maxRotation) / c.sine;
+			const auto mayFace = c.normal.dot(broadcast<Lanes>(ea.outward)) * c.normal.dot(b.outward)
+			        <= Lanes(3 * maxRotation) / c.sine;
 			const auto mayCross
-			        = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)), logicalAnd(distance <= range, mayFace));
+			        = logicalAnd(logicalAnd(inside(c.alongA, lengthA), inside(c.alongB, b.length)),
+			                logicalAnd(distance <= range, mayFace));
 			for (size_t i = 0; i < laneCount; ++i) {
 				if (!lane(inRange, i)) continue;
 				const int edgeB = int(b.first + i);
 				const FeatureId id(FeatureKind::EdgeEdge, edgeA, edgeB);
-				if (lane(nearlyParallel, i)) testParallelEdges(id, ea, pair.b.core.edges[edgeB], lane(c.sine, i));
-				else if (lane(mayCross, i)) add(id, lane(position, i), lane(distance, i) <= lane(motion, i));
+				if (lane(nearlyParallel, i))
+					testParallelEdges(id, ea, pair.b.core.edges[edgeB], lane(c.sine, i));
+				else if (lane(mayCross, i))
+					add(id, lane(position, i), lane(distance, i) <= lane(motion, i));
 			}
 		}
 		/// Nearly parallel edges: the distance of the segments decides.
@@ -167,10 +189,14 @@ namespace {
 			if (sine + maxRotation < parallelSine) return;
 			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &headA = pair.a.core.vertices[ea.head];
 			const Vertex &tailB = verticesB[eb.tail], &headB = verticesB[eb.head];
-			const double motion = std::min(std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion), std::max(tailB.motion, headB.motion));
-			const double range = std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation) + motion;
-			const double distance = segmentDistance(tailA, headA - tailA, tailB.position, headB.position - tailB.position);
-			const Vec3 position = ea.length < eb.length ? Vec3((tailA + headA) / 2) : Vec3((tailB.position + headB.position) / 2);
+			const double motion = std::min(std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion),
+			        std::max(tailB.motion, headB.motion));
+			const double range
+			        = std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation) + motion;
+			const double distance = segmentDistance(
+			        tailA, headA - tailA, tailB.position, headB.position - tailB.position);
+			const Vec3 position = ea.length < eb.length ? Vec3((tailA + headA) / 2)
+			                                            : Vec3((tailB.position + headB.position) / 2);
 			if (distance <= range) add(id, position, distance <= motion);
 		}
 
@@ -180,26 +206,32 @@ namespace {
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t e = 0; e < b.edges.size(); ++e)
-					testVertexEdge({ FeatureKind::VertexEdge, int(v), int(e) }, verticesA[v].position, b, b.edges[e], a.vertices[v]);
+					testVertexEdge({ FeatureKind::VertexEdge, int(v), int(e) },
+					        verticesA[v].position, b, b.edges[e], a.vertices[v]);
 			for (size_t e = 0; e < a.edges.size(); ++e)
 				for (size_t v = 0; v < b.vertices.size(); ++v)
-					testVertexEdge(
-					        { FeatureKind::EdgeVertex, int(e), int(v) }, verticesB[v].position, a, a.edges[e], verticesB[v].position);
+					testVertexEdge({ FeatureKind::EdgeVertex, int(e), int(v) },
+					        verticesB[v].position, a, a.edges[e], verticesB[v].position);
 			for (size_t v = 0; v < a.vertices.size(); ++v)
 				for (size_t w = 0; w < verticesB.size(); ++w)
-					testDistance(
-					        { FeatureKind::VertexVertex, int(v), int(w) }, (verticesB[w].position - a.vertices[v]).norm(), a.vertices[v]);
+					testDistance({ FeatureKind::VertexVertex, int(v), int(w) },
+					        (verticesB[w].position - a.vertices[v]).norm(), a.vertices[v]);
 		}
 		/// x: vertex in the frame of the edge's body [m]
-		void testVertexEdge(FeatureId id, const Vec3& x, const Polyhedron& body, const Edge& edge, const Vec3& position)
+		void testVertexEdge(
+		        FeatureId id, const Vec3& x, const Polyhedron& body, const Edge& edge, const Vec3& position)
 		{
 			const Vec3 fromTail = x - body.vertices[edge.tail];
-			testDistance(id, (fromTail - std::clamp(fromTail.dot(edge.direction), 0., edge.length) * edge.direction).norm(), position);
+			testDistance(id,
+			        (fromTail - std::clamp(fromTail.dot(edge.direction), 0., edge.length) * edge.direction)
+			                .norm(),
+			        position);
 		}
 		void testDistance(FeatureId id, double distance, const Vec3& position)
 		{
 			const double motion = motionBound<double>(position);
-			if (distance <= pair.contactDistance() + motion + flushTolerance) add(id, position, distance <= motion);
+			if (distance <= pair.contactDistance() + motion + flushTolerance)
+				add(id, position, distance <= motion);
 		}
 	};
 
@@ -207,8 +239,9 @@ namespace {
 	void centreOnSmallerBody(const ShapePair& pair, CandidateCache& cache)
 	{
 		cache.centre = pair.b.boundingRadius <= pair.a.boundingRadius ? pair.translation : Vec3(Vec3::Zero());
-		cache.regionRadius = std::max(
-		        minRegionSkins * cache.skin, std::min(pair.a.boundingRadius, pair.b.boundingRadius) + pair.contactDistance() + 2 * cache.skin);
+		cache.regionRadius = std::max(minRegionSkins * cache.skin,
+		        std::min(pair.a.boundingRadius, pair.b.boundingRadius) + pair.contactDistance()
+		                + 2 * cache.skin);
 	}
 
 	/// Step 3.
@@ -235,7 +268,8 @@ void searchCandidates(const ShapePair& pair, double skin, CandidateCache& cache)
 	cache.supportA = projectionInterval(pair.a.core, cache.axis).max;
 	cache.candidates.clear();
 	cache.rotation = pair.rotation;
-	cache.margin = std::max(skin, gap - pair.contactDistance() - skin); // the skin covers the reach of a flush support beyond a border
+	cache.margin = std::max(skin,
+	        gap - pair.contactDistance() - skin); // the skin covers the reach of a flush support beyond a border
 	cache.coresMayOverlap = gap <= skin;
 	centreOnSmallerBody(pair, cache);
 	if (gap < pair.contactDistance() + 2 * skin) {

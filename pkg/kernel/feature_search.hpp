@@ -5,7 +5,8 @@
 
 namespace timber {
 
-/// Fills the cache for the pair's present pose. skin: minimum motion for which the candidates must be complete, > 0 [m].
+/// Fills the cache for the pair's present pose. skin: minimum motion for which the candidates must be complete, > 0
+/// [m].
 void searchCandidates(const ShapePair& pair, double skin, CandidateCache& cache);
 
 } // namespace timber

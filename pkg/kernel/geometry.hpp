@@ -17,9 +17,9 @@ template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3
 	return broadcast<Number>(plane.normal).dot(x) - Number(plane.offset);
 }
 
-/// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative: inside them) [m].
-/// Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This changes nothing at a right angle, and keeps the
-/// projection near an acute corner.
+/// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative:
+/// inside them) [m]. Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This
+/// changes nothing at a right angle, and keeps the projection near an acute corner.
 template <class Number> auto projectsOntoFace(const Face& face, const Vec3Of<Number>& x, Number limit)
 {
 	const Number zero = 0.;
@@ -32,12 +32,15 @@ template <class Number> auto projectsOntoFace(const Face& face, const Vec3Of<Num
 	}
 	if (!any(logicalAnd(inside, beyond))) return inside;
 	for (const HalfSpace& bevel : face.bevelPlanes)
-		inside = logicalAnd(inside, logicalOr(beyond == (zero < zero), signedDistance(bevel, x) <= Number(M_SQRT2) * limit));
+		inside = logicalAnd(inside,
+		        logicalOr(beyond == (zero < zero), signedDistance(bevel, x) <= Number(M_SQRT2) * limit));
 	return inside;
 }
 
-/// Whether x lies inside all faces' planes except that of `excludedFace`. limit: tolerance outside the planes (negative: inside them) [m].
-template <class Number> auto isInsideOtherFaces(const Polyhedron& body, int excludedFace, const Vec3Of<Number>& x, Number limit)
+/// Whether x lies inside all faces' planes except that of `excludedFace`. limit: tolerance outside the planes
+/// (negative: inside them) [m].
+template <class Number>
+auto isInsideOtherFaces(const Polyhedron& body, int excludedFace, const Vec3Of<Number>& x, Number limit)
 {
 	assert(excludedFace >= 0 && excludedFace < int(body.faces.size()));
 	const Number zero = 0.;
@@ -51,7 +54,9 @@ template <class Number> auto isInsideOtherFaces(const Polyhedron& body, int excl
 inline int supportFace(const Polyhedron& body, const Vec3& direction)
 {
 	assert(isUnit(direction));
-	const auto isLess = [&](const Face& f, const Face& g) { return f.plane.normal.dot(direction) < g.plane.normal.dot(direction); };
+	const auto isLess = [&](const Face& f, const Face& g) {
+		return f.plane.normal.dot(direction) < g.plane.normal.dot(direction);
+	};
 	return int(std::max_element(body.faces.begin(), body.faces.end(), isLess) - body.faces.begin());
 }
 
@@ -75,7 +80,8 @@ inline double segmentDistance(const Vec3& tailA, const Vec3& spanA, const Vec3& 
 {
 	assert(spanA.squaredNorm() > 0 && spanB.squaredNorm() > 0);
 	const Vec3 w = tailA - tailB;
-	const double aa = spanA.squaredNorm(), bb = spanB.squaredNorm(), ab = spanA.dot(spanB), aw = spanA.dot(w), bw = spanB.dot(w);
+	const double aa = spanA.squaredNorm(), bb = spanB.squaredNorm(), ab = spanA.dot(spanB), aw = spanA.dot(w),
+	             bw = spanB.dot(w);
 	const double det = aa * bb - ab * ab;
 	double s = det > 1e-12 * aa * bb ? std::clamp((ab * bw - bb * aw) / det, 0., 1.) : 0.;
 	const double t = std::clamp((ab * s + bw) / bb, 0., 1.);

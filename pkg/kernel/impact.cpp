@@ -23,12 +23,15 @@ double PowerSpring::duration(double mass, double speed) const
 	return 2 * integral * largest / speed;
 }
 
-ImpactState startImpact(const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h)
+ImpactState startImpact(
+        const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h)
 {
-	assert(spring.force > 0 && spring.stiffness > 0 && spring.overlap > 0 && mass > 0 && response > 0 && speed > 0 && h > 0);
+	assert(spring.force > 0 && spring.stiffness > 0 && spring.overlap > 0 && mass > 0 && response > 0 && speed > 0
+	        && h > 0);
 	const double q = spring.power(), duration = spring.duration(1 / response, speed);
 	if (duration > impactSteps * h) return ImpactState::over();
-	return { impactDurations * duration + h, speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1))),
+	return { impactDurations * duration + h,
+		speed * restitution(dampingRatio * std::sqrt(response * mass * 2 * q / (q + 1))),
 		impactLoadShare * speed / std::max(duration / h, 1.) };
 }
 

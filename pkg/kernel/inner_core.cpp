@@ -16,7 +16,8 @@ namespace {
 
 	constexpr int maxSteps = 1000; ///< of the search for the inscribed sphere; some twenty suffice
 
-	constexpr long double sphereRounding = 1e-15L; ///< of the radius of the inscribed sphere, as a share of the size
+	constexpr long double sphereRounding
+	        = 1e-15L; ///< of the radius of the inscribed sphere, as a share of the size
 
 	using LongVec4 = Eigen::Matrix<long double, 4, 1>;
 	using LongMat4 = Eigen::Matrix<long double, 4, 4>;
@@ -26,17 +27,21 @@ namespace {
 		LongVec4 row;
 		long double offset;
 	};
-	TouchingPlane touchingPlane(const Vec3& normal, double offset) { return { LongVec4(normal.x(), normal.y(), normal.z(), 1), offset }; }
+	TouchingPlane touchingPlane(const Vec3& normal, double offset)
+	{
+		return { LongVec4(normal.x(), normal.y(), normal.z(), 1), offset };
+	}
 
-	/// The plane of the basis whose weight is the first to become zero as that of the new plane grows; of several the one with the largest share, for
-	/// accuracy. -1: none.
+	/// The plane of the basis whose weight is the first to become zero as that of the new plane grows; of several
+	/// the one with the largest share, for accuracy. -1: none.
 	int leavingPlane(const LongVec4& weights, const LongVec4& shares)
 	{
 		constexpr long double rounding = 1e-15L;
 		int leaving = -1;
 		for (int k = 0; k < 4; ++k) {
 			if (shares[k] <= rounding) continue;
-			const long double later = leaving < 0 ? -1 : weights[k] / shares[k] - weights[leaving] / shares[leaving];
+			const long double later
+			        = leaving < 0 ? -1 : weights[k] / shares[k] - weights[leaving] / shares[leaving];
 			if (later < -rounding || (later <= rounding && shares[k] > shares[leaving])) leaving = k;
 		}
 		return leaving;
@@ -63,16 +68,19 @@ namespace {
 		const LongVec3 a = planes[t[0]].normal.cast<long double>(), b = planes[t[1]].normal.cast<long double>(),
 		               c = planes[t[2]].normal.cast<long double>();
 		const LongVec3 bc = b.cross(c);
-		return (planes[t[0]].offset * bc + planes[t[1]].offset * c.cross(a) + planes[t[2]].offset * a.cross(b)) / a.dot(bc);
+		return (planes[t[0]].offset * bc + planes[t[1]].offset * c.cross(a) + planes[t[2]].offset * a.cross(b))
+		        / a.dot(bc);
 	}
 
 	/// The triangles around each point, counter-clockwise seen from outside.
 	std::vector<std::vector<int>> trianglesAround(const std::vector<Triangle>& triangles, size_t pointCount)
 	{
-		std::vector<std::map<int, std::pair<int, int>>> turns(pointCount); // of a point: from an edge to the triangle left of it and its next edge
+		std::vector<std::map<int, std::pair<int, int>>> turns(
+		        pointCount); // of a point: from an edge to the triangle left of it and its next edge
 		for (size_t t = 0; t < triangles.size(); ++t)
 			for (int k = 0; k < 3; ++k)
-				turns[triangles[t][k]][triangles[t][(k + 1) % 3]] = { int(t), triangles[t][(k + 2) % 3] };
+				turns[triangles[t][k]][triangles[t][(k + 1) % 3]]
+				        = { int(t), triangles[t][(k + 2) % 3] };
 		std::vector<std::vector<int>> around(pointCount);
 		for (size_t p = 0; p < pointCount; ++p) {
 			if (turns[p].empty()) continue;
@@ -96,7 +104,8 @@ namespace {
 		if (cycle.size() < 3) cycle.clear();
 	}
 
-	/// Removes corners of less than three faces, and faces of less than three corners, until there are none. Both lie on an edge of two other faces.
+	/// Removes corners of less than three faces, and faces of less than three corners, until there are none. Both
+	/// lie on an edge of two other faces.
 	void removeIncomplete(std::vector<std::vector<int>>& cycles, size_t cornerCount)
 	{
 		bool isComplete = false;
@@ -107,7 +116,8 @@ namespace {
 				for (const int k : cycle)
 					++degree[k];
 			for (auto& cycle : cycles) {
-				const auto rest = std::remove_if(cycle.begin(), cycle.end(), [&](int k) { return degree[k] < 3; });
+				const auto rest = std::remove_if(
+				        cycle.begin(), cycle.end(), [&](int k) { return degree[k] < 3; });
 				if (rest == cycle.end()) continue;
 				isComplete = false;
 				cycle.erase(rest, cycle.end());
@@ -117,8 +127,8 @@ namespace {
 	}
 
 	/// Corners of the primal body by group of triangles, renumbered to those that faces have.
-	Polyhedron bodyOf(
-	        const std::vector<LongVec3>& corners, const std::vector<std::vector<int>>& cycles, const std::vector<HalfSpace>& planes, const Vec3& centre)
+	Polyhedron bodyOf(const std::vector<LongVec3>& corners, const std::vector<std::vector<int>>& cycles,
+	        const std::vector<HalfSpace>& planes, const Vec3& centre)
 	{
 		std::map<int, int> number;
 		std::vector<Vec3> vertices;
@@ -128,7 +138,8 @@ namespace {
 			Face face;
 			face.plane = { planes[f].normal, planes[f].offset + planes[f].normal.dot(centre) };
 			for (const int k : cycles[f]) {
-				if (number.emplace(k, int(vertices.size())).second) vertices.push_back(centre + corners[k].cast<double>());
+				if (number.emplace(k, int(vertices.size())).second)
+					vertices.push_back(centre + corners[k].cast<double>());
 				face.corners.push_back(number[k]);
 			}
 			faces.push_back(std::move(face));
@@ -138,8 +149,9 @@ namespace {
 
 } // namespace
 
-/// The dual simplex method: of four planes, the sphere that touches them; the plane that cuts it most replaces one of them. It starts at a large
-/// tetrahedron. Nearly parallel planes may end it early or make it repeat itself: the best centre counts.
+/// The dual simplex method: of four planes, the sphere that touches them; the plane that cuts it most replaces one of
+/// them. It starts at a large tetrahedron. Nearly parallel planes may end it early or make it repeat itself: the best
+/// centre counts.
 Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle, double size)
 {
 	assert(size > 0);
@@ -160,12 +172,13 @@ Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle,
 		const Eigen::FullPivLU<LongMat4> solver(rows), transposed(rows.transpose());
 		const LongVec4 sphere = solver.solve(offsets);
 		const auto excess = [&](const TouchingPlane& p) { return p.row.dot(sphere) - p.offset; };
-		const auto cutting
-		        = std::max_element(all.begin(), all.end(), [&](const TouchingPlane& p, const TouchingPlane& q) { return excess(p) < excess(q); });
+		const auto cutting = std::max_element(all.begin(), all.end(),
+		        [&](const TouchingPlane& p, const TouchingPlane& q) { return excess(p) < excess(q); });
 		const double radius = size * double(sphere[3] - excess(*cutting)); // inside all planes
 		if (radius > best.radius) best = { middle + size * sphere.head<3>().cast<double>(), radius };
 		if (excess(*cutting) <= sphereRounding) break;
-		const int leaving = leavingPlane(transposed.solve(LongVec4(0, 0, 0, 1)), transposed.solve(cutting->row));
+		const int leaving
+		        = leavingPlane(transposed.solve(LongVec4(0, 0, 0, 1)), transposed.solve(cutting->row));
 		if (leaving < 0) break;
 		basis[leaving] = size_t(cutting - all.begin());
 	}

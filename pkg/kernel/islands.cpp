@@ -14,13 +14,17 @@ int Islands::root(int body)
 }
 
 /// The body that identifies the island of a pair.
-int Islands::representative(const Link& link) { return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second; }
+int Islands::representative(const Link& link)
+{
+	return link.first >= 0 ? root(link.first) : link.second >= 0 ? root(link.second) : ~link.second;
+}
 
 void Islands::find(size_t bodies, const std::vector<Link>& pairs)
 {
 	[[maybe_unused]] const auto isValid = [bodies](int body) { return size_t(body >= 0 ? body : ~body) < bodies; };
-	assert(std::all_of(pairs.begin(), pairs.end(),
-	        [&](const Link& link) { return link == noLink || (link.first != link.second && isValid(link.first) && isValid(link.second)); }));
+	assert(std::all_of(pairs.begin(), pairs.end(), [&](const Link& link) {
+		return link == noLink || (link.first != link.second && isValid(link.first) && isValid(link.second));
+	}));
 	if (bodies == parent.size() && pairs == links) return;
 	links = pairs;
 	parent.resize(bodies);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Islands: sets of free bodies connected by contacts (each house on the ground is one). The solver takes each island by itself, so that
-/// islands do not influence each other, not even by rounding, and threads may share them.
+/// Islands: sets of free bodies connected by contacts (each house on the ground is one). The solver takes each island
+/// by itself, so that islands do not influence each other, not even by rounding, and threads may share them.
 #pragma once
 #include <cstddef>
 #include <utility>

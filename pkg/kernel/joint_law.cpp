@@ -6,20 +6,29 @@
 namespace timber {
 namespace {
 
-	[[maybe_unused]] bool isValid(const JointStiffness& k) { return k.normal > 0 && k.shear >= 0 && std::isfinite(k.normal) && std::isfinite(k.shear); }
-	[[maybe_unused]] bool isValid(const JointPlacement& p) { return isFinite(p.axesA) && isFinite(p.axesB) && isFinite(p.distance); }
+	[[maybe_unused]] bool isValid(const JointStiffness& k)
+	{
+		return k.normal > 0 && k.shear >= 0 && std::isfinite(k.normal) && std::isfinite(k.shear);
+	}
+	[[maybe_unused]] bool isValid(const JointPlacement& p)
+	{
+		return isFinite(p.axesA) && isFinite(p.axesB) && isFinite(p.distance);
+	}
 	[[maybe_unused]] bool isValid(const JointSprings& s)
 	{
 		const size_t count = s.broken.size();
-		return s.anchorsA.size() == count && s.anchorsB.size() == count && s.stretches.size() == count && s.forces.size() == count;
+		return s.anchorsA.size() == count && s.anchorsB.size() == count && s.stretches.size() == count
+		        && s.forces.size() == count;
 	}
 
-	/// Energy of a spring at the middle of the last step, the time of the velocities: it does not act in this step any more. [J]
+	/// Energy of a spring at the middle of the last step, the time of the velocities: it does not act in this step
+	/// any more. [J]
 	double energyAtBreak(const SpringForce<double>& f, const Vec3& anchorB, const JointMotion& motion)
 	{
 		const BodyKinematics &a = motion.a, &b = motion.b;
 		const Vec3 end = b.position + anchorB; // the force acts on both bodies here
-		const Vec3 velocity = relativeVelocity<double>(end - a.position, end - b.position, a.velocity, a.spin, b.velocity, b.spin);
+		const Vec3 velocity = relativeVelocity<double>(
+		        end - a.position, end - b.position, a.velocity, a.spin, b.velocity, b.spin);
 		return f.energy - motion.h / 2 * f.force.dot(velocity);
 	}
 
@@ -51,28 +60,34 @@ void unpackSprings(const SpringLanes* first, std::vector<Vec3>& stretches, std::
 	}
 }
 
-void springForces(
-        const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal, SpringLanes* first, const SpringLanes* end, JointForce& total)
+void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
+        SpringLanes* first, const SpringLanes* end, JointForce& total)
 {
 	assert(isValid(stiffness) && isValid(placement) && isUnit(normal));
 	const JointStiffness k = stiffness; // a copy stays in registers
 	Sums<11> sums;
 	Lanes largestSquared = 0.;
 	for (SpringLanes* s = first; s != end; ++s) {
-		const Vec3s armB = broadcast<Lanes>(placement.axesB) * s->anchorsB, end = broadcast<Lanes>(placement.distance) + armB,
-		            stretch = select(s->intact, Vec3s(end - broadcast<Lanes>(placement.axesA) * s->anchorsA), Vec3s(Vec3s::Constant(Lanes(0.))));
+		const Vec3s armB = broadcast<Lanes>(placement.axesB) * s->anchorsB,
+		            end = broadcast<Lanes>(placement.distance) + armB,
+		            stretch = select(s->intact, Vec3s(end - broadcast<Lanes>(placement.axesA) * s->anchorsA),
+		                    Vec3s(Vec3s::Constant(Lanes(0.))));
 		s->stretches = stretch;
 		const auto add = [&](const SpringForce<Lanes>& f) __attribute__((always_inline))
 		{
 			s->forces = f.force;
 			const Lanes square = f.force.squaredNorm();
-			// with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the anchor of B
+			// with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the
+			// anchor of B
 			const Vec3s torqueA = end.cross(f.force), torqueB = -armB.cross(f.force);
-			sums.add<Lanes>(laneCount, f.force, torqueA, torqueB, f.energy, sqrt(square)); // broken springs add zeros
+			sums.add<Lanes>(laneCount, f.force, torqueA, torqueB, f.energy,
+			        sqrt(square)); // broken springs add zeros
 			largestSquared = max(largestSquared, square);
 		};
 		const Vec3 worldNormal = placement.axesA * normal;
-		if (k.normal == k.shear) add(isotropicForce<Lanes>(k.shear, stretch, worldNormal)); // branches of their own: no force goes through memory
+		if (k.normal == k.shear)
+			add(isotropicForce<Lanes>(
+			        k.shear, stretch, worldNormal)); // branches of their own: no force goes through memory
 		else add(springForce<Lanes>(k, stretch, worldNormal));
 	}
 	double largest = 0;
@@ -93,16 +108,18 @@ BreakCause breakCause(const SpringForce<double>& f)
 	return f.normal > 0 ? BreakCause::Tension : BreakCause::Compression;
 }
 
-std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit, const JointPlacement& placement, const Vec3& normal,
-        const JointSprings& springs, const JointMotion& motion)
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit,
+        const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion)
 {
 	assert(limit.strength > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		const bool exceeds = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
+		const bool exceeds
+		        = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
 		if (springs.broken[i] || !exceeds) continue;
 		SpringForce<double> f = springForce<double>(k, springs.stretches[i], placement.axesA * normal);
-		breaks.push_back({ i, breakCause(f), springs.forces[i].norm(), energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });
+		breaks.push_back({ i, breakCause(f), springs.forces[i].norm(),
+		        energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });
 	}
 	return breaks;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter: JointEngine (pkg/JointEngine.hpp).
-/// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite convention (contact_law.hpp).
-/// A step:
-///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has packed;
+/// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter:
+/// JointEngine (pkg/JointEngine.hpp). Signs: the normal points from body A to body B; forces act on A, B gets the
+/// opposite. Contacts have the opposite convention (contact_law.hpp). A step:
+///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has
+///     packed;
 ///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
-///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes the forces again.
+///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes
+///     the forces again.
 #pragma once
 #include "kinematics.hpp"
 #include <vector>
@@ -26,20 +28,25 @@ template <class Number> struct SpringForce {
 template <class Number> SpringForce<Number> isotropicForce(double k, const Vec3Of<Number>& stretch, const Vec3& normal)
 {
 	const Number half = 0.5, stiffness = k;
-	return { stiffness * stretch, stiffness * stretch.dot(broadcast<Number>(normal)), half * (stiffness * stretch.squaredNorm()) };
+	return { stiffness * stretch, stiffness * stretch.dot(broadcast<Number>(normal)),
+		half * (stiffness * stretch.squaredNorm()) };
 }
 
 /// Total form of Eqs. 25, 26, 29, 30 (the sum of the increments, without their drift).
-/// stretch: anchor of B minus anchor of A, world [m]; normal: of the joint, world. With equal stiffnesses the normal does not matter.
-template <class Number> SpringForce<Number> springForce(const JointStiffness& k, const Vec3Of<Number>& stretch, const Vec3& normal)
+/// stretch: anchor of B minus anchor of A, world [m]; normal: of the joint, world. With equal stiffnesses the normal
+/// does not matter.
+template <class Number>
+SpringForce<Number> springForce(const JointStiffness& k, const Vec3Of<Number>& stretch, const Vec3& normal)
 {
 	if (k.normal == k.shear) return isotropicForce<Number>(k.shear, stretch, normal);
 	const Vec3Of<Number> n = broadcast<Number>(normal), shear = Number(k.shear) * stretch;
-	const Number along = stretch.dot(n), square = Number(k.shear) * stretch.squaredNorm(), extra = k.normal - k.shear, half = 0.5;
+	const Number along = stretch.dot(n), square = Number(k.shear) * stretch.squaredNorm(),
+	             extra = k.normal - k.shear, half = 0.5;
 	return { shear + extra * along * n, Number(k.normal) * along, half * (square + extra * along * along) };
 }
 
-/// Placement of a joint's two bodies: rotation matrices from their frames to the world, and the vector from the centre of A to that of B [m].
+/// Placement of a joint's two bodies: rotation matrices from their frames to the world, and the vector from the centre
+/// of A to that of B [m].
 struct JointPlacement {
 	const Mat3 &axesA, &axesB;
 	Vec3 distance;
@@ -74,15 +81,16 @@ struct JointForce {
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
 };
 
-/// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their stretches and forces;
-/// total: out.
-void springForces(
-        const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal, SpringLanes* first, const SpringLanes* end, JointForce& total);
+/// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their
+/// stretches and forces; total: out.
+void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
+        SpringLanes* first, const SpringLanes* end, JointForce& total);
 
 /// Strength of a joint (section 3.2).
 struct JointStrength {
 	double strength; ///< P_max [N]
-	bool perJoint; ///< whether P_max is that of the joint: all springs break when the sum of their forces exceeds it; else of each spring
+	bool perJoint; ///< whether P_max is that of the joint: all springs break when the sum of their forces exceeds
+	               ///< it; else of each spring
 };
 bool isOverloaded(const JointStrength& limit, const JointForce& force);
 
@@ -103,8 +111,9 @@ struct JointMotion {
 	double h; ///< length of the step [s]
 };
 
-/// Breaks of an overloaded joint, in the order of its springs. springs: with the stretches and forces of springForces().
-std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit, const JointPlacement& placement, const Vec3& normal,
-        const JointSprings& springs, const JointMotion& motion);
+/// Breaks of an overloaded joint, in the order of its springs. springs: with the stretches and forces of
+/// springForces().
+std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit,
+        const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion);
 
 } // namespace timber

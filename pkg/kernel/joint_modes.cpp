@@ -14,7 +14,8 @@ namespace {
 	Mat6 stiffnessMatrix(const SpringGroup& springs, const Vec3& centre)
 	{
 		const Mat3 k = springs.stiffness.shear * Mat3::Identity()
-		        + (springs.stiffness.normal - springs.stiffness.shear) * springs.normal * springs.normal.transpose();
+		        + (springs.stiffness.normal - springs.stiffness.shear) * springs.normal
+		                * springs.normal.transpose();
 		Mat6 all = Mat6::Zero();
 		for (size_t i = 0; i < springs.broken.size(); ++i) {
 			if (springs.broken[i]) continue;
@@ -56,11 +57,13 @@ namespace {
 		const Vec3 arm = axesA * centre;
 		Mat6 axes = Mat6::Zero();
 		axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = axesA;
-		return axes.transpose() * (twistResponse(a, arm) + twistResponse(b, arm + a.position - b.position)) * axes;
+		return axes.transpose() * (twistResponse(a, arm) + twistResponse(b, arm + a.position - b.position))
+		        * axes;
 	}
 
 	/// w of these velocities and spins, in world axes.
-	[[gnu::always_inline]] inline Vec6 twist(const ModalConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+	[[gnu::always_inline]] inline Vec6 twist(
+	        const ModalConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
 	{
 		Vec6 w;
 		w.head<3>() = relativeVelocity<double>(c.armA, c.armB, vA, wA, vB, wB);
@@ -71,7 +74,8 @@ namespace {
 	/// x^T y of six numbers; x: every stride-th number. In pairs, so that the processor need not wait for each sum.
 	[[gnu::always_inline]] inline double dot(const double* x, int stride, const Vec6& y)
 	{
-		return (x[0] * y[0] + x[stride] * y[1]) + (x[2 * stride] * y[2] + x[3 * stride] * y[3]) + (x[4 * stride] * y[4] + x[5 * stride] * y[5]);
+		return (x[0] * y[0] + x[stride] * y[1]) + (x[2 * stride] * y[2] + x[3 * stride] * y[3])
+		        + (x[4 * stride] * y[4] + x[5 * stride] * y[5]);
 	}
 
 	/// Z^T times a twist in world axes.
@@ -94,7 +98,8 @@ namespace {
 		return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
 	}
 
-	[[gnu::always_inline]] inline void apply(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
+	[[gnu::always_inline]] inline void apply(
+	        const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
 	{
 		const JointImpulse P = impulseOf(c, q);
 		a.accelerate(-P.linear, -c.armA.cross(P.linear) - P.angular);
@@ -114,9 +119,11 @@ bool JointModes::haveAnchors(const SpringGroup& springs) const
 	return springs.count() > 0 && centreOf(springs) == centre && spreadOf(springs, centre) == spread;
 }
 
-JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs, const JointState& state)
+JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
+        const JointState& state)
 {
-	assert(isRotation(axesA) && isUnit(springs.normal) && springs.anchors.size() == springs.broken.size() && springs.count() > 0);
+	assert(isRotation(axesA) && isUnit(springs.normal) && springs.anchors.size() == springs.broken.size()
+	        && springs.count() > 0);
 	assert(springs.stiffness.normal > 0 && springs.stiffness.shear >= 0 && pairInverseMass(a, b) > 0);
 	JointModes result;
 	result.state = state;
@@ -124,13 +131,15 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	result.spread = spreadOf(springs, result.centre);
 	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
-	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt(); // rounding may make the eigenvalue of a free rotation negative
+	result.frequencies = solver.eigenvalues()
+	                             .cwiseMax(0)
+	                             .cwiseSqrt(); // rounding may make the eigenvalue of a free rotation negative
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
 	return result;
 }
 
-void prepareModes(
-        ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA, double ratio, double h, double stored)
+void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
+        const Mat3& axesA, double ratio, double h, double stored)
 {
 	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
 	c.modes = &modes;
@@ -176,7 +185,8 @@ void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotio
 void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
 	const Vec6 now = modalNow(c, a, b);
-	const double available = c.stored - c.impulse.dot(c.before + now) / 2, mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
+	const double available = c.stored - c.impulse.dot(c.before + now) / 2,
+	             mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
 	c.stored = std::min(available, mass);
 	c.dissipated = available - c.stored;
 }

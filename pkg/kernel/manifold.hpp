@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3). The manifold of a pair is the set of its contact points.
+/// Contact points between two rounded convex polyhedra (paper, section 2.2, Fig. 3). The manifold of a pair is the set
+/// of its contact points.
 ///
-/// Each point connects a feature of core A with a feature of core B. Its overlap is r_A + r_B - distance of the features.
-/// Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they cross inside both.
-/// A face resting on a face thus has a point per supported vertex and per crossing of border edges.
-/// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none, one point in
-/// the overlap region is used instead, so that the pair is always pushed apart.
-/// Flush members have vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
+/// Each point connects a feature of core A with a feature of core B. Its overlap is r_A + r_B - distance of the
+/// features. Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they
+/// cross inside both. A face resting on a face thus has a point per supported vertex and per crossing of border edges.
+/// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none,
+/// one point in the overlap region is used instead, so that the pair is always pushed apart. Flush members have
+/// vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
 #pragma once
 #include "polyhedron.hpp"
 #include <cassert>
@@ -17,9 +18,18 @@
 namespace timber {
 
 /// Kinds of the features of A and B in contact. Points of a manifold are in this order.
-enum class FeatureKind : std::uint8_t { VertexFace, FaceVertex, EdgeEdge, VertexEdge, EdgeVertex, VertexVertex, CoreCore };
+enum class FeatureKind : std::uint8_t {
+	VertexFace,
+	FaceVertex,
+	EdgeEdge,
+	VertexEdge,
+	EdgeVertex,
+	VertexVertex,
+	CoreCore
+};
 
-/// Identifies a contact point while the same two features are in contact; the history of a point is stored under its id.
+/// Identifies a contact point while the same two features are in contact; the history of a point is stored under its
+/// id.
 struct FeatureId {
 	std::uint32_t bits = ~0u; ///< kind (4 bits), index of A (14), index of B (14); default: no features
 	FeatureId() = default;
@@ -47,13 +57,17 @@ struct ContactPoint {
 struct Patterns {
 	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex contacts, which the paper ignores
 	bool flushSupports = true; ///< a vertex exactly above the border of a face is supported by the face
-	bool operator==(const Patterns& o) const { return vertexEdge == o.vertexEdge && flushSupports == o.flushSupports; }
+	bool operator==(const Patterns& o) const
+	{
+		return vertexEdge == o.vertexEdge && flushSupports == o.flushSupports;
+	}
 };
 
 /// Candidate features of a pair and the relative motion for which they are complete, as the skin of a Verlet list.
-/// The sum of two terms must not exceed `margin`: the displacement of B at `centre`, where the bodies are close, and the rotation of
-/// B times `regionRadius`. A slender member rocking on its end thus keeps its candidates although its far end moves a lot.
-/// The cache never changes a result: an empty one gives the same manifold. It is reset if the bodies or the patterns change.
+/// The sum of two terms must not exceed `margin`: the displacement of B at `centre`, where the bodies are close, and
+/// the rotation of B times `regionRadius`. A slender member rocking on its end thus keeps its candidates although its
+/// far end moves a lot. The cache never changes a result: an empty one gives the same manifold. It is reset if the
+/// bodies or the patterns change.
 struct CandidateCache {
 	unsigned long serialA = 0, serialB = 0; ///< of the bodies
 	Patterns patterns;
@@ -89,10 +103,10 @@ struct CandidateCache {
 	}
 };
 
-/// Finds the contact points with overlap > 0, sorted by id. The vertices of the bodies are in their body frames; poses are finite.
-/// points (in-out): those of the last update; non-empty means the pair was in contact.
-/// Returns a safe displacement: how far the bodies can move relative to each other before there can be a point; 0: unknown. [m]
-double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns,
-        CandidateCache& cache, std::vector<ContactPoint>& points);
+/// Finds the contact points with overlap > 0, sorted by id. The vertices of the bodies are in their body frames; poses
+/// are finite. points (in-out): those of the last update; non-empty means the pair was in contact. Returns a safe
+/// displacement: how far the bodies can move relative to each other before there can be a point; 0: unknown. [m]
+double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
+        const Patterns& patterns, CandidateCache& cache, std::vector<ContactPoint>& points);
 
 } // namespace timber

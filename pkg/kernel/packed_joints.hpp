@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The numbers of all joints of a scene that a step needs, side by side in memory: attributes of a joint are scattered, and reading them takes
-/// most of the time of a joint. Adapter: JointEngine (pkg/JointEngine.hpp).
+/// The numbers of all joints of a scene that a step needs, side by side in memory: attributes of a joint are scattered,
+/// and reading them takes most of the time of a joint. Adapter: JointEngine (pkg/JointEngine.hpp).
 #pragma once
 #include "joint_law.hpp"
 

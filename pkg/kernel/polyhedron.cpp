@@ -24,23 +24,27 @@ namespace {
 		double scale = 0;
 		const auto inside = [&](const Vec3& p) {
 			const double distance = p.norm();
-			return std::all_of(planes.begin(), planes.end(),
-			        [&](const HalfSpace& h) { return h.normal.dot(p) - h.offset <= 1e-9 * (std::abs(h.offset) + distance); });
+			return std::all_of(planes.begin(), planes.end(), [&](const HalfSpace& h) {
+				return h.normal.dot(p) - h.offset <= 1e-9 * (std::abs(h.offset) + distance);
+			});
 		};
 		for (size_t a = 0; a < planes.size(); ++a)
 			for (size_t b = a + 1; b < planes.size(); ++b)
 				for (size_t c = b + 1; c < planes.size(); ++c) {
 					Mat3 normals;
-					normals << planes[a].normal.transpose(), planes[b].normal.transpose(), planes[c].normal.transpose();
+					normals << planes[a].normal.transpose(), planes[b].normal.transpose(),
+					        planes[c].normal.transpose();
 					if (std::abs(normals.determinant()) < 1e-9) continue;
-					const Vec3 p = normals.inverse() * Vec3(planes[a].offset, planes[b].offset, planes[c].offset);
+					const Vec3 p = normals.inverse()
+					        * Vec3(planes[a].offset, planes[b].offset, planes[c].offset);
 					if (!inside(p)) continue;
 					corners.push_back(p);
 					scale = std::max(scale, (p - corners.front()).norm());
 				}
 		std::vector<Vec3> distinct;
 		for (const Vec3& p : corners)
-			if (std::none_of(distinct.begin(), distinct.end(), [&](const Vec3& q) { return (p - q).norm() <= 4 * planarShare * scale; }))
+			if (std::none_of(distinct.begin(), distinct.end(),
+			            [&](const Vec3& q) { return (p - q).norm() <= 4 * planarShare * scale; }))
 				distinct.push_back(p);
 		return distinct;
 	}
@@ -51,10 +55,13 @@ namespace {
 		const std::vector<Vec3> corners = cornerPoints(planes);
 		if (corners.size() < 4) throw PolyhedronError("the half-spaces enclose no volume");
 		Polyhedron body = closedConvexHull(corners);
-		for (const Face& face : body.faces) { // an unbounded intersection has a closing face that is none of the planes
-			const bool given
-			        = std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
-			if (!given) throw PolyhedronError("the half-spaces do not bound a volume in the direction " + toText(face.plane.normal));
+		for (const Face& face :
+		        body.faces) { // an unbounded intersection has a closing face that is none of the planes
+			const bool given = std::any_of(planes.begin(), planes.end(),
+			        [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
+			if (!given)
+				throw PolyhedronError("the half-spaces do not bound a volume in the direction "
+				        + toText(face.plane.normal));
 		}
 		return body;
 	}
@@ -75,8 +82,9 @@ namespace {
 		const Sphere largest = inscribedSphere(innerPlanes(sharp, 0), sharp.vertices.front(), size);
 		if (radius >= largest.radius - tolerance) {
 			std::ostringstream what;
-			what << "rounding radius " << radius << " m leaves no core: it must be below the radius of the inscribed sphere, " << largest.radius
-			     << " m";
+			what << "rounding radius " << radius
+			     << " m leaves no core: it must be below the radius of the inscribed sphere, "
+			     << largest.radius << " m";
 			throw PolyhedronError(what.str());
 		}
 		return intersectionAround(largest.centre, innerPlanes(sharp, radius), 4 * tolerance);
@@ -86,9 +94,11 @@ namespace {
 
 Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 {
-	if (points.size() < 4) throw PolyhedronError("a polyhedron has at least 4 vertices, got " + std::to_string(points.size()));
+	if (points.size() < 4)
+		throw PolyhedronError("a polyhedron has at least 4 vertices, got " + std::to_string(points.size()));
 	if (points.size() > maxVertices)
-		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got " + std::to_string(points.size())
+		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got "
+		        + std::to_string(points.size())
 		        + ": the time of a contact grows with the third power of their number");
 	checkPoints(points);
 	try {
@@ -100,12 +110,15 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 
 Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
 {
-	if (planes.size() > maxFaces) throw PolyhedronError("at most " + std::to_string(maxFaces) + " half-spaces, got " + std::to_string(planes.size()));
+	if (planes.size() > maxFaces)
+		throw PolyhedronError(
+		        "at most " + std::to_string(maxFaces) + " half-spaces, got " + std::to_string(planes.size()));
 	std::vector<HalfSpace> units;
 	for (size_t k = 0; k < planes.size(); ++k) {
 		const double length = planes[k].normal.norm();
 		if (!std::isfinite(length) || !std::isfinite(planes[k].offset) || length == 0)
-			throw PolyhedronError("half-space " + std::to_string(k) + " has no finite unit normal and offset");
+			throw PolyhedronError(
+			        "half-space " + std::to_string(k) + " has no finite unit normal and offset");
 		units.push_back({ planes[k].normal / length, planes[k].offset / length });
 	}
 	return intersectionOf(units);
@@ -140,7 +153,8 @@ namespace {
 		std::vector<Triangle> triangles;
 		for (const Face& face : body.faces) {
 			for (const int k : face.corners)
-				if (std::abs(face.plane.normal.dot(body.vertices[k]) - face.plane.offset) > rounding) return hullTriangles(body.vertices);
+				if (std::abs(face.plane.normal.dot(body.vertices[k]) - face.plane.offset) > rounding)
+					return hullTriangles(body.vertices);
 			for (size_t k = 1; k + 1 < face.corners.size(); ++k)
 				triangles.push_back({ face.corners[0], face.corners[k], face.corners[k + 1] });
 		}
@@ -158,12 +172,14 @@ MassProperties massProperties(const Polyhedron& body)
 	Vec3 first = Vec3::Zero();
 	Mat3 second = Mat3::Zero();
 	for (const Triangle& t : surfaceOf(body)) {
-		const Vec3 a = body.vertices[t[0]] - origin, b = body.vertices[t[1]] - origin, c = body.vertices[t[2]] - origin;
+		const Vec3 a = body.vertices[t[0]] - origin, b = body.vertices[t[1]] - origin,
+		           c = body.vertices[t[2]] - origin;
 		const double part = a.dot(b.cross(c)) / 6;
 		const Vec3 sum = a + b + c;
 		volume += part;
 		first += part / 4 * sum;
-		second += part / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+		second += part / 20
+		        * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
 	}
 	const Vec3 centre = first / volume;
 	const Mat3 central = second - volume * centre * centre.transpose();
@@ -175,10 +191,12 @@ MassProperties massProperties(const Polyhedron& body)
 Mat3 principalAxes(const Mat3& inertia)
 {
 	assert(inertia.allFinite());
-	const double offDiagonal = std::max({ std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2)) });
+	const double offDiagonal
+	        = std::max({ std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2)) });
 	if (offDiagonal <= 1e-12 * inertia.trace()) return Mat3::Identity();
 	const Mat3 found = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
-	constexpr std::array<std::array<int, 3>, 6> orders { { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } } };
+	constexpr std::array<std::array<int, 3>, 6> orders { { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 },
+		{ 2, 0, 1 }, { 2, 1, 0 } } };
 	Mat3 best = found;
 	double alignment = -1;
 	for (const auto& order : orders) {
@@ -193,8 +211,8 @@ Mat3 principalAxes(const Mat3& inertia)
 	return best;
 }
 
-/// Slightly warped faces split into triangles. The cores of these have clusters of corners, or do not close. The planarity tolerance
-/// is therefore increased while two corners of the core are too close to be two contacts.
+/// Slightly warped faces split into triangles. The cores of these have clusters of corners, or do not close. The
+/// planarity tolerance is therefore increased while two corners of the core are too close to be two contacts.
 RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 {
 	assert(std::isfinite(radius));
@@ -205,7 +223,9 @@ RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 	bool isDistinct = false; // corners of the core
 	for (double share = planarShare; !isDistinct && share < 2 * warpShare; share *= 10)
 		try {
-			Polyhedron planar = share > planarShare ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices)) : sharp,
+			Polyhedron planar = share > planarShare
+			        ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices))
+			        : sharp,
 			           core = Polyhedron::fromHalfSpaces(innerPlanes(planar, body.radius));
 			isDistinct = core.shortestEdge() > 2 * flushTolerance;
 			if (!isDistinct && !body.core.vertices.empty()) continue;

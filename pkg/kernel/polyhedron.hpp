@@ -23,7 +23,8 @@ struct Face {
 	HalfSpace plane;
 	std::vector<int> corners; ///< vertex indices, counter-clockwise seen from outside
 	std::vector<HalfSpace> sidePlanes; ///< through corners k and k+1; normal in the face, outwards
-	std::vector<HalfSpace> bevelPlanes; ///< through corner k; normal: bisector of the normals of its two side planes
+	std::vector<HalfSpace>
+	        bevelPlanes; ///< through corner k; normal: bisector of the normals of its two side planes
 };
 
 struct Edge {
@@ -41,11 +42,13 @@ struct Polyhedron {
 	std::vector<Edge> edges;
 
 	/// Polyhedron with these corners [m]; each point must be a corner of the convex hull.
-	/// Points within a tolerance of a plane form one face (planarShare; up to warpShare if the faces do not close otherwise).
-	/// Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are not finite; an extent outside
-	/// smallestSize ... largestSize; coincident points; coplanar points; a point that is not a corner.
+	/// Points within a tolerance of a plane form one face (planarShare; up to warpShare if the faces do not close
+	/// otherwise). Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are
+	/// not finite; an extent outside smallestSize ... largestSize; coincident points; coplanar points; a point that
+	/// is not a corner.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
-	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if it is empty, flat or unbounded.
+	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if it is empty, flat
+	/// or unbounded.
 	static Polyhedron fromHalfSpaces(const std::vector<HalfSpace>& planes);
 
 	double shortestEdge() const; ///< [m]
@@ -60,12 +63,12 @@ struct MassProperties {
 };
 MassProperties massProperties(const Polyhedron& body);
 
-/// Rotation whose columns are the principal axes, right-handed. Among equivalent choices the one closest to the given axes
-/// (identity for an axis-aligned box and for a cube). inertia: symmetric.
+/// Rotation whose columns are the principal axes, right-handed. Among equivalent choices the one closest to the given
+/// axes (identity for an axis-aligned box and for a cube). inertia: symmetric.
 Mat3 principalAxes(const Mat3& inertia);
 
-/// Minkowski sum of an inner core and a ball. The outer faces coincide with those of the sharp polyhedron; vertices become
-/// 1/8 spheres and edges 1/4 cylinders.
+/// Minkowski sum of an inner core and a ball. The outer faces coincide with those of the sharp polyhedron; vertices
+/// become 1/8 spheres and edges 1/4 cylinders.
 struct RoundedPolyhedron {
 	Polyhedron sharp; ///< the element with sharp edges
 	Polyhedron core; ///< faces of `sharp` moved inwards by `radius`

@@ -32,6 +32,9 @@ template <class Number> bool isUnit(const Eigen::Matrix<Number, 3, 1>& n)
 inline bool isRotation(const Mat3& m) { return (m * m.transpose() - Mat3::Identity()).norm() < 1e-9; }
 
 /// Finite, with a unit quaternion.
-inline bool isAdmissible(const Pose& p) { return isFinite(p.position) && std::abs(p.orientation.squaredNorm() - 1) < 1e-9; }
+inline bool isAdmissible(const Pose& p)
+{
+	return isFinite(p.position) && std::abs(p.orientation.squaredNorm() - 1) < 1e-9;
+}
 
 } // namespace timber

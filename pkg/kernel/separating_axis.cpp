@@ -60,7 +60,8 @@ namespace {
 
 } // namespace
 
-double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis, double sufficientGap)
+double coreGap(const Polyhedron& a, const Polyhedron& b, const Mat3& rotation, const Vec3& translation, Vec3& axis,
+        double sufficientGap)
 {
 	assert(a.faces.size() >= 4 && b.faces.size() >= 4);
 	assert(isRotation(rotation) && isFinite(translation));

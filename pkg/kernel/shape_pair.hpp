@@ -16,9 +16,11 @@ struct ShapePair {
 	Mat3 rotation;
 	Vec3 translation;
 	Patterns patterns;
-	double gap = 0; ///< between the cores; < 0: they overlap (deep contact); 0 if they are known to be separated [m]
+	double gap
+	        = 0; ///< between the cores; < 0: they overlap (deep contact); 0 if they are known to be separated [m]
 	Vec3 axis = Vec3::Zero(); ///< of least overlap, unit, from A to B; only in deep contact
-	int supportFaceA = -1, supportFaceB = -1; ///< faces of A towards B and of B towards A along the axis; only in deep contact
+	int supportFaceA = -1,
+	    supportFaceB = -1; ///< faces of A towards B and of B towards A along the axis; only in deep contact
 
 	bool isDeep() const { return gap < 0; }
 	/// Distance of the cores at which the rounded surfaces touch. [m]
@@ -30,7 +32,10 @@ struct ShapePair {
 	{
 		return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation));
 	}
-	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const { return broadcast<Number>(rotation) * x + broadcast<Number>(translation); }
+	template <class Number> Vec3Of<Number> toA(const Vec3Of<Number>& x) const
+	{
+		return broadcast<Number>(rotation) * x + broadcast<Number>(translation);
+	}
 };
 
 /// Closest points of two lines.
@@ -42,7 +47,8 @@ template <class Number> struct Crossing {
 
 /// Directions are unit vectors.
 template <class Number>
-Crossing<Number> crossing(const Vec3Of<Number>& originA, const Vec3Of<Number>& directionA, const Vec3Of<Number>& originB, const Vec3Of<Number>& directionB)
+Crossing<Number> crossing(const Vec3Of<Number>& originA, const Vec3Of<Number>& directionA,
+        const Vec3Of<Number>& originB, const Vec3Of<Number>& directionB)
 {
 	Crossing<Number> c;
 	const Vec3Of<Number> n = directionA.cross(directionB);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// SIMD vectors of doubles: the points of a contact, the springs of a joint, the rotations of bodies. Formulas are templates over Number,
-/// double or Lanes; SIMD results are bitwise identical to scalar ones. Calls pass Lanes through memory: small functions with many of them
-/// are always inlined.
+/// SIMD vectors of doubles: the points of a contact, the springs of a joint, the rotations of bodies. Formulas are
+/// templates over Number, double or Lanes; SIMD results are bitwise identical to scalar ones. Calls pass Lanes through
+/// memory: small functions with many of them are always inlined.
 #pragma once
 #include "types.hpp"
 #include <algorithm>
@@ -22,7 +22,8 @@ constexpr int laneCount = 2;
 
 struct Lanes {
 	typedef double Vector __attribute__((vector_size(laneCount * sizeof(double))));
-	typedef std::int64_t Mask __attribute__((vector_size(laneCount * sizeof(double)))); ///< each lane: all bits set (true) or none (false)
+	typedef std::int64_t Mask __attribute__((
+	        vector_size(laneCount * sizeof(double)))); ///< each lane: all bits set (true) or none (false)
 
 	Vector v;
 
@@ -82,7 +83,8 @@ using Vec3s = Vec3Of<Lanes>;
 /// a where the condition is true, b elsewhere. Both are evaluated.
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
 inline Lanes select(Lanes::Mask condition, Lanes a, Lanes b) { return Lanes(condition ? a.v : b.v); }
-template <class Condition, class Number> Vec3Of<Number> select(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
+template <class Condition, class Number>
+Vec3Of<Number> select(Condition condition, const Vec3Of<Number>& a, const Vec3Of<Number>& b)
 {
 	return { select(condition, a.x(), b.x()), select(condition, a.y(), b.y()), select(condition, a.z(), b.z()) };
 }
@@ -106,9 +108,14 @@ inline bool any(Lanes::Mask condition)
 #endif
 }
 
-/// select() for expensive values: first() is evaluated only if any lane needs it; for a double, only the selected one is.
-template <class First, class Other> auto selectLazily(bool condition, First first, Other other) -> decltype(other()) { return condition ? first() : other(); }
-template <class First, class Other> auto selectLazily(Lanes::Mask condition, First first, Other other) -> decltype(other())
+/// select() for expensive values: first() is evaluated only if any lane needs it; for a double, only the selected one
+/// is.
+template <class First, class Other> auto selectLazily(bool condition, First first, Other other) -> decltype(other())
+{
+	return condition ? first() : other();
+}
+template <class First, class Other>
+auto selectLazily(Lanes::Mask condition, First first, Other other) -> decltype(other())
 {
 	return any(condition) ? select(condition, first(), other()) : other();
 }
@@ -162,8 +169,10 @@ inline void transpose(Lanes* x)
 {
 	const auto v = [x](int k) { return x[k].v; };
 #if defined(__AVX2__)
-	const Lanes::Vector even01 = __builtin_shufflevector(v(0), v(1), 0, 4, 2, 6), odd01 = __builtin_shufflevector(v(0), v(1), 1, 5, 3, 7);
-	const Lanes::Vector even23 = __builtin_shufflevector(v(2), v(3), 0, 4, 2, 6), odd23 = __builtin_shufflevector(v(2), v(3), 1, 5, 3, 7);
+	const Lanes::Vector even01 = __builtin_shufflevector(v(0), v(1), 0, 4, 2, 6),
+	                    odd01 = __builtin_shufflevector(v(0), v(1), 1, 5, 3, 7);
+	const Lanes::Vector even23 = __builtin_shufflevector(v(2), v(3), 0, 4, 2, 6),
+	                    odd23 = __builtin_shufflevector(v(2), v(3), 1, 5, 3, 7);
 	x[0].v = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
 	x[1].v = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
 	x[2].v = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
@@ -178,11 +187,13 @@ inline void transpose(Lanes* x)
 /// Number of groups of laneCount for that many items.
 constexpr size_t groupsOf(size_t count) { return (count + laneCount - 1) / laneCount; }
 
-/// N sums over items that are processed in lanes. Each sum adds item by item, in the order of a scalar loop; the N sums are vectorised.
+/// N sums over items that are processed in lanes. Each sum adds item by item, in the order of a scalar loop; the N sums
+/// are vectorised.
 template <size_t N> class Sums {
 	Lanes total[groupsOf(N)];
 
-	template <class Part> static constexpr size_t sizeOf = std::is_same_v<Part, double> || std::is_same_v<Part, Lanes> ? 1 : 3;
+	template <class Part>
+	static constexpr size_t sizeOf = std::is_same_v<Part, double> || std::is_same_v<Part, Lanes> ? 1 : 3;
 	template <class Number> static void put(Number*& to, Number x) { *to++ = x; }
 	template <class Number> static void put(Number*& to, const Vec3Of<Number>& x)
 	{
@@ -222,8 +233,8 @@ public:
 	Vec3 vector(size_t k) const { return { (*this)[k], (*this)[k + 1], (*this)[k + 2] }; }
 };
 
-/// work(number, k) for `count` items in groups of laneCount: k is the first item of a group, the type of `number` the Number to use: Lanes,
-/// or double for a single last item.
+/// work(number, k) for `count` items in groups of laneCount: k is the first item of a group, the type of `number` the
+/// Number to use: Lanes, or double for a single last item.
 template <class Work> void inLanes(size_t count, Work work)
 {
 	for (size_t k = 0; k < count; k += laneCount)
@@ -231,8 +242,8 @@ template <class Work> void inLanes(size_t count, Work work)
 		else work(Lanes(), k);
 }
 
-/// Gather and scatter: structures or vectors in memory, one for each lane. Unused lanes load the last item; set() stores lanes in
-/// descending order, so that the last item gets the value of its own lane.
+/// Gather and scatter: structures or vectors in memory, one for each lane. Unused lanes load the last item; set()
+/// stores lanes in descending order, so that the last item gets the value of its own lane.
 template <class Number, class Item> class Group {
 	Item* item[laneCount];
 
@@ -295,7 +306,8 @@ public:
 	{
 		return gathered([&](int i) { return (item[i]->*member)[k]; });
 	}
-	template <class Value, class Class, class Wide> [[gnu::always_inline]] void set(Value Class::*member, const Wide& x) const
+	template <class Value, class Class, class Wide>
+	[[gnu::always_inline]] void set(Value Class::*member, const Wide& x) const
 	{
 		for (int i = laneCount; i-- > 0;)
 			item[i]->*member = lane(x, i);

@@ -17,8 +17,10 @@ const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>&
 	for (const BackbonePoint& point : points) {
 		if (!(std::isfinite(point.stretch) && std::isfinite(point.force))) return "finite";
 		if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
-		if (&point == &points.back() ? point.force != 0 : !(point.force > 0)) return "of forces > 0, the last one 0";
-		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch)) return "nowhere steeper than kn";
+		if (&point == &points.back() ? point.force != 0 : !(point.force > 0))
+			return "of forces > 0, the last one 0";
+		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch))
+			return "nowhere steeper than kn";
 		last = point;
 	}
 	return nullptr;
@@ -56,8 +58,10 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
 	const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
 	const double largest = std::max(history.largest, r);
-	const SlipLaw::Slack now = law.slackAt(largest), before = largest > history.largest ? law.slackAt(history.largest) : now;
-	const double limit = largest - now.slack, slackGrowth = now.slack - before.slack, growth = now.limitIntegral - before.limitIntegral;
+	const SlipLaw::Slack now = law.slackAt(largest),
+	                     before = largest > history.largest ? law.slackAt(history.largest) : now;
+	const double limit = largest - now.slack, slackGrowth = now.slack - before.slack,
+	             growth = now.limitIntegral - before.limitIntegral;
 	const double mean = slackGrowth > 0 ? growth / slackGrowth : limit;
 
 	Vec3 elastic = stretch - history.plastic;
@@ -66,14 +70,17 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 	const Vec3 plastic = flow > 0 ? Vec3(stretch - elastic) : history.plastic;
 
 	const double slip = std::max(0., r - now.slack), along = slip > 0 ? slip / r : 0;
-	return { k * (phi * elastic + (1 - phi) * along * stretch), k / 2 * (phi * elastic.squaredNorm() + (1 - phi) * slip * slip),
+	return { k * (phi * elastic + (1 - phi) * along * stretch),
+		k / 2 * (phi * elastic.squaredNorm() + (1 - phi) * slip * slip),
 		k * (phi * mean * flow + (1 - phi) * growth), { plastic, largest } };
 }
 
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs, const SlipHistories& histories)
+JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis,
+        const JointSprings& springs, const SlipHistories& histories)
 {
 	assert(axis.isZero() || isUnit(axis));
-	assert(isFinite(placement.distance) && histories.plastic.size() == springs.broken.size() && histories.largest.size() == springs.broken.size());
+	assert(isFinite(placement.distance) && histories.plastic.size() == springs.broken.size()
+	        && histories.largest.size() == springs.broken.size());
 	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
@@ -81,14 +88,16 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
 		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
 		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
-		const SlipForce f = slipForce(law, { histories.plastic[i], histories.largest[i] }, placement.axesA.transpose() * stretch);
+		const SlipForce f = slipForce(
+		        law, { histories.plastic[i], histories.largest[i] }, placement.axesA.transpose() * stretch);
 		const Vec3 force = placement.axesA * f.force;
 		springs.stretches[i] = stretch;
 		springs.forces[i] = force;
 		histories.plastic[i] = f.history.plastic;
 		histories.largest[i] = f.history.largest;
 		total.force += force;
-		total.torqueA += end.cross(force); // the force is not along the stretch: it acts on both bodies at the anchor of B
+		total.torqueA += end.cross(
+		        force); // the force is not along the stretch: it acts on both bodies at the anchor of B
 		total.torqueB -= armB.cross(force);
 		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
 		total.sum += force.norm();
@@ -98,15 +107,16 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 	return total;
 }
 
-std::vector<SpringBreak> slipBreaks(
-        const SlipLaw& law, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const SlipHistories& histories)
+std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& placement, const Vec3& normal,
+        const JointSprings& springs, const SlipHistories& histories)
 {
 	assert(law.isValid() && isUnit(normal));
 	std::vector<SpringBreak> breaks;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
 		if (springs.broken[i] || histories.largest[i] < law.ultimateStretch()) continue;
 		const JointStiffness k { law.stiffness, law.stiffness };
-		breaks.push_back({ i, breakCause(springForce<double>(k, springs.stretches[i], placement.axesA * normal)), 0, 0 });
+		breaks.push_back({ i,
+		        breakCause(springForce<double>(k, springs.stretches[i], placement.axesA * normal)), 0, 0 });
 	}
 	return breaks;
 }

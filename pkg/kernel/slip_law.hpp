@@ -1,44 +1,48 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Yielding joint spring: backbone with slip, as used for nailed and plated timber joints and for walls (law: slip), isotropic in three
-/// dimensions. Adapter: JointEngine (pkg/JointEngine.hpp). Signs as in joint_law.hpp.
+/// Yielding joint spring: backbone with slip, as used for nailed and plated timber joints and for walls (law: slip),
+/// isotropic in three dimensions. Adapter: JointEngine (pkg/JointEngine.hpp). Signs as in joint_law.hpp.
 ///
-/// Parameters: k stiffness of unloading, phi friction share, B(r) backbone: force of the first loading, straight lines from the origin through
-/// given points to zero force at the ultimate stretch d_u; none is steeper than k. Bilinear with loss of strength: the points (F/k, F),
-/// (d_c, F), (d_u, 0) with the yield force F and the softening stretch d_c.
+/// Parameters: k stiffness of unloading, phi friction share, B(r) backbone: force of the first loading, straight lines
+/// from the origin through given points to zero force at the ultimate stretch d_u; none is steeper than k. Bilinear
+/// with loss of strength: the points (F/k, F), (d_c, F), (d_u, 0) with the yield force F and the softening stretch d_c.
 /// State: p plastic stretch (vector), R largest length of the stretch so far. d is the stretch, r = |d|.
 ///
 ///     y(R) = B(R) / k          elastic limit of both parts [m]
 ///     s(R) = R - y(R)          slack of the slip part [m], which does not fall
 ///
-/// Friction part (share phi): elastic and perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p moves along e
-/// (radial return). It gives parallelogram loops, which dissipate energy in every cycle.
-/// Slip part (share 1 - phi): acts along d with the elastic stretch x = max(0, r - s), a nail in a hole that has widened to s. It has no force
-/// within the slack (pinching) and returns on the same line to the backbone. At constant R it is conservative: it dissipates as R grows.
+/// Friction part (share phi): elastic and perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p
+/// moves along e (radial return). It gives parallelogram loops, which dissipate energy in every cycle. Slip part (share
+/// 1 - phi): acts along d with the elastic stretch x = max(0, r - s), a nail in a hole that has widened to s. It has no
+/// force within the slack (pinching) and returns on the same line to the backbone. At constant R it is conservative: it
+/// dissipates as R grows.
 ///
 ///     force      = phi k e + (1 - phi) k x d / r
 ///     stored     = k/2 (phi e^2 + (1 - phi) x^2)
 ///     dissipated = k (phi integral y |dp| + (1 - phi) P(R))        P(R) = integral y ds
 ///
-/// Balance. Friction part: e.dd = e.de + y |dp|, because dp is parallel to e and |e| = y while it yields. Slip part: on the backbone x = y
-/// and R = s + y, so that y dR = y dy + y ds; elsewhere s is constant. Both dissipate at no negative rate.
-/// First loading along a line gives the backbone. At d_u all work is dissipated: the area under it.
+/// Balance. Friction part: e.dd = e.de + y |dp|, because dp is parallel to e and |e| = y while it yields. Slip part: on
+/// the backbone x = y and R = s + y, so that y dR = y dy + y ds; elsewhere s is constant. Both dissipate at no negative
+/// rate. First loading along a line gives the backbone. At d_u all work is dissipated: the area under it.
 ///
 /// Update for a straight path from the previous to the new stretch, whose largest length is at an end:
 ///     1. R grows to r; y, s and P follow in closed form;
 ///     2. radial return of e to y(R);
-///     3. dissipated energy k (phi m |dp| + (1 - phi) dP), with m = dP / ds the mean elastic limit while s grows, else y.
-/// Radial paths: forces and history do not depend on the length of the steps. Energies do not, either, but for a step that begins below R and
-/// ends beyond R where y changes. Other paths: error of first order in forces (radial return), of second order in the energy balance.
+///     3. dissipated energy k (phi m |dp| + (1 - phi) dP), with m = dP / ds the mean elastic limit while s grows, else
+///     y.
+/// Radial paths: forces and history do not depend on the length of the steps. Energies do not, either, but for a step
+/// that begins below R and ends beyond R where y changes. Other paths: error of first order in forces (radial return),
+/// of second order in the energy balance.
 ///
-/// Springs that act along one axis of body A only, as those of a wall in its plane: d is the projection of the stretch on the axis.
+/// Springs that act along one axis of body A only, as those of a wall in its plane: d is the projection of the stretch
+/// on the axis.
 ///
-/// Frames. d, p and the force are in the frame of body A, so that the history turns with the body. The force acts on both bodies at the anchor
-/// of B. Its power is then that of the rate of d in the frame of A: the balance is exact and angular momentum is conserved, although the
-/// force is not parallel to the stretch. With the bodies swapped, p would turn with the other body. The results differ by the rotation
-/// of the bodies relative to each other since p arose.
+/// Frames. d, p and the force are in the frame of body A, so that the history turns with the body. The force acts on
+/// both bodies at the anchor of B. Its power is then that of the rate of d in the frame of A: the balance is exact and
+/// angular momentum is conserved, although the force is not parallel to the stretch. With the bodies swapped, p would
+/// turn with the other body. The results differ by the rotation of the bodies relative to each other since p arose.
 ///
-/// Sources: joints of timber-frame houses as elements with slip: Nakagawa, Ohta, Tsuchimoto and Kawai, J. Wood Sci. 56 (2010) 284-292;
-/// radial return: Simo and Hughes, Computational Inelasticity (1998), section 3.3.
+/// Sources: joints of timber-frame houses as elements with slip: Nakagawa, Ohta, Tsuchimoto and Kawai, J. Wood Sci. 56
+/// (2010) 284-292; radial return: Simo and Hughes, Computational Inelasticity (1998), section 3.3.
 #pragma once
 #include "joint_law.hpp"
 
@@ -69,8 +73,10 @@ public:
 	/// points: behind the origin; their stretches ascend, the last one has no force.
 	SlipLaw(double stiffness, double frictionShare, const std::vector<BackbonePoint>& points);
 	/// Bilinear, with loss of strength.
-	SlipLaw(double stiffness, double strength, double frictionShare, double softeningStretch, double ultimateStretch)
-	        : SlipLaw(stiffness, frictionShare, { { strength / stiffness, strength }, { softeningStretch, strength }, { ultimateStretch, 0 } })
+	SlipLaw(double stiffness, double strength, double frictionShare, double softeningStretch,
+	        double ultimateStretch)
+	        : SlipLaw(stiffness, frictionShare,
+	                { { strength / stiffness, strength }, { softeningStretch, strength }, { ultimateStretch, 0 } })
 	{
 	}
 
@@ -98,7 +104,8 @@ struct SlipForce {
 	SlipHistory history; ///< after the update
 };
 
-/// stretch: anchor of B minus anchor of A, in the frame of A [m]. An update with the same stretch again changes nothing.
+/// stretch: anchor of B minus anchor of A, in the frame of A [m]. An update with the same stretch again changes
+/// nothing.
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch);
 
 /// Histories of a joint's springs, one entry each.
@@ -109,10 +116,11 @@ struct SlipHistories {
 
 /// Stretches, forces and new histories of a joint's unbroken springs. The entries of broken springs stay as they are.
 /// axis: unit vector in the frame of A, on which the stretches are projected; zero: the springs act in all directions.
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs, const SlipHistories& histories);
+JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis,
+        const JointSprings& springs, const SlipHistories& histories);
 
 /// Springs that have reached the ultimate stretch, in their order. They have no force and no energy left.
-std::vector<SpringBreak> slipBreaks(
-        const SlipLaw& law, const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const SlipHistories& histories);
+std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& placement, const Vec3& normal,
+        const JointSprings& springs, const SlipHistories& histories);
 
 } // namespace timber

@@ -24,8 +24,8 @@ inline Mat3 crossMatrix(const Vec3& v)
 	return m;
 }
 
-/// Inverse effective mass of a body at a point: change of the point's velocity per unit impulse, 1/m - [r] I^-1 [r]. [1/kg]
-/// arm: r, from the centre of mass to the point [m].
+/// Inverse effective mass of a body at a point: change of the point's velocity per unit impulse, 1/m - [r] I^-1 [r].
+/// [1/kg] arm: r, from the centre of mass to the point [m].
 inline Mat3 bodyResponse(const SolverBody& body, const Vec3& arm)
 {
 	const Mat3 s = crossMatrix(arm);
@@ -58,8 +58,8 @@ struct InverseRootMass {
 	template <class Number> Vec3Of<Number> weightedTorque(const Vec3Of<Number>& t) const
 	{
 		const Mat3& L = angular;
-		return { Number(L(0, 0)) * t.x() + Number(L(1, 0)) * t.y() + Number(L(2, 0)) * t.z(), Number(L(1, 1)) * t.y() + Number(L(2, 1)) * t.z(),
-			Number(L(2, 2)) * t.z() };
+		return { Number(L(0, 0)) * t.x() + Number(L(1, 0)) * t.y() + Number(L(2, 0)) * t.z(),
+			Number(L(1, 1)) * t.y() + Number(L(2, 1)) * t.z(), Number(L(2, 2)) * t.z() };
 	}
 	/// Mass-weighted spin: R^-1 times a spin. [kg^1/2 m/s]
 	Vec3 weightedSpin(const Vec3& spin) const
@@ -73,7 +73,8 @@ struct InverseRootMass {
 	Vec3 spinOf(const double* w) const
 	{
 		const Mat3& L = angular;
-		return { L(0, 0) * w[0], L(1, 0) * w[0] + L(1, 1) * w[1], L(2, 0) * w[0] + L(2, 1) * w[1] + L(2, 2) * w[2] };
+		return { L(0, 0) * w[0], L(1, 0) * w[0] + L(1, 1) * w[1],
+			L(2, 0) * w[0] + L(2, 1) * w[1] + L(2, 2) * w[2] };
 	}
 };
 
@@ -89,7 +90,11 @@ struct BodyMotion {
 	const SolverBody& start; ///< before the sweeps
 	WeightedBody& weighted;
 
-	Vec3 velocity() const { return start.newVelocity + weighted.root.linear * Vec3(weighted.change[0], weighted.change[1], weighted.change[2]); }
+	Vec3 velocity() const
+	{
+		return start.newVelocity
+		        + weighted.root.linear * Vec3(weighted.change[0], weighted.change[1], weighted.change[2]);
+	}
 	Vec3 spin() const { return start.newSpin + weighted.root.spinOf(weighted.change + 3); }
 	/// Applies an impulse and an angular impulse about the centre.
 	void accelerate(const Vec3& impulse, const Vec3& angular) const
@@ -109,7 +114,8 @@ struct PairVector {
 
 	static PairVector of(const double* a, const double* b)
 	{
-		return { { Quad { a[0], a[1], a[2], a[3] }, Quad { a[4], a[5], b[0], b[1] }, Quad { b[2], b[3], b[4], b[5] } } };
+		return { { Quad { a[0], a[1], a[2], a[3] }, Quad { a[4], a[5], b[0], b[1] },
+			Quad { b[2], b[3], b[4], b[5] } } };
 	}
 	void store(double* a, double* b) const
 	{
@@ -119,13 +125,18 @@ struct PairVector {
 		}
 	}
 	/// Four partial sums of the scalar product.
-	[[gnu::always_inline]] Quad partialDot(const PairVector& o) const { return part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2]; }
+	[[gnu::always_inline]] Quad partialDot(const PairVector& o) const
+	{
+		return part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2];
+	}
 	/// Scalar products with three vectors, and 0.
 	[[gnu::always_inline]] Quad dots(const PairVector (&rows)[3]) const
 	{
-		const Quad a = rows[0].partialDot(*this), b = rows[1].partialDot(*this), c = rows[2].partialDot(*this), zero = {};
+		const Quad a = rows[0].partialDot(*this), b = rows[1].partialDot(*this), c = rows[2].partialDot(*this),
+		           zero = {};
 		const Quad ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-		const Quad c0 = __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
+		const Quad c0
+		        = __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
 		return __builtin_shufflevector(ab, c0, 0, 1, 4, 5) + __builtin_shufflevector(ab, c0, 2, 3, 6, 7);
 	}
 	[[gnu::always_inline]] void add(const PairVector& o, double factor)

@@ -11,14 +11,17 @@ namespace {
 	using Twist = Eigen::Matrix<double, 6, 1>; ///< velocity and spin of a body
 
 	/// M^-1 K x.
-	std::vector<Twist> accelerations(const std::vector<SolverBody>& bodies, const std::vector<PointSpring>& springs, const std::vector<Twist>& x)
+	std::vector<Twist> accelerations(const std::vector<SolverBody>& bodies, const std::vector<PointSpring>& springs,
+	        const std::vector<Twist>& x)
 	{
 		std::vector<Twist> force(bodies.size(), Twist::Zero());
 		for (const PointSpring& p : springs) {
 			const Twist &a = x[p.bodyA], &b = x[p.bodyB];
-			const Vec3 stretch = b.head<3>() + b.tail<3>().cross(p.armB) - a.head<3>() - a.tail<3>().cross(p.armA);
+			const Vec3 stretch
+			        = b.head<3>() + b.tail<3>().cross(p.armB) - a.head<3>() - a.tail<3>().cross(p.armA);
 			const double along = stretch.dot(p.normal);
-			const Vec3 f = p.normalStiffness * along * p.normal + p.shearStiffness * (stretch - along * p.normal);
+			const Vec3 f = p.normalStiffness * along * p.normal
+			        + p.shearStiffness * (stretch - along * p.normal);
 			force[p.bodyA].head<3>() -= f;
 			force[p.bodyA].tail<3>() -= p.armA.cross(f);
 			force[p.bodyB].head<3>() += f;
@@ -33,8 +36,8 @@ namespace {
 
 	[[maybe_unused]] bool isValid(const PointSpring& p, size_t bodies)
 	{
-		return p.bodyA >= 0 && p.bodyB >= 0 && size_t(std::max(p.bodyA, p.bodyB)) < bodies && isFinite(p.armA) && isFinite(p.armB) && isUnit(p.normal)
-		        && p.normalStiffness >= 0 && p.shearStiffness >= 0;
+		return p.bodyA >= 0 && p.bodyB >= 0 && size_t(std::max(p.bodyA, p.bodyB)) < bodies && isFinite(p.armA)
+		        && isFinite(p.armB) && isUnit(p.normal) && p.normalStiffness >= 0 && p.shearStiffness >= 0;
 	}
 
 	double norm(const std::vector<Twist>& x)
@@ -49,7 +52,8 @@ namespace {
 
 double largestEigenvalue(const std::vector<SolverBody>& bodies, const std::vector<PointSpring>& springs)
 {
-	assert(std::all_of(springs.begin(), springs.end(), [&](const PointSpring& p) { return isValid(p, bodies.size()); }));
+	assert(std::all_of(
+	        springs.begin(), springs.end(), [&](const PointSpring& p) { return isValid(p, bodies.size()); }));
 	constexpr int rounds = 2000;
 	constexpr double accuracy = 1e-6; // relative change per round; the remaining error is some hundred times larger
 	std::vector<Twist> x(bodies.size());

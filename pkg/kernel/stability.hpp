@@ -14,7 +14,8 @@ struct PointSpring {
 	Vec3 force = Vec3::Zero(); ///< of the spring on body B [N]; `largestEigenvalue` ignores it
 };
 
-/// Largest eigenvalue omega^2 of M^-1 K by power iteration, to 0.1 %. Masses and inertias are those of the bodies. [1/s2]
+/// Largest eigenvalue omega^2 of M^-1 K by power iteration, to 0.1 %. Masses and inertias are those of the bodies.
+/// [1/s2]
 double largestEigenvalue(const std::vector<SolverBody>& bodies, const std::vector<PointSpring>& springs);
 
 } // namespace timber

@@ -11,11 +11,13 @@ namespace {
 	/// Shortest trial: some time slices of the system [s], some steps [-].
 	constexpr double trialLength = 0.02;
 	constexpr int trialSteps = 4;
-	/// Weights of the last step and of the last trial in the moving means: on a busy machine single trials differ by a factor of two. [-]
+	/// Weights of the last step and of the last trial in the moving means: on a busy machine single trials differ
+	/// by a factor of two. [-]
 	constexpr double stepWeight = 1. / 256, ratioWeight = 1. / 8;
 	/// Bound of the logarithm that one trial counts. [-]
 	constexpr double largestLog = 1.4;
-	/// Time with all threads over time with one below which all are used: other programs can use a thread that gains less. [-]
+	/// Time with all threads over time with one below which all are used: other programs can use a thread that
+	/// gains less. [-]
 	constexpr double worthwhile = 0.95;
 }
 

@@ -4,8 +4,8 @@
 
 namespace timber {
 
-/// The way that has been faster is the usual one. The other one is tried again and again, for a small share of the time: what other programs do
-/// on the machine changes.
+/// The way that has been faster is the usual one. The other one is tried again and again, for a small share of the
+/// time: what other programs do on the machine changes.
 class ThreadChoice {
 public:
 	/// Whether the next step's loops are to use all threads.

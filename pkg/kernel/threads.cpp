@@ -20,7 +20,8 @@ namespace timber {
 namespace {
 	using Clock = std::chrono::steady_clock;
 
-	/// Time for which a thread spins before it sleeps: as long as the serial parts of a step, and the time to wake a thread.
+	/// Time for which a thread spins before it sleeps: as long as the serial parts of a step, and the time to wake
+	/// a thread.
 	constexpr auto spinTime = std::chrono::microseconds(50);
 
 	thread_local int number = 0;
@@ -226,6 +227,9 @@ bool detail::beginLoop()
 
 void detail::endLoop() { stepTime += std::chrono::duration<double>(Clock::now() - loopStart).count(); }
 
-void detail::runOnThreads(int count, int chunk, void (*body)(void*, int), void* context) { team().run(count, chunk, body, context); }
+void detail::runOnThreads(int count, int chunk, void (*body)(void*, int), void* context)
+{
+	team().run(count, chunk, body, context);
+}
 
 } // namespace timber

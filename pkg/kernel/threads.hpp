@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Parallel loops. Results do not depend on the number of threads, nor on their use.
 ///
-/// * The calling thread takes items until none is left, and then waits only for items that another thread has begun: a thread that the
+/// * The calling thread takes items until none is left, and then waits only for items that another thread has begun: a
+/// thread that the
 ///   system does not run at the moment delays nothing.
-/// * Idle threads spin for some microseconds, then sleep. Those of OpenMP spin for milliseconds and take the processor from other work.
+/// * Idle threads spin for some microseconds, then sleep. Those of OpenMP spin for milliseconds and take the processor
+/// from other work.
 /// * thread_choice.hpp decides by measured time whether the loops of a step use more than one thread.
 #pragma once
 
@@ -29,7 +31,8 @@ namespace detail {
 	/// Begins a timed loop; returns whether it is to run on several threads.
 	bool beginLoop();
 	void endLoop();
-	/// body(context, k) for all k < count on several threads; a thread takes `chunk` at a time. The first exception is thrown again.
+	/// body(context, k) for all k < count on several threads; a thread takes `chunk` at a time. The first exception
+	/// is thrown again.
 	void runOnThreads(int count, int chunk, void (*body)(void*, int), void* context);
 
 	template <class Work> void onThreads(int count, int chunk, Work& work)

@@ -9,9 +9,10 @@
 
 namespace timber {
 
-// Incremental hull: a point outside replaces the triangles that it sees by those between it and their outline. Points in special position are moved
-// by a random share of their distance from the origin, far above the rounding of `long double` and below that of `double`. Should rounding yet make the
-// visible triangles no disc, the hull is started again with other displacements.
+// Incremental hull: a point outside replaces the triangles that it sees by those between it and their outline. Points
+// in special position are moved by a random share of their distance from the origin, far above the rounding of `long
+// double` and below that of `double`. Should rounding yet make the visible triangles no disc, the hull is started again
+// with other displacements.
 namespace {
 
 	constexpr long double displacement = 1e-15L; ///< of a point, as a share of its distance from the origin
@@ -19,7 +20,8 @@ namespace {
 
 	std::vector<LongVec3> displaced(const std::vector<LongVec3>& points, std::mt19937& random)
 	{
-		const auto share = [&] { return displacement * (2 * (long double)(random()) / std::mt19937::max() - 1); };
+		const auto share
+		        = [&] { return displacement * (2 * (long double)(random()) / std::mt19937::max() - 1); };
 		std::vector<LongVec3> moved;
 		for (const LongVec3& p : points) {
 			const long double x = share(), y = share(), z = share();
@@ -47,7 +49,8 @@ namespace {
 	std::vector<Triangle> firstTetrahedron(const std::vector<LongVec3>& x)
 	{
 		const size_t n = x.size();
-		const int a = farthest(n, [&](int k) { return x[k].norm(); }), b = farthest(n, [&](int k) { return (x[k] - x[a]).norm(); });
+		const int a = farthest(n, [&](int k) { return x[k].norm(); }),
+		          b = farthest(n, [&](int k) { return (x[k] - x[a]).norm(); });
 		const LongVec3 line = x[b] - x[a];
 		const int c = farthest(n, [&](int k) { return line.cross(x[k] - x[a]).norm(); });
 		const int d = farthest(n, [&](int k) { return std::abs(volumeAbove(x, { a, b, c }, k)); });
@@ -60,7 +63,8 @@ namespace {
 	/// Extends the hull; false if the visible triangles are no disc.
 	bool addPoint(const std::vector<LongVec3>& points, int point, std::vector<Triangle>& hull)
 	{
-		const auto visible = std::stable_partition(hull.begin(), hull.end(), [&](const Triangle& t) { return !(volumeAbove(points, t, point) > 0); });
+		const auto visible = std::stable_partition(hull.begin(), hull.end(),
+		        [&](const Triangle& t) { return !(volumeAbove(points, t, point) > 0); });
 		if (visible == hull.end()) return true; // inside
 		const std::vector<int> outline = outlineOf({ visible, hull.end() });
 		if (outline.empty()) return false;
@@ -101,8 +105,8 @@ std::vector<Triangle> hullTriangles(const std::vector<LongVec3>& points)
 		if (hull.empty()) return {};
 		bool isClosed = true;
 		for (size_t k = 0; isClosed && k < points.size(); ++k) {
-			const bool isCorner
-			        = std::any_of(hull.begin(), hull.end(), [&](const Triangle& t) { return t[0] == int(k) || t[1] == int(k) || t[2] == int(k); });
+			const bool isCorner = std::any_of(hull.begin(), hull.end(),
+			        [&](const Triangle& t) { return t[0] == int(k) || t[1] == int(k) || t[2] == int(k); });
 			isClosed = isCorner || addPoint(moved, int(k), hull);
 		}
 		if (isClosed) return hull;

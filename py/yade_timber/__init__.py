@@ -5,8 +5,8 @@
     run = yt.run(yt.house("C2"), motion="shipped", snow=1.0)
     run.drift, run.broken, run.player()
 
-Inside a YADE session the import loads the compiled classes and re-exports them. Elsewhere `house`, `motion`, `load_run` and all parts that need
-no YADE still import.
+Inside a YADE session the import loads the compiled classes and re-exports them. Elsewhere `house`, `motion`, `load_run`
+and all parts that need no YADE still import.
 """
 from . import host as _host
 from . import house, motion, run
@@ -22,8 +22,10 @@ for _package, _function in ((house, House), (motion, _ground_motion), (run, _run
     _make_callable(_package, _function)
 
 __all__ = ["House", "RunResult", "house", "load_run", "motion", "run"]
-IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "polyhedron", "set_velocity", "snow", "stable_dt",
-           "timber")
+IN_YADE = (
+    "SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "polyhedron",
+    "set_velocity", "snow", "stable_dt", "timber",
+)
 """Functions that need a YADE session."""
 
 if _host.running():
@@ -53,5 +55,8 @@ if _host.running():
 def __getattr__(name):
     """A useful message for the names that need a YADE session."""
     if name in IN_YADE:
-        raise AttributeError(f"yade_timber.{name} needs YADE: import yade_timber in a YADE session, or start the script with `yade -n -x script.py`")
+        raise AttributeError(
+            f"yade_timber.{name} needs YADE: import yade_timber in a YADE session, or start the script with `yade -n -x"
+            " script.py`"
+        )
     raise AttributeError(f"module 'yade_timber' has no attribute '{name}'")

@@ -3,8 +3,10 @@
 
 `load()` is called at import. It raises an ImportError, before any class is registered, when
 
-1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or Python, or
-2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the reverse.
+1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or
+Python, or
+2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the
+reverse.
 """
 import gc
 import importlib
@@ -58,12 +60,15 @@ def check_build(record: dict, host: dict) -> None:
     """Raise ImportError unless a build record (see build_record) fits a host (see host_facts)."""
     for key, noun in (("yade", "YADE"), ("python", "Python")):
         if record[key] != host[key]:
-            raise ImportError(f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}")
+            raise ImportError(
+                f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}"
+            )
     built, found = set(record["features"].split()), set(host["features"].split())
     if built != found:
         changes = [f"+{name}" for name in sorted(found - built)] + [f"-{name}" for name in sorted(built - found)]
         raise ImportError(
-            f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}. {REMEDY}"
+            f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}."
+            f" {REMEDY}"
         )
 
 
@@ -71,13 +76,15 @@ def check_value(place: str, expected, actual, record: dict, host: dict) -> None:
     """Raise ImportError unless a value stored at `place` ("Class.attribute (direction)") came back unchanged."""
     if not expected == actual:  # a NaN differs, too
         raise ImportError(
-            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the layout of the class differs between the running YADE "
-            f"{host['yade']} and the headers ({record['headers']}) that yade-timber was built with. {REMEDY}"
+            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the layout of the class differs between the"
+            f" running YADE {host['yade']} and the headers ({record['headers']}) that yade-timber was built with."
+            f" {REMEDY}"
         )
 
 
 def _sentinel(wrapper, default, pointee: str, number: int):
-    """A value of the type of an attribute's default (of class `pointee` for a pointer), different for each attribute."""
+    """A value of the type of an attribute's default (of class `pointee` for a pointer), different for each attribute.
+    """
     if pointee:
         return getattr(wrapper, pointee)()
     if isinstance(default, bool):
@@ -92,7 +99,8 @@ def _sentinel(wrapper, default, pointee: str, number: int):
 
 
 def _store(wrapper, owner: str, attribute: str, value):
-    """An instance of a YADE class with one attribute set by YADE itself; only the constructor can set read-only ones."""
+    """An instance of a YADE class with one attribute set by YADE itself; only the constructor can set read-only ones.
+    """
     try:
         return getattr(wrapper, owner)(**{attribute: value})
     except AttributeError:  # shorthands (State.pos) are no keywords of the constructor
@@ -104,8 +112,8 @@ def _store(wrapper, owner: str, attribute: str, value):
 def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> int:
     """Round trips through every member in the module's table; returns their number.
 
-    Reads come before writes: a write through a wrong layout would corrupt memory. `shift` [bytes] displaces every compiled
-    read, so that a test can simulate another layout. Raises ImportError that names class and attribute.
+    Reads come before writes: a write through a wrong layout would corrupt memory. `shift` [bytes] displaces every
+    compiled read, so that a test can simulate another layout. Raises ImportError that names class and attribute.
     """
     table = list(enumerate(plugin.layout_fields()))
     for index, (owner, attribute, pointee) in table:
@@ -124,7 +132,9 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """Containers without a Python attribute: those of a scene, and the functors of a collider and an InteractionLoop. Raises ImportError like check_layout."""
+    """Containers without a Python attribute: those of a scene, and the functors of a collider and an InteractionLoop.
+    Raises ImportError like check_layout.
+    """
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
@@ -141,13 +151,17 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
     collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
     loop = wrapper.InteractionLoop(
-        [wrapper.Ig2_Sphere_Sphere_ScGeom()], [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()], []
+        [wrapper.Ig2_Sphere_Sphere_ScGeom()],
+        [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()],
+        [],
     )
     check_value("InteractionLoop functors", (1, 2, 0), plugin.count_contact_functors(loop), record, host)
 
 
 def import_module(package: str, directory):
-    """Import the compiled module in `directory`, or the one in FASTER if it is there and the loader finds this processor fit for it."""
+    """Import the compiled module in `directory`, or the one in FASTER if it is there and the loader finds this
+    processor fit for it.
+    """
     if (Path(directory) / FASTER / f"{MODULE}.so").exists():
         try:
             return importlib.import_module(f".{FASTER}.{MODULE}", package)
@@ -186,13 +200,20 @@ def has_prompt() -> bool:
 
 
 def close_servers():
-    """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads that end them.
+    """Close YADE's Python prompt (port 9000 or higher) and XML-RPC server (port 21000 or higher); returns the threads
+    that end them.
 
-    YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the other one
-    lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
+    YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the
+    other one lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
     """
-    handlers = {"PythonConsoleSocketEmulator"} | ({"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ else set())
-    servers = [o for o in gc.get_objects() if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers]
+    handlers = {"PythonConsoleSocketEmulator"} | (
+        {"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ else set()
+    )
+    servers = [
+        o
+        for o in gc.get_objects()
+        if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers
+    ]
     threads = [threading.Thread(target=_close, args=(server,), daemon=True) for server in servers]
     for server, thread in zip(servers, threads):
         with suppress(OSError):  # an earlier call closes it

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What was studied with the package and is not installed with it: the paper's claims, and designed variants of the houses. Needs no YADE.
+"""What was studied with the package and is not installed with it: the paper's claims, and designed variants of the
+houses. Needs no YADE.
 
 claims -> report -> comparison; claims, design, factors -> screening; claims, screening -> two_ensembles
 """

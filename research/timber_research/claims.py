@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The paper's statements about its fourteen runs (sections 4.1-4.4), each as a check on the summaries of the runs. Needs no YADE.
+"""The paper's statements about its fourteen runs (sections 4.1-4.4), each as a check on the summaries of the runs.
+Needs no YADE.
 
 The criteria were fixed before the runs. They replace the paper's words by numbers:
 
@@ -8,7 +9,8 @@ leaning               residual drift of a storey, resultant of N-S and E-W; of a
 sway                  largest peak drift of the storeys in a direction
 sways in a direction  the sway in that direction is the larger one and exceeds SWAY
 lost columns          fallen (tilted by more than 45 degrees) or without an intact joint
-starts to tilt        last time before the tilt (drift 1/10) at which the drift was zero; from then on the house leans to one side
+starts to tilt        last time before the tilt (drift 1/10) at which the drift was zero; from then on the house leans
+to one side
 """
 import math
 from dataclasses import dataclass
@@ -18,17 +20,23 @@ from yade_timber.text.english import direction_name, ratio
 SWAY = 1 / 120
 """Smallest sway that counts: Japanese practice assumes damage of a timber house beyond this drift. [-]"""
 GREAT_SWAY = 1 / 30
-"""Great sway: the safety limit of Japanese practice for timber houses. Below it in both directions a house is 'very stable'. [-]"""
+"""Great sway: the safety limit of Japanese practice for timber houses. Below it in both directions a house is 'very
+stable'. [-]
+"""
 STILL = 1 / 120
 """A house stands still if no drift reaches this and no spring breaks. [-]"""
 TILT_AFTER_ONSET = (-1.0, 3.0)
-"""E1: time from the onset of strong shaking to the start of the tilt. The paper gives whole seconds and figures some seconds apart. [s]"""
+"""E1: time from the onset of strong shaking to the start of the tilt. The paper gives whole seconds and figures some
+seconds apart. [s]
+"""
 COLLAPSE_AFTER_ONSET = (3.0, 9.0)
 """E1: the paper's 6 s +- 50 %: another record of the same strength has its pulses at other times. [s]"""
 SNOW_TILT_BY = 1.0
 """S1: 'as soon as the analysis began' means within the first second. [s]"""
 SNOW_COLLAPSE = (6.0, 18.0)
-"""S1: the paper's 12 s +- 50 %: the time to collapse grows with the logarithm of the initial disturbance, which is unknown. [s]"""
+"""S1: the paper's 12 s +- 50 %: the time to collapse grows with the logarithm of the initial disturbance, which is
+unknown. [s]
+"""
 
 
 @dataclass(frozen=True)
@@ -41,7 +49,8 @@ class Result:
     numbers: str
 
 
-# --- numbers of one summary ---------------------------------------------------------------------------------------------
+# --- numbers of one summary
+# ---------------------------------------------------------------------------------------------
 
 
 def sway(run, direction):
@@ -76,7 +85,8 @@ def more_damaged(run, other):
     return (run.collapsed, damage(run)) > (other.collapsed, damage(other))
 
 
-# --- the same numbers as text ---------------------------------------------------------------------------------------------
+# --- the same numbers as text
+# ---------------------------------------------------------------------------------------------
 
 
 def drift_text(value):
@@ -101,30 +111,43 @@ def time_text(seconds):
 
 def damage_text(run):
     broken = run.broken
-    return f"{damage(run)} springs, {broken.total} joints ({broken.column_beam} column-beam, {broken.brace_beam} brace-beam)"
+    return (
+        f"{damage(run)} springs, {broken.total} joints ({broken.column_beam} column-beam,"
+        f" {broken.brace_beam} brace-beam)"
+    )
 
 
 def run_text(run):
     """All quantities of a run that claims compare."""
     house = f"{run.model}{' + snow' if run.snow else ''}"
-    return f"{house}: {outcome_text(run)}, {sway_text(run)}, leans {lean_text(run)}, {damage_text(run)}, {lost_columns(run)} columns lost"
+    return (
+        f"{house}: {outcome_text(run)}, {sway_text(run)}, leans {lean_text(run)}, {damage_text(run)},"
+        f" {lost_columns(run)} columns lost"
+    )
 
 
 def runs_text(*runs):
     return "; ".join(run_text(run) for run in runs)
 
 
-# --- checks: each takes the summaries of the runs it names and returns (holds, numbers) -----------------------------------
+# --- checks: each takes the summaries of the runs it names and returns (holds, numbers)
+# -----------------------------------
 
 
 def tilts_and_collapses_when_shaken(a):
     if not a.collapsed or a.leans_from_s is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
-    onset = a.record.onset_s  # the direction depends on the record, which differs from the paper's: it is reported, not judged
+    onset = (
+        a.record.onset_s
+    )  # the direction depends on the record, which differs from the paper's: it is reported, not judged
     tilt, fall = a.leans_from_s - onset, a.collapse_time_s - onset
-    return within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET), (
-        f"strong shaking from {onset:.1f} s; leans {direction_name(a.tilt_direction)} from {a.leans_from_s:.1f} s ({tilt:+.1f} s), exceeds 1/10 at "
-        f"{a.tilt_time_s:.1f} s, collapsed {a.collapse_time_s:.1f} s ({fall:+.1f} s)"
+    return (
+        within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET),
+        (
+            f"strong shaking from {onset:.1f} s; leans {direction_name(a.tilt_direction)} from {a.leans_from_s:.1f} s"
+            f" ({tilt:+.1f} s), exceeds 1/10 at {a.tilt_time_s:.1f} s, collapsed {a.collapse_time_s:.1f} s"
+            f" ({fall:+.1f} s)"
+        ),
     )
 
 
@@ -148,7 +171,10 @@ def stands_still(run):
 def east_side_broken(b1):
     west = b1.broken.by_place["1"]["west"]
     holds = sways_in(b1, "ew", GREAT_SWAY) and west.column_beam > 0 and west.brace_beam == 0 and not b1.collapsed
-    return holds, f"{run_text(b1)}; storey 1 west: {west.column_beam} column-beam, {west.brace_beam} brace-beam joints broken"
+    return (
+        holds,
+        f"{run_text(b1)}; storey 1 west: {west.column_beam} column-beam, {west.brace_beam} brace-beam joints broken",
+    )
 
 
 def south_side_broken(b2, b1):
@@ -166,7 +192,12 @@ def very_stable(c2):
 
 
 def snow_increases_damage(b1_snow, b1):
-    holds = not b1_snow.collapsed and lost_columns(b1_snow) > lost_columns(b1) and leaning(b1_snow) > leaning(b1) and more_damaged(b1_snow, b1)
+    holds = (
+        not b1_snow.collapsed
+        and lost_columns(b1_snow) > lost_columns(b1)
+        and leaning(b1_snow) > leaning(b1)
+        and more_damaged(b1_snow, b1)
+    )
     return holds, runs_text(b1_snow, b1)
 
 
@@ -184,7 +215,8 @@ def second_storey_leans(c2_snow, c2, b2_snow):
 
 
 def within(seconds, limits):
-    """Whether a time is within the limits, to the microsecond: YADE's clock, a sum of time steps, errs by some 1e-11 s."""
+    """Whether a time is within the limits, to the microsecond: YADE's clock, a sum of time steps, errs by some 1e-11 s.
+    """
     return limits[0] <= round(seconds, 6) <= limits[1]
 
 
@@ -193,12 +225,26 @@ CLAIMS = {  # name -> (claim, check, runs that the check takes)
            tilts_and_collapses_when_shaken, ("modelA_quake",)),
     "E2": ("B, earthquake: does not collapse", does_not_collapse, ("modelB_quake",)),
     "E3": ("C, earthquake: does not collapse", does_not_collapse, ("modelC_quake",)),
-    "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow, ("modelA_snow",)),
+    "S1": (
+        "A, snow: tilts as soon as the run begins, has collapsed at about 12 s",
+        tilts_and_collapses_under_snow,
+        ("modelA_snow",),
+    ),
     "S2": ("B, snow: stands still", stands_still, ("modelB_snow",)),
     "S3": ("C, snow: stands still", stands_still, ("modelC_snow",)),
-    "D1": ("B1, earthquake: sways greatly E-W; on the first storey's west side column-beam joints break, brace-beam joints do not; no collapse",
-           east_side_broken, ("modelB1_quake",)),
-    "D2": ("B2, earthquake: sways N-S; more damage N-S and less E-W than B1", south_side_broken, ("modelB2_quake", "modelB1_quake")),
+    "D1": (
+        (
+            "B1, earthquake: sways greatly E-W; on the first storey's west side column-beam joints break, brace-beam"
+            " joints do not; no collapse"
+        ),
+        east_side_broken,
+        ("modelB1_quake",),
+    ),
+    "D2": (
+        "B2, earthquake: sways N-S; more damage N-S and less E-W than B1",
+        south_side_broken,
+        ("modelB2_quake", "modelB1_quake"),
+    ),
     "D3": ("C1, earthquake: sways E-W, deforms less than B1", sways_less, ("modelC1_quake", "modelB1_quake")),
     "D4": ("C2, earthquake: very stable in both directions", very_stable, ("modelC2_quake",)),
     "Q1": ("B1, earthquake and snow: no collapse, but more columns fall, leans more, more damage than without snow",
@@ -214,7 +260,9 @@ RUNS = tuple(dict.fromkeys(run for _, _, runs in CLAIMS.values() for run in runs
 
 
 def parse_run(run):
-    """(house, earthquake, snow) of a published run: 'modelB1_snow' -> ('B1', True, True), 'modelB_snow' -> ('B', False, True)."""
+    """(house, earthquake, snow) of a published run: 'modelB1_snow' -> ('B1', True, True), 'modelB_snow' -> ('B', False,
+    True).
+    """
     house, kind = run[len("model"):].split("_")
     return house, kind == "quake" or house not in "ABC", kind == "snow"
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no YADE."""
+"""The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no
+YADE.
+"""
 from yade_timber.base.atomic_write import write_text
 from yade_timber.base.table import csv_text
 
@@ -8,12 +10,15 @@ from .claims import RUNS, drift_text, judge, parse_run, sway, time_text
 from .report import markdown_table
 
 SIGNS = {True: "x", False: "-", None: ""}
-OUTCOME = "Largest sway N-S, E-W of a house that stands; direction and time after the onset of strong shaking of a collapse."
+OUTCOME = (
+    "Largest sway N-S, E-W of a house that stands; direction and time after the onset of strong shaking of a collapse."
+)
 HOUSES = tuple(parse_run(run)[0] for run in RUNS if run.endswith("_quake"))
 
 
 def write(cases, summaries, folder):
-    """Write robustness.md, motions.csv, sways.csv, and the tables of each case to a folder of its own; returns the text of robustness.md. Raises OSError.
+    """Write robustness.md, motions.csv, sways.csv, and the tables of each case to a folder of its own; returns the text
+    of robustness.md. Raises OSError.
 
     cases: {name: description}; summaries: {case: {run name: summary}}; runs may be missing
     """
@@ -21,7 +26,20 @@ def write(cases, summaries, folder):
     claims, sways = claims_table(results), houses_table(cases, summaries)
     write_text(folder / "motions.csv", csv_text(*claims))
     write_text(folder / "sways.csv", csv_text(*sways))
-    text = "\n".join(["x: the claim holds; -: it does not; empty: not run.", "", *markdown_table(*claims), "", OUTCOME, "", *markdown_table(*sways)]) + "\n"
+    text = (
+        "\n".join(
+            [
+                "x: the claim holds; -: it does not; empty: not run.",
+                "",
+                *markdown_table(*claims),
+                "",
+                OUTCOME,
+                "",
+                *markdown_table(*sways),
+            ]
+        )
+        + "\n"
+    )
     write_text(folder / "robustness.md", text)
     for case in cases:
         report.write(folder / case, results[case], summaries[case])
@@ -29,17 +47,28 @@ def write(cases, summaries, folder):
 
 
 def claims_table(results):
-    """(heads, rows): each claim, the number of motions in which it holds of those judged, and a sign for each motion. results: {case: list of Result}."""
+    """(heads, rows): each claim, the number of motions in which it holds of those judged, and a sign for each motion.
+    results: {case: list of Result}.
+    """
     rows = []
     for same in zip(*results.values()):
         judged = [result.holds for result in same if result.holds is not None]
-        rows.append((f"{same[0].name}: {same[0].claim}", f"{sum(judged)} of {len(judged)}", *(SIGNS[result.holds] for result in same)))
+        rows.append(
+            (
+                f"{same[0].name}: {same[0].claim}",
+                f"{sum(judged)} of {len(judged)}",
+                *(SIGNS[result.holds] for result in same),
+            )
+        )
     return ("claim", "motions", *results), rows
 
 
 def houses_table(cases, summaries):
     """(heads, rows): outcome of each house in the earthquake without snow."""
-    rows = [(case, about, *(outcome(summaries[case].get(f"model{house}_quake")) for house in HOUSES)) for case, about in cases.items()]
+    rows = [
+        (case, about, *(outcome(summaries[case].get(f"model{house}_quake")) for house in HOUSES))
+        for case, about in cases.items()
+    ]
     return ("motion", "description", *HOUSES), rows
 
 

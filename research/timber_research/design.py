@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Two-level fractional factorial of resolution IV in 32 runs for up to 16 factors. Needs no YADE.
 
-Five basic factors a to e make the 32 runs. A word is a product of basic factors; its column of the design is the product of their columns.
-The factors have the odd words, of one, three and five letters, as columns. The product of two odd words is an even word, so that no main
-effect is confounded with a two-factor interaction. Interactions whose words are equal are confounded with one another: they form a string.
+Five basic factors a to e make the 32 runs. A word is a product of basic factors; its column of the design is the
+product of their columns.
+The factors have the odd words, of one, three and five letters, as columns. The product of two odd words is an even
+word, so that no main effect is confounded with a two-factor interaction. Interactions whose words are equal are
+confounded with one another: they form a string.
 The design is a 16-run design of resolution III and its fold-over, in which all levels are exchanged.
 (Box, Hunter, Hunter: Statistics for Experimenters, 2nd edition, chapter 6.)
 """
@@ -21,7 +23,9 @@ FOLD = ODD_WORDS[-1]
 
 
 def runs():
-    """(32, 5) levels -1 and +1 of the basic factors. The first 16 runs are of resolution III for up to 15 factors; run 0 has all levels -1."""
+    """(32, 5) levels -1 and +1 of the basic factors. The first 16 runs are of resolution III for up to 15 factors; run
+    0 has all levels -1.
+    """
     full = np.array([levels[::-1] for levels in product((-1, 1), repeat=len(BASIC))])
     return full[np.argsort(column(FOLD, full), kind="stable")]
 

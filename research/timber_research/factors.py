@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Choices that the paper leaves open, as factors of two levels. Each level is a set of house-file entries. Needs no YADE.
+"""Choices that the paper leaves open, as factors of two levels. Each level is a set of house-file entries. Needs no
+YADE.
 
-The first level is the plainer reading of the paper's text, the second the alternative. Both state their entries, so that neither depends
-on the values of the shipped houses.
+The first level is the plainer reading of the paper's text, the second the alternative. Both state their entries, so
+that neither depends on the values of the shipped houses.
 """
 import copy
 import json
@@ -15,7 +16,8 @@ MATERIALS = ("timber", "roofing", "snow")
 
 @dataclass(frozen=True)
 class Level:
-    """description: a few words; entries: of the house file of every house; houses: further entries by the house's letter A, B, C.
+    """description: a few words; entries: of the house file of every house; houses: further entries by the house's
+    letter A, B, C.
 
     The entry `friction` is a table of the materials' own coefficients [-], so that two factors can change one each.
     """
@@ -39,13 +41,17 @@ class Factor:
 
 
 def house_entries(house, factors, signs):
-    """Entries of the house file of a shipped house ('B1'; those for B hold for B1 and B2), with each factor at the level of its sign."""
+    """Entries of the house file of a shipped house ('B1'; those for B hold for B1 and B2), with each factor at the
+    level of its sign.
+    """
     entries = {}
     for factor, sign in zip(factors, signs, strict=True):
         level = factor.level(sign)
         entries = merged(merged(entries, level.entries), level.houses.get(house[0], {}))
     if "friction" in entries:
-        entries["friction"] = [{"between": [name, name], "coefficient": entries["friction"][name]} for name in MATERIALS]
+        entries["friction"] = [
+            {"between": [name, name], "coefficient": entries["friction"][name]} for name in MATERIALS
+        ]
     return {"extends": house, **entries}
 
 
@@ -63,7 +69,8 @@ def shipped(name):
     return json.loads(json.dumps(load_table(SHIPPED / f"{name}.yaml")))
 
 
-# --- entries ------------------------------------------------------------------------------------------------------------
+# --- entries
+# ------------------------------------------------------------------------------------------------------------
 
 
 def rules(**named):
@@ -72,8 +79,13 @@ def rules(**named):
 
 
 def supports(support):
-    """Frame and joints with columns and braces that stand on sills or on the foundation itself. support: 'sill' or 'foundation'."""
-    stacks = {name: _stack(structure["stack"], support == "sill") for name, structure in shipped("paper")["structures"].items()}
+    """Frame and joints with columns and braces that stand on sills or on the foundation itself. support: 'sill' or
+    'foundation'.
+    """
+    stacks = {
+        name: _stack(structure["stack"], support == "sill")
+        for name, structure in shipped("paper")["structures"].items()
+    }
     ends = [support, "beam", "floor"]
     joined = rules(column_ends={"between": ["column", ends]}, brace_ends={"between": ["brace", ends]})
     return {"structures": {name: {"stack": stack} for name, stack in stacks.items()}, **joined}
@@ -91,16 +103,25 @@ def fastened(**values):
 
 def inner_columns(*nodes):
     """The seven inner columns of a storey at these nodes (x, y)."""
-    groups = [{**group, "at": [list(node) for node in nodes]} if "at" in group else group for group in shipped("paper")["structures"]["main"]["columns"]]
+    groups = [
+        {**group, "at": [list(node) for node in nodes]} if "at" in group else group
+        for group in shipped("paper")["structures"]["main"]["columns"]
+    ]
     return {"structures": {"main": {"columns": groups}}}
 
 
 def braces(house, turned):
     """Lines of braces of a shipped house; turned: foot and head of each brace exchanged."""
-    lines = {name: structure["braces"].get("lines", []) for name, structure in shipped(f"model{house}")["structures"].items()}
+    lines = {
+        name: structure["braces"].get("lines", []) for name, structure in shipped(f"model{house}")["structures"].items()
+    }
     step = -1 if turned else 1
-    return {"structures": {name: {"braces": {"lines": [{**line, "runs": [run[::step] for run in line["runs"]]} for line in some]}}
-                           for name, some in lines.items()}}
+    return {
+        "structures": {
+            name: {"braces": {"lines": [{**line, "runs": [run[::step] for run in line["runs"]]} for line in some]}}
+            for name, some in lines.items()
+        }
+    }
 
 
 BRACE_SIDES = {"between": ["brace", "column"], "type": "bracing_plate", "kind": "brace_column", "share": 1}
@@ -123,7 +144,8 @@ FACTORS = (
         Level("butting beams joined by corner fittings", rules(beams=BEAMS)))),
     Factor("floors", "floors and roof with fittings", (
         Level("floors and roof nailed, unbreakable", fastened(kn=1e7, ks=1e7, strength=float("inf"), per="joint")),
-        Level("floors and roof with the corner fitting's values", fastened(kn=58800, ks=58800, strength=5880, per=None)))),
+        Level("floors and roof with the corner fitting's values", fastened(kn=58800, ks=58800, strength=5880,
+                                                                           per=None)))),
     Factor("supports", "columns on the foundation", (
         Level("columns on sills", supports("sill")),
         Level("columns on the foundation itself", supports("foundation")))),
@@ -145,5 +167,5 @@ FACTORS = (
     Factor("plate", "damaged plates broken whole", (
         Level("damaged bracing plates: joint with the beam broken", {"damage": {"plate": "beam"}}),
         Level("damaged bracing plates: joints with beam and column broken", {"damage": {"plate": "whole"}}))),
-)  # fmt: skip
+)
 """In the order of the design's columns: the interactions of the first five have strings of their own."""

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Two ensembles of one scenario that differ in one setting, as the time step: do their results have the same distribution?
+"""Two ensembles of one scenario that differ in one setting, as the time step: do their results have the same
+distribution?
 
-Medians: Mann-Whitney U test. Ranges: Brown-Forsythe test (Levene's test with deviations from the medians). Shares: Fisher's exact test.
+Medians: Mann-Whitney U test. Ranges: Brown-Forsythe test (Levene's test with deviations from the medians). Shares:
+Fisher's exact test.
 All are two-sided. The p values of all tests of a study are corrected by Holm's method.
 """
 import math
@@ -52,7 +54,9 @@ QUANTITIES = (
     Quantity("broken springs + 1 [-]", lambda run: 1 + damage(run), _all, "{:.0f}".format),
     Quantity("collapse time [s]", lambda run: run.collapse_time_s, _falls, "{:.2f}".format),
 )
-"""Positive numbers, whose logarithms are compared. Drifts are those of runs that stand; the collapses are compared as shares."""
+"""Positive numbers, whose logarithms are compared. Drifts are those of runs that stand; the collapses are compared as
+shares.
+"""
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,14 @@ def _numbers(case, quantity, a, b):
     """Tests of the medians and of the ranges of two samples [lists of positive numbers]."""
     texts = _range(quantity, a), _range(quantity, b)
     enough = min(len(a), len(b)) >= FEWEST
-    yield Comparison(case, quantity.name, "Mann-Whitney", *texts, median_ratio(a, b) if enough else None, mann_whitney(a, b) if enough else None)
+    yield Comparison(
+        case,
+        quantity.name,
+        "Mann-Whitney",
+        *texts,
+        median_ratio(a, b) if enough else None,
+        mann_whitney(a, b) if enough else None,
+    )
     yield Comparison(case, quantity.name, "Brown-Forsythe", *texts, None, brown_forsythe(a, b) if enough else None)
 
 
@@ -110,10 +121,18 @@ def _shares(case, first, second):
     for state in occurring[-1:] if len(occurring) <= 2 else occurring:
         counts = [sum(run.verdict == state for run in runs) for runs in (first, second)]
         texts = [f"{count} of {len(runs)}" for count, runs in zip(counts, (first, second))]
-        yield Comparison(case, state, "Fisher", *texts, None, fisher(counts, (len(first), len(second))) if len(occurring) > 1 else None)
+        yield Comparison(
+            case,
+            state,
+            "Fisher",
+            *texts,
+            None,
+            fisher(counts, (len(first), len(second))) if len(occurring) > 1 else None,
+        )
 
 
-# --- tests --------------------------------------------------------------------------------------------------------------
+# --- tests
+# --------------------------------------------------------------------------------------------------------------
 
 
 def mann_whitney(a, b):
@@ -142,7 +161,8 @@ def median_ratio(a, b):
     return float(np.median(b) / np.median(a)), float(low), float(high)
 
 
-# --- table --------------------------------------------------------------------------------------------------------------
+# --- table
+# --------------------------------------------------------------------------------------------------------------
 
 HEADER = ("run", "quantity", "first", "second", "ratio of medians", "95 % interval", "test", "p", "p_holm", "result")
 
@@ -153,7 +173,9 @@ def rows(comparisons):
 
 
 def _row(found, p):
-    middle, interval = (f"{found.ratio[0]:.3f}", f"{found.ratio[1]:.3f} to {found.ratio[2]:.3f}") if found.ratio else ("", "")
+    middle, interval = (
+        (f"{found.ratio[0]:.3f}", f"{found.ratio[1]:.3f} to {found.ratio[2]:.3f}") if found.ratio else ("", "")
+    )
     result = "no test" if p is None else "differ" if p < SIGNIFICANCE else "no difference shown"
     values = ("", "") if p is None else (f"{found.p:.2g}", f"{p:.2g}")
     return (found.case, found.quantity, found.first, found.second, middle, interval, found.test, *values, result)

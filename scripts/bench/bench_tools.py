@@ -34,12 +34,19 @@ STATES = {"at rest": 0.0, "strong shaking": 18.5}
 
 
 def parser(about, steps, blocks=None, house_name=None):
-    """ArgumentParser of a benchmark; blocks, steps, house_name: defaults of --blocks, --steps, --house (None: no such option)."""
+    """ArgumentParser of a benchmark; blocks, steps, house_name: defaults of --blocks, --steps, --house (None: no such
+    option).
+    """
     made = Parser(about)
     if house_name:
-        made.add_argument("--house", type=house, default=house_name, help="shipped house or YAML file (default %(default)s)")
+        made.add_argument(
+            "--house", type=house, default=house_name, help="shipped house or YAML file (default %(default)s)"
+        )
     if blocks:
-        made.add_argument("--blocks", type=count, default=blocks, help="number of repeated measurements; their median counts (default %(default)s)")
+        made.add_argument(
+            "--blocks", type=count, default=blocks,
+            help="number of repeated measurements; their median counts (default %(default)s)",
+        )
     made.add_argument("--steps", type=count, default=steps, help="steps per block (default %(default)s)")
     made.add_argument("--out", type=results_folder, help="folder of the CSV file (default: print only)")
     return made
@@ -62,7 +69,9 @@ def wall_per_step(steps):
 
 
 def interleaved(measures, blocks):
-    """{name: median [s]} of several measurements [(name, call)], made alternately so that a slower machine affects all alike."""
+    """{name: median [s]} of several measurements [(name, call)], made alternately so that a slower machine affects all
+    alike.
+    """
     times = {name: [] for name, _ in measures}
     for _ in range(blocks):
         for name, call in measures:
@@ -73,7 +82,10 @@ def interleaved(measures, blocks):
 def machine():
     """One line: processor, cores, threads of this YADE, load, versions."""
     cpu = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-    return f"{cpu.group(1) if cpu else platform.processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; {O.numThreads} thread(s)"
+    return (
+        f"{cpu.group(1) if cpu else platform.processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f};"
+        f" {O.numThreads} thread(s)"
+    )
 
 
 def write_csv(path, heads, rows):

@@ -3,10 +3,11 @@
 
     yade -j1 -n -x scripts/bench/benchmark_chosen_step.py [--cases impact rocking ...] [--repeats 2] [--out FOLDER]
 
-A chosen step is constant for a millisecond: the next one gets h = sqrt(target / j), rounded down to 1 ms / 2^k. j [m/s3] is the largest change,
-from one millisecond to the next, of a body's mean acceleration; rotation counts at the radius of gyration. h^2 j is the change of velocity that
-leapfrog's local error is proportional to. "Foreseen" steps take j from a run with steps of 1e-4 s, of this and the next two milliseconds: the
-same estimate without delay. The run time counts the steps only, not the choice.
+A chosen step is constant for a millisecond: the next one gets h = sqrt(target / j), rounded down to 1 ms / 2^k. j
+[m/s3] is the largest change, from one millisecond to the next, of a body's mean acceleration; rotation counts at the
+radius of gyration. h^2 j is the change of velocity that leapfrog's local error is proportional to. "Foreseen" steps
+take j from a run with steps of 1e-4 s, of this and the next two milliseconds: the same estimate without delay. The run
+time counts the steps only, not the choice.
 """
 import math
 import statistics
@@ -44,12 +45,18 @@ HEADS = ("case", "steps", "dt [s] or target [m/s]", "CPU [s]", "steps computed",
 def arguments():
     parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(STEP_CASES), default=list(STEP_CASES), help="default: all")
-    parser.add_argument("--repeats", type=count, default=2, help="runs of which the median CPU time counts (default %(default)s)")
-    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of chosen_step.csv, chosen_gain.csv, changed_step.csv")
+    parser.add_argument(
+        "--repeats", type=count, default=2, help="runs of which the median CPU time counts (default %(default)s)"
+    )
+    parser.add_argument(
+        "--out", type=results_folder, default="results/performance",
+        help="folder of chosen_step.csv, chosen_gain.csv, changed_step.csv",
+    )
     return parser.parse_args()
 
 
-# --- choice of the step ------------------------------------------------------------------------------------------------
+# --- choice of the step
+# ------------------------------------------------------------------------------------------------
 class Motion:
     """Velocities of the free bodies, the rotation as speed at the radius of gyration: (bodies, 6) [m/s]."""
 
@@ -75,7 +82,8 @@ def chosen(target, jerk, smallest):
     return min(2 ** max(0, math.ceil(math.log2(max(wanted, 1.0)))), round(SAMPLE / smallest))
 
 
-# --- runs --------------------------------------------------------------------------------------------------------------
+# --- runs
+# --------------------------------------------------------------------------------------------------------------
 class Run:
     """One run of a case. steps(k, jerk): number of steps in the k-th millisecond, after one with that jerk [m/s3]."""
 
@@ -129,7 +137,9 @@ def plan(case, foreseen):
     ahead = [max(foreseen[max(0, k - 1) : k + 3]) for k in range(len(foreseen))]
     runs = [("fixed", dt, lambda k, j, n=round(SAMPLE / dt): n, {}) for dt in FIXED]
     for t in TARGETS:
-        runs.append(("chosen", t, lambda k, j, t=t: round(SAMPLE / smallest) if j == math.inf else chosen(t, j, smallest), {}))
+        runs.append(
+            ("chosen", t, lambda k, j, t=t: round(SAMPLE / smallest) if j == math.inf else chosen(t, j, smallest), {})
+        )
         runs.append(("foreseen", t, lambda k, j, t=t: chosen(t, ahead[k], smallest), {}))
     return runs
 
@@ -144,14 +154,19 @@ def study(case, repeats):
         for kind, dt, steps, options in plan(case, foreseen):
             done.setdefault((kind, dt), []).append(Run(case, steps, options))
     done["explicit", SAMPLE / explicit] = [Run(case, lambda k, j: explicit, {"sweeps": 0})]
-    rows = [(case, *key, statistics.median(r.cpu for r in runs), runs[0].count, runs[0].sweeps, runs[0].error(reference)) for key, runs in done.items()]
+    rows = [
+        (case, *key, statistics.median(r.cpu for r in runs), runs[0].count, runs[0].sweeps, runs[0].error(reference))
+        for key, runs in done.items()
+    ]
     for row in rows:
         print("{}, {} {:g}: {:.3f} s, {} steps, {} sweeps, error {:.2g}".format(*row), flush=True)
     return rows
 
 
 def balance(steps):
-    """Largest energy gain of house C in strong shaking over its input, if each millisecond takes one of these steps by chance [-]."""
+    """Largest energy gain of house C in strong shaking over its input, if each millisecond takes one of these steps by
+    chance [-].
+    """
     build_house("C", start=18.0)(DEFAULT_DT, {})
     chance, residuals = np.random.default_rng(1), []
     for _ in range(round(SHAKEN / SAMPLE)):
@@ -163,7 +178,8 @@ def balance(steps):
     return max(residuals) / (abs(terms["ground_motion"]) + max(0.0, -terms["gravity"]))
 
 
-# --- gain --------------------------------------------------------------------------------------------------------------
+# --- gain
+# --------------------------------------------------------------------------------------------------------------
 def curve(rows, case, kind):
     """[(CPU time [s], error, dt or target)] of runs that did not fail, in the order of the CPU time."""
     return sorted((cpu, e, dt) for c, k, dt, cpu, _, _, e in rows if (c, k) == (case, kind) and math.isfinite(e))
@@ -172,7 +188,10 @@ def curve(rows, case, kind):
 def cost_of_fixed(rows, case, wanted):
     """CPU time of fixed steps with that error, interpolated between them in logarithms [s]; beyond them nan."""
     # errors of a case with chance need not grow with the step: the cheapest run at least as exact counts
-    points = [(min(cpu for cpu, other, _ in curve(rows, case, "fixed") if other <= e), e) for _, e, _ in curve(rows, case, "fixed")]
+    points = [
+        (min(cpu for cpu, other, _ in curve(rows, case, "fixed") if other <= e), e)
+        for _, e, _ in curve(rows, case, "fixed")
+    ]
     points.sort(key=lambda p: p[1])
     if not points or not points[0][1] <= wanted:
         return math.nan
@@ -182,11 +201,14 @@ def cost_of_fixed(rows, case, wanted):
 
 def gains(rows, kind):
     """[(case, target, gain)]: CPU time of fixed steps over that of the chosen ones at their error [-]."""
-    return [(c, dt, cost_of_fixed(rows, c, e) / cpu) for c, k, dt, cpu, _, _, e in rows if k == kind and math.isfinite(e)]
+    return [
+        (c, dt, cost_of_fixed(rows, c, e) / cpu) for c, k, dt, cpu, _, _, e in rows if k == kind and math.isfinite(e)
+    ]
 
 
 def bound(rows, case):
-    """CPU time at the default step over that at the largest one: about what a choice of the step can gain at most [-]."""
+    """CPU time at the default step over that at the largest one: about what a choice of the step can gain at most [-].
+    """
     cpu = {dt: spent for c, kind, dt, spent, *_ in rows if (c, kind) == (case, "fixed")}
     return cpu[DEFAULT_DT] / cpu[FIXED[-1]]
 
@@ -199,9 +221,16 @@ def verdict(rows):
         found = [gain for case, _, gain in gains(rows, kind) if case in houses and math.isfinite(gain)]
         if found:
             spread = f"median of {len(found)} runs of houses, {min(found):.2f} to {max(found):.2f}"
-            text.append(f"At equal error, {kind} steps are {statistics.median(found):.2f} times as fast as fixed ones ({spread}).")
+            text.append(
+                f"At equal error, {kind} steps are {statistics.median(found):.2f} times as fast as fixed ones"
+                f" ({spread})."
+            )
     bounds = ", ".join(f"{bound(rows, case):.2f} ({case})" for case in houses)
-    return " ".join(text) + f" Steps of {FIXED[-1]:g} s throughout are faster than the default step by a factor of {bounds}: a choice between these two steps can gain little more."
+    return (
+        " ".join(text)
+        + f" Steps of {FIXED[-1]:g} s throughout are faster than the default step by a factor of {bounds}: a choice"
+        " between these two steps can gain little more."
+    )
 
 
 def main():
@@ -213,7 +242,12 @@ def main():
         rows += study(case, options.repeats)
         write_table(options.out, "chosen_step", HEADS, rows)
     gained = [(case, kind, target, gain) for kind in ("chosen", "foreseen") for case, target, gain in gains(rows, kind)]
-    write_table(options.out, "chosen_gain", ("case", "steps", "target [m/s]", "CPU time of fixed steps over it at equal error [-]"), gained)
+    write_table(
+        options.out,
+        "chosen_gain",
+        ("case", "steps", "target [m/s]", "CPU time of fixed steps over it at equal error [-]"),
+        gained,
+    )
     print(verdict(rows))
     print(f"written to {options.out}")
 

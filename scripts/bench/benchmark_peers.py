@@ -3,9 +3,9 @@
 
     scripts/setup --with-bench && yade -j1 -n -x scripts/bench/benchmark_peers.py [--pairs 100] [--out FOLDER]
 
-build/bench/benchmarks/benchmark_peers (Google Benchmark) measures Bullet, ODE (contact points alone) and the kernel of this package (contact
-points, contact law, solver). YADE's Polyhedra and this package in YADE are measured here: a step with many separate pairs, minus the same
-step without functors, divided by the number of pairs. CPU time throughout.
+build/bench/benchmarks/benchmark_peers (Google Benchmark) measures Bullet, ODE (contact points alone) and the kernel of
+this package (contact points, contact law, solver). YADE's Polyhedra and this package in YADE are measured here: a step
+with many separate pairs, minus the same step without functors, divided by the number of pairs. CPU time throughout.
 """
 import json
 import math
@@ -37,7 +37,10 @@ PLATE, CUBE, ASIDE = (1.0, 1.0, 0.2), (0.3, 0.3, 0.3), (0.01, 0.02)
 SPACING = 3.0
 """Between pairs [m]."""
 WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
-HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]", "error of depth [m]")
+HEADS = (
+    "program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
+    "error of depth [m]",
+)
 NAMES = {
     "timber": "this package: points, law, solver",
     "timber points": "this package: points alone",
@@ -52,33 +55,55 @@ NAMES = {
 def arguments():
     made = parser(__doc__, blocks=7, steps=50)
     made.add_argument("--pairs", type=count, default=100, help="pairs in the scenes of YADE (default %(default)s)")
-    made.add_argument("--repetitions", type=count, default=5, help="repetitions of Google Benchmark; their median counts (default %(default)s)")
+    made.add_argument(
+        "--repetitions", type=count, default=5,
+        help="repetitions of Google Benchmark; their median counts (default %(default)s)",
+    )
     return made.parse_args()
 
 
-# --- Google Benchmark --------------------------------------------------------------------------------------------------
+# --- Google Benchmark
+# --------------------------------------------------------------------------------------------------
 def kernel_rows(repetitions):
     """Rows of the C++ program."""
     if not PROGRAM.exists():
         raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
     interleaving = "--benchmark_enable_random_interleaving=true"  # other load affects all alike
-    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", interleaving]
+    options = [
+        "--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", interleaving,
+    ]
     found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
     median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
     rows = []
     for b in sorted(median, key=lambda b: b["family_index"]):
         program, pair = b["run_name"].split("/", 1)
-        rows.append((program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"], b["depth_error"]))
+        rows.append(
+            (
+                program,
+                pair,
+                b["cpu_time"] * 1e-3,
+                round(b["points"]),
+                round(b["expected"]),
+                b["normal_error"],
+                b["depth_error"],
+            )
+        )
     return rows
 
 
-# --- scenes in YADE ----------------------------------------------------------------------------------------------------
+# --- scenes in YADE
+# ----------------------------------------------------------------------------------------------------
 def corners(extents):
-    return [Vector3(*(s * e / 2 for s, e in zip(sign, extents))) for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))]
+    return [
+        Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
+        for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
+    ]
 
 
 def polyhedra_body(extents, centre, fixed):
-    body = polyhedra_utils.polyhedra(yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340), v=corners(extents), fixed=fixed)
+    body = polyhedra_utils.polyhedra(
+        yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340), v=corners(extents), fixed=fixed
+    )
     body.state.pos = Vector3(*centre)
     return body
 
@@ -135,9 +160,14 @@ def yade_rows(options):
     """Rows of the face configuration: YADE's Polyhedra and this package in YADE."""
     O.reset()
     kinds = {WHOLE: (timber_body, timber_engines), POLYHEDRA: (polyhedra_body, polyhedra_engines)}
-    scenes = {(program, full): load(*kind, options.pairs, full) for program, kind in kinds.items() for full in (True, False)}
+    scenes = {
+        (program, full): load(*kind, options.pairs, full) for program, kind in kinds.items() for full in (True, False)
+    }
     times = interleaved([(key, timed(number, options.steps)) for key, number in scenes.items()], options.blocks)
-    return [row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs) for program in kinds]
+    return [
+        row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs)
+        for program in kinds
+    ]
 
 
 def row_of(program, number, seconds):
@@ -152,12 +182,16 @@ def row_of(program, number, seconds):
     return program, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
 
 
-# --- page --------------------------------------------------------------------------------------------------------------
+# --- page
+# --------------------------------------------------------------------------------------------------------------
 def section(rows):
     """Section of the results page."""
     time = {(r[0], r[1]): r[2] for r in rows}
     whole, own = time[WHOLE, FACE], time[KERNEL, FACE]
-    shown = [(r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}", f"{r[6]:.1g}") for r in sorted(rows, key=lambda r: r[1])]
+    shown = [
+        (r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}", f"{r[6]:.1g}")
+        for r in sorted(rows, key=lambda r: r[1])
+    ]
     return f"""## Contact pairs against peers
 
 CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them are known in closed form. Contact law and solver are included only where stated.

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Error against run time for several time steps and solver options; predicted and measured stable time step.
 
-    yade -j1 -n -x scripts/bench/benchmark_precision.py [--cases impact rocking ...] [--steps 1e-5 1e-4 ...] [--out FOLDER]
+    yade -j1 -n -x scripts/bench/benchmark_precision.py [--cases impact rocking ...] [--steps 1e-5 1e-4 ...] [--out
+    FOLDER]
 
-A case gives curves sampled each millisecond and peak values. The error is the largest difference from the reference divided by the largest
-reference value. The reference is the default contact law, solved to a tolerance of 1e-6 with the smallest time step of the case.
+A case gives curves sampled each millisecond and peak values. The error is the largest difference from the reference
+divided by the largest reference value. The reference is the default contact law, solved to a tolerance of 1e-6 with the
+smallest time step of the case.
 """
 import math
 import sys
@@ -46,16 +48,25 @@ HEADS = ("case", "variant", "dt [s]", "run time [s]", "quantity", "error [-]")
 def arguments():
     parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(CASES), default=list(CASES), help="default: all")
-    parser.add_argument("--steps", nargs="+", type=positive, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)")
-    parser.add_argument("--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME", help="default: all")
+    parser.add_argument(
+        "--steps", nargs="+", type=positive, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)"
+    )
+    parser.add_argument(
+        "--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME", help="default: all"
+    )
     parser.add_argument("--no-limits", action="store_true", help="do not measure stable time steps and energy balance")
-    parser.add_argument("--out", type=results_folder, default="results/performance", help="folder of precision.csv, stable_dt.csv, balance.csv")
+    parser.add_argument(
+        "--out", type=results_folder, default="results/performance",
+        help="folder of precision.csv, stable_dt.csv, balance.csv",
+    )
     return parser.parse_args()
 
 
-# --- runs --------------------------------------------------------------------------------------------------------------
+# --- runs
+# --------------------------------------------------------------------------------------------------------------
 def run(case, dt, options):
-    """({quantity: values}, CPU time of the steps [s]); None for values if the run failed or the time step is refused."""
+    """({quantity: values}, CPU time of the steps [s]); None for values if the run failed or the time step is refused.
+    """
     build, curves, duration, _, with_joints = CASES[case]
     try:
         build(dt, options)
@@ -84,14 +95,23 @@ def run(case, dt, options):
 def study(case, options):
     """Rows of one case."""
     finest = CASES[case][3]
-    references = {edge: run(case, finest, {**REFERENCE, "vertex_edge": edge})[0] for edge in {VARIANTS[v].get("vertex_edge", False) for v in options.variants}}
+    references = {
+        edge: run(case, finest, {**REFERENCE, "vertex_edge": edge})[0]
+        for edge in {VARIANTS[v].get("vertex_edge", False) for v in options.variants}
+    }
     rows = []
     for variant in options.variants:
         reference = references[VARIANTS[variant].get("vertex_edge", False)]
         for dt in sorted(s for s in options.steps if s >= finest):
             found, spent = run(case, dt, VARIANTS[variant])
-            rows += [(case, variant, dt, spent, name, error(found and found[name], reference[name])) for name in reference]
-            print(f"{case}, {variant}, dt = {dt:g} s: {spent:.2f} s, " + ", ".join(f"{r[4]} {r[5]:.2g}" for r in rows[-len(reference) :]), flush=True)
+            rows += [
+                (case, variant, dt, spent, name, error(found and found[name], reference[name])) for name in reference
+            ]
+            print(
+                f"{case}, {variant}, dt = {dt:g} s: {spent:.2f} s, "
+                + ", ".join(f"{r[4]} {r[5]:.2g}" for r in rows[-len(reference) :]),
+                flush=True,
+            )
     return rows
 
 
@@ -101,12 +121,21 @@ def limit_rows():
     for build in (stable_steps.suspended_block, stable_steps.stack, stable_steps.house, stable_steps.stiff_house):
         predicted = stable_steps.settled(build)
         for contacts, damped in (("explicit springs, no dashpots", False), ("default", True)):
-            rows.append((build.__name__.replace("_", " "), contacts, predicted, stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped)))
+            rows.append(
+                (
+                    build.__name__.replace("_", " "),
+                    contacts,
+                    predicted,
+                    stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped),
+                )
+            )
     return rows
 
 
 def energy_rows():
-    """(house, time step [s], energy gained in strong shaking under snow over the input [-]); NaN if the health check stops the run."""
+    """(house, time step [s], energy gained in strong shaking under snow over the input [-]); NaN if the health check
+    stops the run.
+    """
     rows = []
     for house in ("B2", "C1", "C2"):
         for dt in (1e-4, 2.5e-4, 4e-4, MAX_DT):

@@ -3,8 +3,9 @@
 
     yade -j1 -n -x scripts/bench/benchmark_skips.py [--house C2] [--steps 2000] [--blocks 9] [--out FOLDER]
 
-CPU time, measured alternately with and without, each time in a new scene. Difference of the results: largest distance between the final
-positions of an element. The cache of contact features is measured by benchmark_peers.py ('nothing cached').
+CPU time, measured alternately with and without, each time in a new scene. Difference of the results: largest distance
+between the final positions of an element. The cache of contact features is measured by benchmark_peers.py ('nothing
+cached').
 """
 import statistics
 import sys
@@ -37,10 +38,13 @@ def arguments():
     return parser(__doc__, blocks=9, steps=2000, house_name="C2").parse_args()
 
 
-# --- scenes: each returns the function that is measured, with or without the skip ----------------------------------------
+# --- scenes: each returns the function that is measured, with or without the skip
+# ----------------------------------------
 def shaken(options, **changes):
     """The house in strong shaking."""
-    scenario.build(scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0, **changes}))
+    scenario.build(
+        scenario.Scenario("skips", options.house, default_motion(), 1.0, options={"skip_rest": 0, **changes})
+    )
     engines.find_engine(yw.GroundMotionEngine).start = -STRONG
     return lambda: O.run(options.steps, True)
 
@@ -90,14 +94,18 @@ def fixed(options, skip):
 
 CASES = {  # (skipped work, scene) -> build
     ("steps while the house rests and the ground is quiet (RestSkipper)", f"at rest under snow, {RESTING:g} s"): rest,
-    ("the collider, until a body may have left its bounding box, and YADE's dispatch", "strong shaking, snow"): collider,
+    (
+        "the collider, until a body may have left its bounding box, and YADE's dispatch",
+        "strong shaking, snow",
+    ): collider,
     ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
     ("the joint engine when all joints are broken", "strong shaking, snow, no joints"): joints,
     ("fixed bodies: no integration, no pairs", "200 blocks side by side"): fixed,
 }
 
 
-# --- runs ----------------------------------------------------------------------------------------------------------------
+# --- runs
+# ----------------------------------------------------------------------------------------------------------------
 def timed(build, options, skip):
     """(CPU time of the run [s], final positions of all bodies [m])."""
     run = build(options, skip)
@@ -120,8 +128,9 @@ def measure(case, build, options):
 def section(options, rows):
     shown = [(*row[:2], f"{row[2]:.2f} s", f"{row[3]:.2f} s", f"{row[4]:.2f}", f"{row[5]:.1g}") for row in rows]
     return (
-        f"## Skipped work\n\nHouse {options.house}, CPU time of {options.steps} steps or of the stated time, medians of {options.blocks} runs measured alternately. {machine()}. "
-        f"The effect of the cache of contact features is in the next table: 'nothing cached'.\n\n{markdown_table(HEADS, shown)}"
+        f"## Skipped work\n\nHouse {options.house}, CPU time of {options.steps} steps or of the stated time, medians of"
+        f" {options.blocks} runs measured alternately. {machine()}. The effect of the cache of contact features is in"
+        f" the next table: 'nothing cached'.\n\n{markdown_table(HEADS, shown)}"
     )
 
 

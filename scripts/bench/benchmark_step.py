@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Time of a complete step of a house against an empty YADE step with the same bodies, in one process.
 
-    yade -j1 -n -x scripts/bench/benchmark_step.py [--house C2] [--snow 1] [--blocks 15] [--steps 300] [--engines] [--out FOLDER]
+    yade -j1 -n -x scripts/bench/benchmark_step.py [--house C2] [--snow 1] [--blocks 15] [--steps 300] [--engines]
+    [--out FOLDER]
 
-The empty step has ForceResetter, InsertionSortCollider, InteractionLoop without functors and NewtonIntegrator. Both are measured
-alternately, in CPU time of the process (with several threads: wall time), with the house at rest and in strong shaking. At rest they are
-also measured with RestSkipper, as in runs.
+The empty step has ForceResetter, InsertionSortCollider, InteractionLoop without functors and NewtonIntegrator. Both are
+measured alternately, in CPU time of the process (with several threads: wall time), with the house at rest and in strong
+shaking. At rest they are also measured with RestSkipper, as in runs.
 """
 import sys
 import time
@@ -15,7 +16,9 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step  # noqa: E402
+from bench_tools import (
+    SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step,
+)  # noqa: E402
 from tables import markdown_table  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
@@ -33,20 +36,36 @@ STRIDES = 100
 """Strides of RestSkipper in a block. The last one, in which YADE stops, is not skipped."""
 QUIET = -1e3
 """Start of the run long before the ground motion [s]."""
-HEADS = ("state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio", "empty, collider in each step [us]")
+HEADS = (
+    "state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio",
+    "empty, collider in each step [us]",
+)
 
 
 def arguments():
     made = parser(__doc__, blocks=15, steps=300, house_name="C2")
-    made.add_argument("--snow", type=non_negative, default=1.0, metavar="M", help="snow depth [m] (default %(default)g)")
-    made.add_argument("--dt", type=positive, default=DEFAULT_DT, metavar="S", help="time step [s] (default %(default)g)")
+    made.add_argument(
+        "--snow", type=non_negative, default=1.0, metavar="M", help="snow depth [m] (default %(default)g)"
+    )
+    made.add_argument(
+        "--dt", type=positive, default=DEFAULT_DT, metavar="S", help="time step [s] (default %(default)g)"
+    )
     made.add_argument("--engines", action="store_true", help="also print YADE's table of the time spent in each engine")
     return made.parse_args()
 
 
 def build_house(options, start, skipping):
     """The house in the current scene, `start` seconds into the ground motion, settled."""
-    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt, options={} if skipping else {"skip_rest": 0}))
+    scenario.build(
+        scenario.Scenario(
+            "step",
+            options.house,
+            default_motion(),
+            options.snow,
+            dt=options.dt,
+            options={} if skipping else {"skip_rest": 0},
+        )
+    )
     engines.find_engine(yw.GroundMotionEngine).start = -start
     O.run(round((REST if skipping else SETTLING) / options.dt), True)
 
@@ -57,15 +76,24 @@ def bodies_now():
 
 
 def build_empty(placed, dt, verlet):
-    """The same bodies in the current scene, with the engines of an empty step; verlet: enlargement of the boxes that lets the collider skip steps [m]."""
+    """The same bodies in the current scene, with the engines of an empty step; verlet: enlargement of the boxes that
+    lets the collider skip steps [m].
+    """
     for shape, material, position, orientation, mass, inertia, dynamic in placed:
         body = yw.Body()
         body.shape, body.material, body.bound, body.aspherical = shape, material, yw.Aabb(), True
         body.state.mass, body.state.inertia, body.state.pos, body.state.ori = mass, inertia, position, orientation
         body.dynamic = dynamic
         O.bodies.append(body)
-    collider = yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=engines.BOUND_MARGIN if verlet == 0 else 0)], verletDist=verlet)
-    O.engines = [yw.ForceResetter(), collider, yw.InteractionLoop([], [], []), yw.NewtonIntegrator(damping=0, exactAsphericalRot=True)]
+    collider = yw.InsertionSortCollider(
+        [yw.Bo1_RoundedPolyhedron_Aabb(margin=engines.BOUND_MARGIN if verlet == 0 else 0)], verletDist=verlet
+    )
+    O.engines = [
+        yw.ForceResetter(),
+        collider,
+        yw.InteractionLoop([], [], []),
+        yw.NewtonIntegrator(damping=0, exactAsphericalRot=True),
+    ]
     O.dt = dt
     O.step()
 
@@ -122,15 +150,25 @@ def measure(options, name, start, skipping=False):
     if options.engines:
         print(f"\n{name}:")
         engine_table(options.steps)
-    return name, len(placed), O.interactions.countReal(), points, times[EMPTY] * 1e6, times[HOUSE] * 1e6, times[HOUSE] / times[EMPTY], times[DEFAULT] * 1e6
+    return (
+        name,
+        len(placed),
+        O.interactions.countReal(),
+        points,
+        times[EMPTY] * 1e6,
+        times[HOUSE] * 1e6,
+        times[HOUSE] / times[EMPTY],
+        times[DEFAULT] * 1e6,
+    )
 
 
 def section(options, rows):
     """Section of the results page."""
     shown = [(r[0], r[1], r[2], r[3], f"{r[4]:.1f}", f"{r[5]:.1f}", f"{r[6]:.2f}", f"{r[7]:.1f}") for r in rows]
     return (
-        f"## Whole step\n\nHouse {options.house}, {options.snow:g} m of snow, dt = {options.dt:g} s: median of {options.blocks} blocks of {options.steps} steps, "
-        f"measured alternately. {machine()}.\n\n{markdown_table(HEADS, shown)}"
+        f"## Whole step\n\nHouse {options.house}, {options.snow:g} m of snow, dt = {options.dt:g} s: median of"
+        f" {options.blocks} blocks of {options.steps} steps, measured alternately."
+        f" {machine()}.\n\n{markdown_table(HEADS, shown)}"
     )
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fill the tables of the pages on performance and accuracy from the CSV files beside them, and draw their figures: write_pages.py [docs]. Needs no YADE."""
+"""Fill the tables of the pages on performance and accuracy from the CSV files beside them, and draw their figures:
+write_pages.py [docs]. Needs no YADE.
+"""
 import csv
 import math
 import statistics
@@ -34,11 +36,17 @@ SECTIONS = {
 }
 ERRORS = {
     "duration of an impact of 200 steps": ("Hertz impact, plate, worst of 0.01-10 m/s: duration [s]", None),
-    "restitution of a damped corner, one step per impact": ("restitution, damping ratio 1, contact of 1 steps [-]", None),
+    "restitution of a damped corner, one step per impact": (
+        "restitution, damping ratio 1, contact of 1 steps [-]",
+        None,
+    ),
     "distance of a sliding block": ("sliding distance from 1 m/s [m]", "0.0004"),
     "period of a rocking block": ("quarter period from 0.6 alpha, rolling rigid block [s]", None),
     "stiffness of a braced frame": ("braced frame: lateral stiffness [N/m]", None),
-    "energy dissipated by a yielding joint in a cycle": ("yielding joint, per joint, steady cycle of 6 mm: energy dissipated [J]", None),
+    "energy dissipated by a yielding joint in a cycle": (
+        "yielding joint, per joint, steady cycle of 6 mm: energy dissipated [J]",
+        None,
+    ),
     "portal beside a second program": ("portal: implicit dashpots, largest distance / peak [-]", "0.0001"),
     "energy balance of house B in strong shaking": ("house B, strong shaking: residual / input [-]", "0.00025"),
     "energy balance of a frame that collapses": ("frame that breaks and collapses: residual / input [-]", "0.00025"),
@@ -87,9 +95,12 @@ def save(figure, path):
     plt.close(figure)
 
 
-# --- performance -------------------------------------------------------------------------------------------------------
+# --- performance
+# -------------------------------------------------------------------------------------------------------
 def largest_exact_step(rows, case, variant):
-    """Largest time step up to which all errors of a case are below TOLERATED [s], and the run time with it [s]; None without one."""
+    """Largest time step up to which all errors of a case are below TOLERATED [s], and the run time with it [s]; None
+    without one.
+    """
     errors = {}
     for row in rows:
         if (row["case"], row["variant"]) == (case, variant):
@@ -106,7 +117,10 @@ def step_text(folder):
     rows = table(folder, "step")
     micro = {state: number(rows, "whole step [us]", state=state) for state in (SHAKING, REST)}
     fast = DEFAULT_DT / micro[SHAKING] * 1e6
-    return f"house C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time; {micro[REST]:.0f} us at rest"
+    return (
+        f"house C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time;"
+        f" {micro[REST]:.0f} us at rest"
+    )
 
 
 def skips_text(folder):
@@ -120,7 +134,9 @@ def precision_text(folder):
     for case in ("standing house C", "collapsing house A"):
         for variant, label in (("default", "implicit contacts"), ("explicit dashpots", "explicit dashpots")):
             exact = largest_exact_step(rows, case, variant)
-            texts.append(f"{case}, {label}: " + (f"{exact[0]:g} s in {exact[1]:.1f} s of computing" if exact else "none"))
+            texts.append(
+                f"{case}, {label}: " + (f"{exact[0]:g} s in {exact[1]:.1f} s of computing" if exact else "none")
+            )
     return f"largest step with errors below {100 * TOLERATED:g} %: {'; '.join(texts)}"
 
 
@@ -128,42 +144,69 @@ def stability_text(folder):
     """Limits of the step over their prediction."""
     limits = {}
     for row in table(folder, "stable_dt"):
-        limits.setdefault(row["contacts"].replace("default", "implicit contacts"), []).append(float(row["measured [s]"]) / float(row["predicted [s]"]))
-    return "stable over predicted step: " + "; ".join(f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}" for contacts, ratios in limits.items())
+        limits.setdefault(row["contacts"].replace("default", "implicit contacts"), []).append(
+            float(row["measured [s]"]) / float(row["predicted [s]"])
+        )
+    return "stable over predicted step: " + "; ".join(
+        f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}" for contacts, ratios in limits.items()
+    )
 
 
 def balance_text(folder):
-    worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == DEFAULT_DT)
-    return f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
+    worst = max(
+        abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == DEFAULT_DT
+    )
+    return (
+        f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
+    )
 
 
 def chosen_text(folder):
     column = "CPU time of fixed steps over it at equal error [-]"
-    gains = [float(row[column]) for row in table(folder, "chosen_gain") if row["steps"] == "chosen" and "house" in row["case"]]
-    return f"steps chosen by the error are {statistics.median(g for g in gains if math.isfinite(g)):.2f} times as fast as fixed ones at equal error"
+    gains = [
+        float(row[column])
+        for row in table(folder, "chosen_gain")
+        if row["steps"] == "chosen" and "house" in row["case"]
+    ]
+    return (
+        f"steps chosen by the error are {statistics.median(g for g in gains if math.isfinite(g)):.2f} times as fast as"
+        " fixed ones at equal error"
+    )
 
 
 def changed_text(folder):
-    return f"steps that change at random gain up to {100 * max(float(row['energy gained [-]']) for row in table(folder, 'changed_step')):.2g} % of the input"
+    return (
+        "steps that change at random gain up to"
+        f" {100 * max(float(row['energy gained [-]']) for row in table(folder, 'changed_step')):.2g} % of the input"
+    )
 
 
 def town_text(folder):
     rows = table(folder, "town")
     most = max(int(row["houses"]) for row in rows)
-    wall, element, memory = (next(name for name in rows[0] if name.startswith(begin)) for begin in ("wall time", "time per element", "memory per element"))
+    wall, element, memory = (
+        next(name for name in rows[0] if name.startswith(begin))
+        for begin in ("wall time", "time per element", "memory per element")
+    )
     one, many = (number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most))
     ratio = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
     return (
-        f"a second thread: {one:.2f} times as fast with one house, {many:.2f} times with {most}; "
-        f"time per element with {most} houses over one: {ratio:.2f}; memory per element {number(rows, memory, houses=most, threads=1):.0f} kB"
+        f"a second thread: {one:.2f} times as fast with one house, {many:.2f} times with {most}; time per element with"
+        f" {most} houses over one: {ratio:.2f}; memory per element"
+        f" {number(rows, memory, houses=most, threads=1):.0f} kB"
     )
 
 
 def pair_text(folder):
-    time = {row["program"]: float(row["time per pair and step [us]"]) for row in table(folder, "peers") if row["pair"] == "face on face"}
+    time = {
+        row["program"]: float(row["time per pair and step [us]"])
+        for row in table(folder, "peers")
+        if row["pair"] == "face on face"
+    }
     return (
-        f"two faces, points and law: this package {time['this package in YADE']:.2g} us, YADE's Polyhedra {time['YADE Polyhedra']:.2g} us; "
-        f"points alone: this package {time['timber points']:.2g} us, Bullet {time['Bullet']:.2g} us, ODE {time['ODE']:.2g} us"
+        f"two faces, points and law: this package {time['this package in YADE']:.2g} us, YADE's Polyhedra"
+        f" {time['YADE Polyhedra']:.2g} us; points alone: this package {time['timber points']:.2g} us, Bullet"
+        f" {time['Bullet']:.2g} us, ODE {time['ODE']:.2g} us"
     )
 
 
@@ -185,7 +228,14 @@ def run_table(folder):
     """Table of whole runs."""
     rows = table(folder, "runs")
     heads = list(rows[0])
-    shown = [(row["run"], row["elements"], *(f"{float(row[head]):.{0 if float(row[head]) > 20 else 1}f}" for head in heads[2:])) for row in rows]
+    shown = [
+        (
+            row["run"],
+            row["elements"],
+            *(f"{float(row[head]):.{0 if float(row[head]) > 20 else 1}f}" for head in heads[2:]),
+        )
+        for row in rows
+    ]
     return markdown_table(heads, shown)
 
 
@@ -194,14 +244,29 @@ def draw_profile(axis, rows):
     for k, row in enumerate(rows[:-1]):
         for y, state in enumerate((REST, SHAKING)):
             left = sum(float(other[f"{state}, share"]) for other in rows[:k])
-            axis.barh(y, float(row[f"{state}, share"]), left=left, height=0.6, color=plt.cm.tab20(k), label=row["part"] if y == 0 else None)
-    axis.set(yticks=(0, 1), yticklabels=(REST, SHAKING), xlabel="share of the instructions of a step", title="Where the time goes")
+            axis.barh(
+                y,
+                float(row[f"{state}, share"]),
+                left=left,
+                height=0.6,
+                color=plt.cm.tab20(k),
+                label=row["part"] if y == 0 else None,
+            )
+    axis.set(
+        yticks=(0, 1),
+        yticklabels=(REST, SHAKING),
+        xlabel="share of the instructions of a step",
+        title="Where the time goes",
+    )
     axis.legend(fontsize=6.5, ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.2), frameon=False)
 
 
 def draw_pairs(axis, rows):
     """Time per contact of two faces of each program."""
-    names = {"this package in YADE": "this package,\nlaw and solver", "YADE Polyhedra": "YADE's Polyhedra,\nlaw", "timber points": "this package,\npoints", "Bullet": "Bullet,\npoints", "ODE": "ODE,\npoints"}
+    names = {
+        "this package in YADE": "this package,\nlaw and solver", "YADE Polyhedra": "YADE's Polyhedra,\nlaw",
+        "timber points": "this package,\npoints", "Bullet": "Bullet,\npoints", "ODE": "ODE,\npoints",
+    }
     time = {row["program"]: float(row["time per pair and step [us]"]) for row in rows if row["pair"] == "face on face"}
     axis.bar(names.values(), [time[name] for name in names], color=["tab:blue", "0.6", "tab:blue", "0.6", "0.6"])
     axis.set(yscale="log", ylabel="time [us]", title="Contact of two faces")
@@ -210,7 +275,11 @@ def draw_pairs(axis, rows):
 
 def draw_errors(axis, rows, case):
     """Error over run time of one case, for several forms of the contact law."""
-    labels = {"default": "implicit contacts (default)", "increment form": "the same, Eq 38", "explicit dashpots": "explicit dashpots"}
+    labels = {
+        "default": "implicit contacts (default)",
+        "increment form": "the same, Eq 38",
+        "explicit dashpots": "explicit dashpots",
+    }
     for (variant, label), mark in zip(labels.items(), "oD^"):
         points = {}
         for row in rows:
@@ -236,11 +305,18 @@ def write_performance(folder):
         draw_errors(axis, table(folder, "precision"), case)
     save(figure, folder / "precision.png")
     page = folder / "performance.md"
-    fill(page, "numbers", markdown_table(("file", "result"), [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]))
+    fill(
+        page,
+        "numbers",
+        markdown_table(
+            ("file", "result"), [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]
+        ),
+    )
     fill(page, "runs", run_table(folder))
 
 
-# --- accuracy ----------------------------------------------------------------------------------------------------------
+# --- accuracy
+# ----------------------------------------------------------------------------------------------------------
 def bounded(rows, section):
     """[(error, bound)] of the rows of a section that have a bound."""
     checks = [(float(row["error"]), float(row["bound"])) for row in rows if row["section"] == section]
@@ -256,7 +332,15 @@ def section_rows(rows):
     entries = []
     for section, (title, subject) in SECTIONS.items():
         checks = bounded(rows, section)
-        entries.append((title, subject, len(checks), sum(error <= bound for error, bound in checks), f"{max(share(*check) for check in checks):.2g}"))
+        entries.append(
+            (
+                title,
+                subject,
+                len(checks),
+                sum(error <= bound for error, bound in checks),
+                f"{max(share(*check) for check in checks):.2g}",
+            )
+        )
     return entries
 
 
@@ -275,7 +359,13 @@ def draw_margins(axis, rows):
         shares = [max(share(*check), 1e-12) for check in bounded(rows, section)]
         axis.plot(shares, [y] * len(shares), "o", ms=4, alpha=0.5, color="tab:blue")
     axis.axvline(1, color="tab:red", lw=1)
-    axis.set(xscale="log", xlabel="error over its bound (left edge: exact)", yticks=range(len(SECTIONS)), yticklabels=[title for title, _ in SECTIONS.values()], title="All checks")
+    axis.set(
+        xscale="log",
+        xlabel="error over its bound (left edge: exact)",
+        yticks=range(len(SECTIONS)),
+        yticklabels=[title for title, _ in SECTIONS.values()],
+        title="All checks",
+    )
     axis.invert_yaxis()
 
 
@@ -286,7 +376,9 @@ def draw_convergence(axis, rows):
         axis.loglog(*zip(*points), "o-", ms=3, lw=1, label=label)
     steps = (2e-6, 2e-3)
     for order, style in ((1, ":"), (2, "--")):
-        axis.loglog(steps, [3e-8 * (dt / steps[0]) ** order for dt in steps], style, color="0.6", label=f"order {order}")
+        axis.loglog(
+            steps, [3e-8 * (dt / steps[0]) ** order for dt in steps], style, color="0.6", label=f"order {order}"
+        )
     axis.set(xlabel="time step [s]", ylabel="error [-]", title="Convergence")
     axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
 
@@ -297,7 +389,13 @@ def write_accuracy(folder):
     draw_margins(axes[0], rows)
     draw_convergence(axes[1], rows)
     save(figure, folder / "accuracy.png")
-    fill(folder / "accuracy.md", "checks", markdown_table(("part", "compared with", "checks", "within their bound", "largest error / bound"), section_rows(rows)))
+    fill(
+        folder / "accuracy.md",
+        "checks",
+        markdown_table(
+            ("part", "compared with", "checks", "within their bound", "largest error / bound"), section_rows(rows)
+        ),
+    )
     fill(folder / "accuracy.md", "errors", markdown_table(("quantity", "error [-]", "time step [s]"), error_rows(rows)))
 
 

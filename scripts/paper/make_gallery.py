@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-Reads the folders modelA_snow, modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the last two are runs of
-scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Writes DIR/modelC2_snow.png, DIR/l_house.png and DIR/gallery/*.png,
-and two films of houses A and C under the same load, DIR/gallery/film.webp and film_snow.webp; the picture of the player needs Chromium.
+Reads the folders modelA_snow, modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the
+last two are runs of scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Writes DIR/modelC2_snow.png,
+DIR/l_house.png and DIR/gallery/*.png, and two films of houses A and C under the same load, DIR/gallery/film.webp and
+film_snow.webp; the picture of the player needs Chromium.
 """
 import argparse
 import io
@@ -38,8 +39,10 @@ AFTER_COLLAPSE = 1.0
 """Time shown in the comparison, after the collapse of the first run. [s]"""
 FILM, SPAN = film.Format(width=640, height=370, rate=10, quality=30), (-3.0, 2.2)
 """Films of the runs FILMS, from and to these times after the collapse of the first [s]: below 3 MB each."""
-CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-            "--window-size=1200,800", "--virtual-time-budget=5000")
+CHROMIUM = (
+    "chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader", "--window-size=1200,800", "--virtual-time-budget=5000",
+)
 DPI = 130
 LARGEST = 150_000
 """Largest picture for a web page. [bytes]"""
@@ -78,12 +81,18 @@ def packed(picture):
 
 
 def compared(runs, time):
-    """Screenshot of the player with the runs COMPARED side by side at a time [s], taken by Chromium. runs: {name: Frames}"""
+    """Screenshot of the player with the runs COMPARED side by side at a time [s], taken by Chromium. runs: {name:
+    Frames}
+    """
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
         player.make([(name, runs[name]) for name in COMPARED], page)
-        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
-                       env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True)
+        subprocess.run(
+            [*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
+            env={**os.environ, "TMPDIR": folder},
+            check=True,
+            capture_output=True,
+        )
         return Image.open(picture).convert("RGB")
 
 
@@ -105,7 +114,14 @@ def make(results, out):
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
     runs = {name: ended(results / name) for name in {*SHEETS, *sum(FILMS.values(), ()), HISTORY, LEAD}}
-    written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN), sheets.SCREEN.dpi) for name in SHEETS]
+    written = [
+        write(
+            gallery / f"{name}.png",
+            sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN),
+            sheets.SCREEN.dpi,
+        )
+        for name in SHEETS
+    ]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))
@@ -122,7 +138,13 @@ def make(results, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("results", type=Path, nargs="?", default=Path("results"), help="folder with the results of the runs (default: results)")
+    parser.add_argument(
+        "results",
+        type=Path,
+        nargs="?",
+        default=Path("results"),
+        help="folder with the results of the runs (default: results)",
+    )
     parser.add_argument("--out", type=Path, default=Path("docs"), help="folder to write to (default: docs)")
     options = parser.parse_args()
     try:

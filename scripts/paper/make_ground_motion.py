@@ -43,8 +43,12 @@ def target_text(key):
 
 def main():
     parser = Parser(__doc__)
-    parser.add_argument("--seed", type=seed, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)")
-    parser.add_argument("--out", type=Path, help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)")
+    parser.add_argument(
+        "--seed", type=seed, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)"
+    )
+    parser.add_argument(
+        "--out", type=Path, help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)"
+    )
     options = parser.parse_args()
     out = options.out or (DEFAULT_RECORD if options.seed == DEFAULT_SEED else Path(f"ojiya_like_{options.seed}.csv"))
     motion = synthetic_motion(options.seed)

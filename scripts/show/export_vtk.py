@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Export recorded frames as VTK time series: export_vtk.py results/modelC2_snow [--every 4] [--out DIR]. Needs VTK (python3-vtk9), not YADE.
+"""Export recorded frames as VTK time series: export_vtk.py results/modelC2_snow [--every 4] [--out DIR]. Needs VTK
+(python3-vtk9), not YADE.
 
 ParaView opens elements.pvd, joints.pvd and contacts.pvd in DIR (default: the folder vtk beside the frames).
 """

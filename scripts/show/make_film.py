@@ -5,8 +5,8 @@
     make_film.py results/modelA_quake
     make_film.py results/modelA_quake --compare results/modelC_quake --out fall.mp4
 
-Real time, a quarter of it around the first collapse; the last picture stays for 2 s. MP4 needs ffmpeg; a name that ends in .webp gives an
-animated picture for a web page.
+Real time, a quarter of it around the first collapse; the last picture stays for 2 s. MP4 needs ffmpeg; a name that ends
+in .webp gives an animated picture for a web page.
 """
 import argparse
 import math
@@ -28,7 +28,9 @@ def number(low, high, kind=float):
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text[:40]}: must be {'a whole number' if kind is int else 'a number'} from {low:g} to {high:g}")
+            raise argparse.ArgumentTypeError(
+                f"{text[:40]}: must be {'a whole number' if kind is int else 'a number'} from {low:g} to {high:g}"
+            )
         return value
     return read
 
@@ -53,14 +55,37 @@ def arguments():
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
     parser.add_argument("--compare", type=path, metavar="RUN", help="a second run, shown at the right")
-    parser.add_argument("--view", choices=tuple(camera.CAMERAS), default="space", help="from the east, from the north, or from the north-east above (default)")
-    parser.add_argument("--speed", type=number(0.01, 20), help="simulated seconds in a second of the film (default: 1, and 0.25 around the first collapse)")
+    parser.add_argument(
+        "--view", choices=tuple(camera.CAMERAS), default="space",
+        help="from the east, from the north, or from the north-east above (default)",
+    )
+    parser.add_argument(
+        "--speed",
+        type=number(0.01, 20),
+        help="simulated seconds in a second of the film (default: 1, and 0.25 around the first collapse)",
+    )
     parser.add_argument("--start", type=instant, help="begin at this time [s] (default: 1 s before the shaking)")
-    parser.add_argument("--end", type=instant, help="end at this time [s] (default: when no picture differs visibly from the last one)")
-    parser.add_argument("--size", type=size, default=(form.width, form.height), metavar="WIDTHxHEIGHT", help="[pixel] (default 1920x1080)")
-    parser.add_argument("--rate", type=number(1, 120), default=form.rate, help="pictures per second (default %(default)g)")
-    parser.add_argument("--quality", type=number(1, 100, int), default=form.quality, help="of WebP (default %(default)d)")
-    parser.add_argument("--out", type=film_path, help="film to write, .mp4 or .webp (default: film.mp4 in the folder of the run; film.webp without ffmpeg)")
+    parser.add_argument(
+        "--end", type=instant, help="end at this time [s] (default: when no picture differs visibly from the last one)"
+    )
+    parser.add_argument(
+        "--size",
+        type=size,
+        default=(form.width, form.height),
+        metavar="WIDTHxHEIGHT",
+        help="[pixel] (default 1920x1080)",
+    )
+    parser.add_argument(
+        "--rate", type=number(1, 120), default=form.rate, help="pictures per second (default %(default)g)"
+    )
+    parser.add_argument(
+        "--quality", type=number(1, 100, int), default=form.quality, help="of WebP (default %(default)d)"
+    )
+    parser.add_argument(
+        "--out",
+        type=film_path,
+        help="film to write, .mp4 or .webp (default: film.mp4 in the folder of the run; film.webp without ffmpeg)",
+    )
     return parser.parse_args()
 
 
@@ -73,7 +98,10 @@ def main():
     with errors_in_a_line(out):
         runs = [frames.load(file) for file in files]
         count = film.write(out, runs, options.view, form, options.start, options.end)
-    print(f"{out}: {count / form.rate + film.HOLD:.1f} s, {count} pictures, {out.stat().st_size / 1e6:.1f} MB, made in {time.perf_counter() - since:.1f} s")
+    print(
+        f"{out}: {count / form.rate + film.HOLD:.1f} s, {count} pictures, {out.stat().st_size / 1e6:.1f} MB, made in"
+        f" {time.perf_counter() - since:.1f} s"
+    )
 
 
 if __name__ == "__main__":

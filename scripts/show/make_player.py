@@ -18,7 +18,11 @@ def arguments():
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
     parser.add_argument("other", type=path, nargs="?", help="a second run, for comparison")
-    parser.add_argument("--out", type=path, help=f"page to write (default: {PLAYER} in the first folder; for two runs compare_with_<second>.html)")
+    parser.add_argument(
+        "--out",
+        type=path,
+        help=f"page to write (default: {PLAYER} in the first folder; for two runs compare_with_<second>.html)",
+    )
     return parser.parse_args()
 
 

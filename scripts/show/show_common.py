@@ -45,7 +45,9 @@ def frames_path(run):
 
 @contextmanager
 def errors_in_a_line(output):
-    """Ends the script with one line and status 1: on an InputError, on extreme numbers, or when the output cannot be written."""
+    """Ends the script with one line and status 1: on an InputError, on extreme numbers, or when the output cannot be
+    written.
+    """
     try:
         yield
     except InputError as problem:

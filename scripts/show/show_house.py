@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Print counts and weights of a house, draw it, and check that it bears its own weight: show_house.py C2 [--snow 1.0] [--out house.png].
+"""Print counts and weights of a house, draw it, and check that it bears its own weight: show_house.py C2 [--snow 1.0]
+[--out house.png].
 
 Without YADE the check is left out.
 """

@@ -4,8 +4,8 @@
 
     scripts/show/show_record.py [--record FILE_OR_PREFIX] [--azimuth 30] [--start 10] [--pga 400] [--out FILE.png]
 
-Takes the options of the run scripts and shows the motion that they would apply; without a record the synthetic motion of the
-package. Needs no YADE.
+Takes the options of the run scripts and shows the motion that they would apply; without a record the synthetic motion
+of the package. Needs no YADE.
 """
 
 import sys
@@ -47,7 +47,10 @@ def print_measures(motion, corner):
     intensity = jma_intensity(motion)
     print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
     print(f"Duration D5-95 [s]    {significant_duration(motion):.2f}")
-    print(f"Linear interpolation between samples errs by at most {100 * interpolation_error(motion):.2g} % of the PGA (--resample: none)")
+    print(
+        f"Linear interpolation between samples errs by at most {100 * interpolation_error(motion):.2g} % of the PGA"
+        " (--resample: none)"
+    )
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
@@ -55,9 +58,15 @@ def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("positional", nargs="?", metavar="RECORD", help="same as --record")
     add_motion_options(parser)
-    parser.add_argument("--dt", type=float, default=DEFAULT_DT, help="time step of a run, for --resample [s] (default %(default)g)")
-    parser.add_argument("--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
-    parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
+    parser.add_argument(
+        "--dt", type=float, default=DEFAULT_DT, help="time step of a run, for --resample [s] (default %(default)g)"
+    )
+    parser.add_argument(
+        "--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none"
+    )
+    parser.add_argument(
+        "--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)"
+    )
     options = parser.parse_args(with_then(sys.argv[1:]))
     if options.record and options.positional:
         parser.error("RECORD and --record name the same option: give one")

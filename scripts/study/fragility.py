@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Fragility of houses: share of runs that collapse against the strength of the ground motion, with and without snow.
 
-    scripts/study/fragility.py [-j 2] [--seeds 20] [--houses A,B,C] [--snow 0,1] [--scales 0.4,0.8,1.2] [--start 14 --end 34]
+    scripts/study/fragility.py [-j 2] [--seeds 20] [--houses A,B,C] [--snow 0,1] [--scales 0.4,0.8,1.2] [--start 14
+    --end 34]
 
 Each seed is a synthetic motion with the published values of the Ojiya record, multiplied by the scale.
-Writes fragility.csv (one row per point, with its binomial confidence interval) and fragility.png. A curve with its band is
-drawn only where every point has at least 20 motions.
+Writes fragility.csv (one row per point, with its binomial confidence interval) and fragility.png. A curve with its band
+is drawn only where every point has at least 20 motions.
 """
 
 from pathlib import Path
@@ -28,24 +29,39 @@ LEAST_RUNS = 20
 RESAMPLED, RESAMPLING_SEED = 200, 1
 """Number of curves of the parametric bootstrap that gives a band, and its seed."""
 SPREAD = (0.05, 1.0)
-"""Limits of the logarithmic standard deviation of a fitted curve: few runs do not distinguish a steep curve from a step."""
+"""Limits of the logarithmic standard deviation of a fitted curve: few runs do not distinguish a steep curve from a
+step.
+"""
 STYLES = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
 
 
 def arguments():
     made = parser(__doc__, "results/study_fragility")
-    made.add_argument("--seeds", type=count, default=LEAST_RUNS, metavar="N", help="motions per point (default %(default)s)")
+    made.add_argument(
+        "--seeds", type=count, default=LEAST_RUNS, metavar="N", help="motions per point (default %(default)s)"
+    )
     made.add_argument("--houses", default="A,B,C", help="shipped houses or house files (default %(default)s)")
-    made.add_argument("--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M", help="snow depths [m] (default 0,1)")
-    made.add_argument("--scales", type=list_of(positive), metavar="X,X", help="factors on the motion (default: a range for each house)")
+    made.add_argument(
+        "--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M", help="snow depths [m] (default 0,1)"
+    )
+    made.add_argument(
+        "--scales", type=list_of(positive), metavar="X,X",
+        help="factors on the motion (default: a range for each house)",
+    )
     return made.parse_args()
 
 
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
     return [
-        {"house": house_name(house), "description": f"snow{snow:g}_scale{scale:g}_seed{seed}", "snow": f"{snow:g}", "scale": f"{scale:g}", "seed": seed,
-         "until_collapse": "yes"}  # fmt: skip
+        {
+            "house": house_name(house),
+            "description": f"snow{snow:g}_scale{scale:g}_seed{seed}",
+            "snow": f"{snow:g}",
+            "scale": f"{scale:g}",
+            "seed": seed,
+            "until_collapse": "yes",
+        }
         for house in options.houses.split(",")
         for snow in options.snow
         for scale in options.scales or SCALES.get(house, SCALES["B"])
@@ -54,7 +70,9 @@ def rows(options):
 
 
 def points(found):
-    """One row per house, snow depth and scale: runs, collapses, their share and its Clopper-Pearson interval. Failed runs count only in `failed`."""
+    """One row per house, snow depth and scale: runs, collapses, their share and its Clopper-Pearson interval. Failed
+    runs count only in `failed`.
+    """
     groups = {}
     for entry in found:
         groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
@@ -72,17 +90,22 @@ def _point(house, snow, scale, entries):
     low, high = stats.binomtest(collapsed, len(done)).proportion_ci(CONFIDENCE, "exact") if done else (0.0, 1.0)
     times = [entry["collapse_time_s"] for entry in done if entry["collapsed"]]
     return {
-        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed, "share": collapsed / len(done) if done else float("nan"),
-        "low": float(low), "high": float(high), "failed": len(entries) - len(done), "median_collapse_time_s": float(np.median(times)) if times else "",
-    }  # fmt: skip
+        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed,
+        "share": collapsed / len(done) if done else float("nan"),
+        "low": float(low), "high": float(high), "failed": len(entries) - len(done),
+        "median_collapse_time_s": float(np.median(times)) if times else "",
+    }
 
 
 def fit(curve, start=None):
-    """(median, logarithmic standard deviation) of the lognormal curve of maximum likelihood; None if no run or every run is a collapse.
+    """(median, logarithmic standard deviation) of the lognormal curve of maximum likelihood; None if no run or every
+    run is a collapse.
 
     start: values from which to search, by default the best of a grid
     """
-    scale, runs, collapsed = (np.array([point[key] for point in curve], float) for key in ("scale", "runs", "collapsed"))
+    scale, runs, collapsed = (
+        np.array([point[key] for point in curve], float) for key in ("scale", "runs", "collapsed")
+    )
     if collapsed.sum() in (0, runs.sum()):
         return None
 
@@ -136,7 +159,9 @@ def median_text(curve):
 
 
 def plot(table, snows, path):
-    figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(
+        1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True
+    )
     for axis, snow in zip(axes[0], snows):
         for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
@@ -150,22 +175,39 @@ def plot(table, snows, path):
         axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8, frameon=False)
     axes[0, 0].set_ylabel("share of runs in which the house collapses")
     runs = max(point["runs"] for point in table)
-    caption = f"Points: {runs} motions each; bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves: lognormal, maximum likelihood, with bands"
+    caption = (
+        f"Points: {runs} motions each; bars: {100 * CONFIDENCE:g} % confidence (Clopper and Pearson); curves:"
+        " lognormal, maximum likelihood, with bands"
+    )
     figure.suptitle(fill(caption, 75 * len(snows)), fontsize=9)
     save(figure, path)
     plt.close(figure)
 
 
 def draw(axis, house, curve, shift):
-    """Points with their intervals, the fitted curve and its band. shift: factor on the abscissa that separates the houses."""
+    """Points with their intervals, the fitted curve and its band. shift: factor on the abscissa that separates the
+    houses.
+    """
     colour, marker = STYLES.get(house, (GREY, "D"))
     x, share, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "share", "low", "high"))
     fitted = fit(curve) if has_curve(curve) else None
-    axis.errorbar(x * shift, share, [share - low, high - share], fmt=marker, color=colour, ms=5, lw=1, capsize=2, label=f"house {house}: {median_text(curve)}")
+    axis.errorbar(
+        x * shift,
+        share,
+        [share - low, high - share],
+        fmt=marker,
+        color=colour,
+        ms=5,
+        lw=1,
+        capsize=2,
+        label=f"house {house}: {median_text(curve)}",
+    )
     if fitted:
         line = np.geomspace(x.min(), x.max(), 200)
         axis.plot(line, share_at(fitted, line), color=colour, lw=1.5)
-        axis.fill_between(line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour, alpha=0.15, lw=0)
+        axis.fill_between(
+            line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour, alpha=0.15, lw=0
+        )
 
 
 def main():

@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow cleared.
+"""Rank strengthening measures of a house: a brace in each free bay, double fittings in each group of joints, snow
+cleared.
 
-    scripts/study/retrofit.py HOUSE [--group wall] [--motions N | --records FOLDER] [--pga GAL | --intensity I | --scale X] [--snow 1] [-j 2] [--pictures 2]
+    scripts/study/retrofit.py HOUSE [--group wall] [--motions N | --records FOLDER] [--pga GAL | --intensity I | --scale
+    X] [--snow 1] [-j 2] [--pictures 2]
 
-Each measure is compared with the house as it is under the same motions. The first motions select three measures, the others test them (paired exact
-test of the collapses or of the drifts, Holm's correction). The motions are scaled so that about half of them bring the house down, unless the options
-give their strength. Writes index.html (overview with links to the runs) and retrofit.csv. All rows are checked before the first run. Stop it at any
-time: the same command continues.
+Each measure is compared with the house as it is under the same motions. The first motions select three measures, the
+others test them (paired exact test of the collapses or of the drifts, Holm's correction). The motions are scaled so
+that about half of them bring the house down, unless the options give their strength. Writes index.html (overview with
+links to the runs) and retrofit.csv. All rows are checked before the first run. Stop it at any time: the same command
+continues.
 """
 
 from dataclasses import replace
@@ -30,22 +33,50 @@ def arguments():
     made = Parser(__doc__)
     add_driver_options(made, "results/study_retrofit")
     made.add_argument("house", type=house_name, metavar="HOUSE", help="shipped house or house file")
-    made.add_argument("--motions", type=count, metavar="N",
-                      help=f"number of synthetic motions (default: {race.TESTS} for the test, and those that select the measures to be tested)")
-    made.add_argument("--records", type=Path, metavar="FOLDER", help="folder of recorded motions, instead of synthetic ones")
+    made.add_argument(
+        "--motions",
+        type=count,
+        metavar="N",
+        help=(
+            f"number of synthetic motions (default: {race.TESTS} for the test, and those that select the measures to be"
+            " tested)"
+        ),
+    )
+    made.add_argument(
+        "--records", type=Path, metavar="FOLDER", help="folder of recorded motions, instead of synthetic ones"
+    )
     made.add_argument("--units", metavar="UNIT", help="unit of records that state none: gal, m/s2 or g")
     made.add_argument("--pga", type=positive, metavar="GAL", help="scale each motion to this PGA [gal]")
     made.add_argument("--intensity", type=positive, metavar="I", help="scale each motion to this JMA intensity")
     made.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
-    made.add_argument("--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)")
-    made.add_argument("--kinds", type=lambda text: text.split(","), default=list(USUAL_KINDS), metavar="KIND,KIND",
-                      help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})")
-    made.add_argument("--group", choices=GROUPS, default="bay", help="braces and walls in one free bay, or in all free bays of a wall of a storey "
-                      "(default %(default)s)")
-    made.add_argument("--only", type=lambda text: text.split(","), default=[""], metavar="TEXT,TEXT", help="only measures whose names contain such a text")
+    made.add_argument(
+        "--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)"
+    )
+    made.add_argument(
+        "--kinds",
+        type=lambda text: text.split(","),
+        default=list(USUAL_KINDS),
+        metavar="KIND,KIND",
+        help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})",
+    )
+    made.add_argument(
+        "--group", choices=GROUPS, default="bay",
+        help="braces and walls in one free bay, or in all free bays of a wall of a storey (default %(default)s)",
+    )
+    made.add_argument(
+        "--only",
+        type=lambda text: text.split(","),
+        default=[""],
+        metavar="TEXT,TEXT",
+        help="only measures whose names contain such a text",
+    )
     made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
-    made.add_argument("--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})")
-    made.add_argument("--pictures", type=count, metavar="N", help="repeat the house and the best N measures with pictures and report")
+    made.add_argument(
+        "--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})"
+    )
+    made.add_argument(
+        "--pictures", type=count, metavar="N", help="repeat the house and the best N measures with pictures and report"
+    )
     made.add_argument("--dry-run", action="store_true", help="check all rows, print the number of runs, and end")
     return made.parse_args()
 
@@ -62,53 +93,84 @@ def ranking_of(options):
     if not found:
         raise RunError(f"{options.house}: no measure of these kinds and names")
     number = options.motions or race.default_motions(len(found))
-    shaking = motions.records(options.records, target, options.units) if options.records else motions.seeds(number, target)
+    shaking = (
+        motions.records(options.records, target, options.units) if options.records else motions.seeds(number, target)
+    )
     if options.end is not None and not options.records:
         shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
     needed = race.needed_motions(len(found))
     if len(shaking) < needed:
-        raise RunError(f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least {needed}")
-    same = {"house": options.house, "snow": f"{options.snow:g}", "until_collapse": "yes", **({"dt": f"{options.dt:g}"} if options.dt else {})}
+        raise RunError(
+            f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least {needed}"
+        )
+    same = {
+        "house": options.house,
+        "snow": f"{options.snow:g}",
+        "until_collapse": "yes",
+        **({"dt": f"{options.dt:g}"} if options.dt else {}),
+    }
     return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
 
 
 def cheaper(ranking, options):
     """'; --group wall: 120' where a ranking of whole walls has fewer runs, else ''."""
     grouped = len(candidates(options.house, options.snow, options.kinds, options.only, "wall"))
-    return f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
+    return (
+        f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
+    )
 
 
 def pictures(ranking, results, number):
-    """Repeat the house as it is and the best measures with frames, under the motion worst for the house; returns [(text, folder)]."""
+    """Repeat the house as it is and the best measures with frames, under the motion worst for the house; returns
+    [(text, folder)].
+    """
     worst = max(ranking.tests, key=lambda motion: race.response(ranking.house.runs[motion]))
     chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.runs)]
     tasks = []
     for entry in chosen:
         task = ranking.task(entry, worst)
-        tasks.append(Task(task.script, ranking.folder / "pictures" / entry.candidate.name, replace(task.options, no_frames=False)))
+        tasks.append(
+            Task(
+                task.script, ranking.folder / "pictures" / entry.candidate.name, replace(task.options, no_frames=False)
+            )
+        )
     done = run_missing(tasks, SCRIPTS, ranking.jobs)
     for task in (task for task in tasks if done[task]):
         all_pictures.write(task.folder)
         report.write(task.folder)
-    return [(f"{entry.candidate.text}, {worst}", task.folder.relative_to(ranking.folder)) for entry, task in zip(chosen, tasks) if done[task]]
+    return [
+        (f"{entry.candidate.text}, {worst}", task.folder.relative_to(ranking.folder))
+        for entry, task in zip(chosen, tasks)
+        if done[task]
+    ]
 
 
 def write(ranking, options, strength, shown=()):
     """Write overview and table; returns the results. strength: sentence about the choice of the motions' strength"""
     results = race.ranking(ranking.entries, ranking.house, ranking.tests)
-    scaled = "".join(f", {key} {getattr(options, key):g}" for key in ("pga", "intensity", "scale") if getattr(options, key) is not None)
+    scaled = "".join(
+        f", {key} {getattr(options, key):g}"
+        for key in ("pga", "intensity", "scale")
+        if getattr(options, key) is not None
+    )
     source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
     snow = f", {options.snow:g} m of snow" if options.snow else ""
     filled = ", those with braces or walls in all free bays of a wall at once" if options.group == "wall" else ""
     runs = [run for entry in (ranking.house, *ranking.entries) for run in entry.runs.values()]
     about = [
-        f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled}; {len(ranking.candidates)} measures{filled}.",
+        (
+            f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled};"
+            f" {len(ranking.candidates)} measures{filled}."
+        ),
         f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
         *filter(None, [strength]),
         overview.summary(results),
     ]
     write_text(ranking.folder / "retrofit.csv", overview.table_text(results))
-    write_text(ranking.folder / "index.html", overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown))
+    write_text(
+        ranking.folder / "index.html",
+        overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown),
+    )
     return results
 
 

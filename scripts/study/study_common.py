@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shared by the studies: options, batch of runs, CSV table, picture. A study can be stopped; the same command continues."""
+"""Shared by the studies: options, batch of runs, CSV table, picture. A study can be stopped; the same command
+continues.
+"""
 
 import sys
 from pathlib import Path
@@ -19,17 +21,26 @@ from yade_timber.study.batch import read_table, run_rows, write_runs  # noqa: E4
 from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder  # noqa: E402
 
 START, END = 14.0, 34.0
-"""Part of the synthetic motion that a study runs: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
+"""Part of the synthetic motion that a study runs: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]
+"""
 
 
 def parser(about, folder):
     """ArgumentParser with the options of every study."""
     made = Parser(about)
     add_driver_options(made, folder)
-    made.add_argument("--start", type=non_negative, default=START, metavar="S", help="start of the part of the motion that is run [s] (default %(default)g)")
-    made.add_argument("--end", type=positive, default=END, metavar="S", help="end of that part [s] (default %(default)g)")
+    made.add_argument(
+        "--start", type=non_negative, default=START, metavar="S",
+        help="start of the part of the motion that is run [s] (default %(default)g)",
+    )
+    made.add_argument(
+        "--end", type=positive, default=END, metavar="S", help="end of that part [s] (default %(default)g)"
+    )
     made.add_argument("--dt", type=positive, metavar="S", help="time step [s] (default: that of the run scripts)")
-    made.add_argument("--to", type=results_folder, metavar="DIR", help="folder of the study's CSV and PNG (default: the folder of the runs)")
+    made.add_argument(
+        "--to", type=results_folder, metavar="DIR",
+        help="folder of the study's CSV and PNG (default: the folder of the runs)",
+    )
     return made
 
 
@@ -39,7 +50,9 @@ def house_name(text):
 
 
 def run_all(rows, options):
-    """Run the rows (dicts with the same columns) as a batch; returns the rows of runs.csv. Raises BatchError, RunError, OSError."""
+    """Run the rows (dicts with the same columns) as a batch; returns the rows of runs.csv. Raises BatchError, RunError,
+    OSError.
+    """
     if not rows:
         raise RunError("the options select no run")
     table = options.out / "table.csv"

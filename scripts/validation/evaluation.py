@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The usual evaluation of a wall test: yield load, ultimate load of the equivalent bilinear curve, ductility, allowable shear.
+"""The usual evaluation of a wall test: yield load, ultimate load of the equivalent bilinear curve, ductility, allowable
+shear.
 
-Yield load Py: the line through 0.1 and 0.4 of the largest load meets the tangent of the envelope that is parallel to the line through 0.4 and
-0.9. The bilinear curve has the stiffness Py / dy and, up to the drift du at 0.8 of the largest load, the area under the envelope.
-Source: test method for walls of the Japanese performance evaluation bodies, as in the data sheets of docs/validation/walls.csv.
+Yield load Py: the line through 0.1 and 0.4 of the largest load meets the tangent of the envelope that is parallel to
+the line through 0.4 and 0.9. The bilinear curve has the stiffness Py / dy and, up to the drift du at 0.8 of the largest
+load, the area under the envelope.
+Source: test method for walls of the Japanese performance evaluation bodies, as in the data sheets of
+docs/validation/walls.csv.
 """
 
 from dataclasses import dataclass
@@ -15,7 +18,9 @@ CODE_DRIFT = 1 / 120
 TEST_END = 1 / 15
 """Drift at which a test without loss of load ends. [rad]"""
 STRAIGHT = 1e-3
-"""Relative difference of the two slopes below which an envelope is straight up to its largest load, which then is the yield load. [-]"""
+"""Relative difference of the two slopes below which an envelope is straight up to its largest load, which then is the
+yield load. [-]
+"""
 
 
 @dataclass(frozen=True)
@@ -33,15 +38,22 @@ class Evaluation:
     @property
     def allowable(self):
         """The least of the four loads. [N]"""
-        return min(self.yield_load, 2 / 3 * self.largest_load, self.code_load, 0.2 * (2 * self.ductility - 1) ** 0.5 * self.ultimate_load)
+        return min(
+            self.yield_load,
+            2 / 3 * self.largest_load,
+            self.code_load,
+            0.2 * (2 * self.ductility - 1) ** 0.5 * self.ultimate_load,
+        )
 
 
 def evaluate(envelope, end=None):
-    """Evaluation of an envelope, (n, 2) drift [rad] and load [N] from the origin. end: last drift of the test, where the load did not fall
-    to 0.8 of the largest one [rad]."""
+    """Evaluation of an envelope, (n, 2) drift [rad] and load [N] from the origin. end: last drift of the test, where
+    the load did not fall to 0.8 of the largest one [rad]."""
     drift, load = np.asarray(envelope, float).T
     top = int(load.argmax())
-    rising = lambda share: np.interp(share * load[top], np.maximum.accumulate(load[: top + 1]), drift[: top + 1])  # noqa: E731
+    rising = lambda share: np.interp(
+        share * load[top], np.maximum.accumulate(load[: top + 1]), drift[: top + 1]
+    )  # noqa: E731
     tenth, low, high = rising(0.1), rising(0.4), rising(0.9)
     first, second = 0.3 * load[top] / (low - tenth), 0.5 * load[top] / (high - low)
     intercept = (load - second * drift)[: top + 1].max()
@@ -52,8 +64,15 @@ def evaluate(envelope, end=None):
     ultimate = _end(drift, load, top, end)
     area = _area(drift, load, ultimate)
     ultimate_load = stiffness * (ultimate - np.sqrt(ultimate**2 - 2 * area / stiffness))
-    return Evaluation(float(np.interp(CODE_DRIFT, drift, load)), float(yield_load), float(ultimate_load), float(load[top]), float(drift[top]),
-                      float(ultimate), float(ultimate * stiffness / ultimate_load))
+    return Evaluation(
+        float(np.interp(CODE_DRIFT, drift, load)),
+        float(yield_load),
+        float(ultimate_load),
+        float(load[top]),
+        float(drift[top]),
+        float(ultimate),
+        float(ultimate * stiffness / ultimate_load),
+    )
 
 
 def _end(drift, load, top, end):

@@ -53,7 +53,13 @@ def tasks(files, shaking, seeds, folder):
     runs = {}
     for (grade, level), path in files.items():
         for number in range(1, seeds + 1):
-            options = RunOptions(house=str(path.resolve()), **shaking, until_collapse=True, disturb=number if number > 1 else None, no_frames=True)
+            options = RunOptions(
+                house=str(path.resolve()),
+                **shaking,
+                until_collapse=True,
+                disturb=number if number > 1 else None,
+                no_frames=True,
+            )
             task = Task("house", folder / path.stem / f"{number:03d}", options)
             runs.setdefault((grade, level), []).append(task)
     return runs

@@ -34,7 +34,9 @@ def wall_joints(model, storey, direction):
 
 
 def wall_springs(model, storey, direction, height):
-    """A SlipSpring for each form of envelope in a storey: both halves of walls, whose stretch is the drift times the height."""
+    """A SlipSpring for each form of envelope in a storey: both halves of walls, whose stretch is the drift times the
+    height.
+    """
     sums = {}
     for j in wall_joints(model, storey, direction):
         stretches, forces = np.transpose(j.envelope)

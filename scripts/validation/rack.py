@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A bay with one wall under imposed drifts, quasi-static, as in a test with pinned feet. Needs YADE.
 
-The storey is moved as a mechanism: columns turn about their feet by the angle theta, everything above them moves along a circle. The wall's
-shear is the force between the beams plus the force between the columns times L / h.
+The storey is moved as a mechanism: columns turn about their feet by the angle theta, everything above them moves along
+a circle. The wall's shear is the force between the beams plus the force between the columns times L / h.
 """
 import math
 from pathlib import Path
@@ -41,14 +41,18 @@ STEP = 2e-4
 
 
 class Rack:
-    """The bay's scene without contacts; `drift` moves it. folder: of its house file; type: wall type in YAML; level: of rated walls."""
+    """The bay's scene without contacts; `drift` moves it. folder: of its house file; type: wall type in YAML; level: of
+    rated walls.
+    """
 
     def __init__(self, folder, type, length=0.91, height=2.73, opening="none", level=None):
         path = Path(folder) / "bay.yaml"
         path.write_text(HOUSE.format(type=type, length=length, height=height, opening=opening))
         self.length, self.height = length, height
         self.model = scenario.build(scenario.Scenario("bay", str(path), wall_level=level))
-        self.beams, self.columns = (joint for joint in engines.find_engine(yw.JointEngine).joints if joint.kind.startswith("wall"))
+        self.beams, self.columns = (
+            joint for joint in engines.find_engine(yw.JointEngine).joints if joint.kind.startswith("wall")
+        )
         self.joints = yw.JointEngine()
         for joint in (self.beams, self.columns):
             self.joints.append(joint)
@@ -73,7 +77,11 @@ class Rack:
 
     def path(self, *angles, step=1e-4):
         """[(theta, shear)] along straight paths from one angle to the next."""
-        return [(theta, self.drift(theta)) for a, b in zip(angles, angles[1:]) for theta in np.linspace(a, b, max(2, round(abs(b - a) / step)))]
+        return [
+            (theta, self.drift(theta))
+            for a, b in zip(angles, angles[1:])
+            for theta in np.linspace(a, b, max(2, round(abs(b - a) / step)))
+        ]
 
     def test(self, drifts=DRIFTS, cycles=CYCLES, step=STEP):
         """[(theta, shear)] of the usual test: cycles of growing amplitude, then a push until the wall breaks."""
@@ -85,7 +93,9 @@ class Rack:
 
 
 def envelope(rows):
-    """(n, 2) largest shear so far on the positive side at each drift that had not been reached before. rows: [(theta, shear)]"""
+    """(n, 2) largest shear so far on the positive side at each drift that had not been reached before. rows: [(theta,
+    shear)]
+    """
     points, reached = [(0.0, 0.0)], 0.0
     for theta, shear in rows:
         if theta > reached:

@@ -3,8 +3,9 @@
 
     yade -j1 -n -x scripts/validation/wall_rack.py [--only NAME ...] [--out FOLDER]
 
-Writes walls.csv (loads and drifts of the usual evaluation, measured and of the model) and walls.png (loops and envelopes over the measured
-points) to FOLDER (default results/wall_rack). Each wall is modelled by its measured points, and by its multiplier at both levels.
+Writes walls.csv (loads and drifts of the usual evaluation, measured and of the model) and walls.png (loops and
+envelopes over the measured points) to FOLDER (default results/wall_rack). Each wall is modelled by its measured points,
+and by its multiplier at both levels.
 """
 import sys
 import tempfile
@@ -26,14 +27,20 @@ from yade_timber.base.table import csv_text  # noqa: E402
 from yade_timber.study.options import Parser, results_folder, run_script  # noqa: E402
 
 MODELS = {"points": "#0072B2", "mean": "#009E73", "design": "#D55E00"}
-HEADS = ("wall", "case", "tests", "multiplier", "P at the code's drift [kN]", "code's drift", "Py [kN]", "Pu [kN]", "Pmax [kN]", "Pmax / allowable",
-         "drift of Pmax", "drift at 0.8 Pmax", "source")
+HEADS = (
+    "wall", "case", "tests", "multiplier", "P at the code's drift [kN]", "code's drift", "Py [kN]", "Pu [kN]",
+    "Pmax [kN]", "Pmax / allowable", "drift of Pmax", "drift at 0.8 Pmax", "source",
+)
 
 
 def arguments():
     parser = Parser(__doc__)
-    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="walls whose names contain one of these texts")
-    parser.add_argument("--out", type=results_folder, default="results/wall_rack", help="folder of the results (default %(default)s)")
+    parser.add_argument(
+        "--only", nargs="+", default=[], metavar="NAME", help="walls whose names contain one of these texts"
+    )
+    parser.add_argument(
+        "--out", type=results_folder, default="results/wall_rack", help="folder of the results (default %(default)s)"
+    )
     return parser.parse_args()
 
 
@@ -54,21 +61,42 @@ def loops(wall, type, level):
 
 
 def measured_row(wall):
-    return _row(wall, "measured, mean", [wall.mean(name) for name in ("code", "yielding", "ultimate", "largest", "largest_drift", "ultimate_drift")])
+    return _row(
+        wall,
+        "measured, mean",
+        [wall.mean(name) for name in ("code", "yielding", "ultimate", "largest", "largest_drift", "ultimate_drift")],
+    )
 
 
 def model_row(wall, name, curve):
     found = evaluate(curve)
     code = float(np.interp(wall.code_drift, *curve.T))
-    return _row(wall, name, [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift, found.ultimate_drift])
+    return _row(
+        wall,
+        name,
+        [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift, found.ultimate_drift],
+    )
 
 
 def _row(wall, case, values):
     code, yielding, ultimate, largest, top, end = values
     multiplier = wall.mean("multiplier")
     ratio = largest / (1.96 * wall.length * multiplier)
-    return [wall.name, case, len(wall.tests) if case.startswith("measured") else "", _number(multiplier), _number(code), f"1/{1 / wall.code_drift:.0f}",
-            _number(yielding), _number(ultimate), _number(largest), _number(ratio), _fraction(top), _fraction(end), wall.source]
+    return [
+        wall.name,
+        case,
+        len(wall.tests) if case.startswith("measured") else "",
+        _number(multiplier),
+        _number(code),
+        f"1/{1 / wall.code_drift:.0f}",
+        _number(yielding),
+        _number(ultimate),
+        _number(largest),
+        _number(ratio),
+        _fraction(top),
+        _fraction(end),
+        wall.source,
+    ]
 
 
 def _number(value):
@@ -80,7 +108,9 @@ def _fraction(drift):
 
 
 def draw(axes, wall, curves):
-    """Loops of the model `points`, envelopes of all, measured points with their spread. curves: {model: [(drift, load)]}"""
+    """Loops of the model `points`, envelopes of all, measured points with their spread. curves: {model: [(drift,
+    load)]}
+    """
     axes.plot(*np.array(curves["points"]).T, color="0.75", linewidth=0.5)
     for name, rows in curves.items():
         axes.plot(*envelope(rows).T, color=MODELS[name], label=name)
@@ -98,7 +128,13 @@ def draw(axes, wall, curves):
 
 def figure(results):
     """results: {wall: curves}"""
-    page, fields = plt.subplots(-(-len(results) // 3), min(3, len(results)), figsize=(12, 3.6 * -(-len(results) // 3)), squeeze=False, constrained_layout=True)
+    page, fields = plt.subplots(
+        -(-len(results) // 3),
+        min(3, len(results)),
+        figsize=(12, 3.6 * -(-len(results) // 3)),
+        squeeze=False,
+        constrained_layout=True,
+    )
     for axes, (wall, curves) in zip(fields.flat, results.items()):
         draw(axes, wall, curves)
     fields.flat[0].legend(loc="lower right")

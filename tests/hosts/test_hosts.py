@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The README's two commands and the Debian package in fresh roots of the supported releases (opt-in: ctest -L hosts; root and mmdebstrap)."""
+"""The README's two commands and the Debian package in fresh roots of the supported releases (opt-in: ctest -L hosts;
+root and mmdebstrap).
+"""
 import os
 import shutil
 import subprocess

@@ -21,12 +21,17 @@ template <class Law> struct Spring {
 	PointRecord state {};
 
 	/// overlap at the end of the step [m], tangential displacement of B against A in it [m]; the normal is z.
-	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(), const Vec3& normal = Vec3::UnitZ())
+	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(),
+	        const Vec3& normal = Vec3::UnitZ())
 	{
 		const ContactPoint point { {}, Vec3::Zero(), normal, overlap };
-		elasticStep<Law, ContactPoint, double>(law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
+		elasticStep<Law, ContactPoint, double>(
+		        law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
 	}
-	double shearEnergy() const { return timber::shearEnergy<double>(state.shearForce, pair.shearRatio * state.stiffness); }
+	double shearEnergy() const
+	{
+		return timber::shearEnergy<double>(state.shearForce, pair.shearRatio * state.stiffness);
+	}
 };
 
 PairProperties pairOf(double shearRatio, double limit = 1) { return { 1, 0.5, shearRatio, limit }; }
@@ -62,8 +67,10 @@ TEST(Hertz, DerivativesOfEnergyAndForce)
 {
 	for (const double n : { 1e-6, 1e-4, 1e-2 }) {
 		const double h = 1e-4 * n; // central differences: truncation h^2 / n^2 = 1e-8, cancellation 1e-12
-		EXPECT_NEAR((timberLaw.energy(n + h) - timberLaw.energy(n - h)) / (2 * h), timberLaw.force(n), 1e-7 * timberLaw.force(n));
-		EXPECT_NEAR((timberLaw.force(n + h) - timberLaw.force(n - h)) / (2 * h), timberLaw.stiffness(n), 1e-7 * timberLaw.stiffness(n));
+		EXPECT_NEAR((timberLaw.energy(n + h) - timberLaw.energy(n - h)) / (2 * h), timberLaw.force(n),
+		        1e-7 * timberLaw.force(n));
+		EXPECT_NEAR((timberLaw.force(n + h) - timberLaw.force(n - h)) / (2 * h), timberLaw.stiffness(n),
+		        1e-7 * timberLaw.stiffness(n));
 	}
 }
 
@@ -129,7 +136,8 @@ TEST(ShearSpring, IgnoresApproach)
 	for (int trial = 0; trial < 100; ++trial) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 		spring.step(1e-3, 1e-3, Vec3::Zero(), Vec3::Zero(), randomDirection(random));
-		EXPECT_LT(spring.state.shearForce.norm(), 1e-12 * timberLaw.force(1e-3)); // cancellation of the approach speed
+		EXPECT_LT(spring.state.shearForce.norm(),
+		        1e-12 * timberLaw.force(1e-3)); // cancellation of the approach speed
 	}
 }
 
@@ -144,7 +152,8 @@ TEST(RotatedShear, PreservesTheMagnitudeAndFollowsTheNormal)
 		EXPECT_NEAR(result.dot(next), 0, 1e-10);
 	}
 	EXPECT_EQ(rotatedShear<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
-	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero()); // no component in the plane
+	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()),
+	        Vec3::Zero()); // no component in the plane
 }
 
 /// A quarter of a revolution about the normal, and about an axis in the plane, in small steps.
@@ -159,7 +168,8 @@ TEST(RotatedShear, FollowsAFiniteRotation)
 			normal = small * normal;
 			shear = rotatedShear<double>(shear, axis * (M_PI / 2 / steps), normal);
 		}
-		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(), 1e-3); // first order in the step: 10 (pi/2)^2 / steps
+		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(),
+		        1e-3); // first order in the step: 10 (pi/2)^2 / steps
 	}
 }
 
@@ -173,7 +183,8 @@ template <class Law> void expectNoEnergyFromNothing(const Law& law, unsigned see
 		n = std::max(1e-7, n + uniform(random, -1, 1) * (step % 7 ? 1e-4 : 1e-3));
 		const Vec3 slide(uniform(random, -1e-4, 1e-4), uniform(random, -1e-4, 1e-4), 0);
 		spring.step(n, 0, slide, Vec3(0, 0, uniform(random, -1, 1)) / dt);
-		const double work = -(spring.state.shearForce.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm());
+		const double work = -(spring.state.shearForce.dot(slide)
+		        + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm());
 		const double now = spring.shearEnergy();
 		EXPECT_LE(now, stored + work + 1e-12 * (now + stored + std::abs(work))); // rounding of the terms
 		stored = now;
@@ -196,17 +207,20 @@ TEST(ShearSpring, ClosedCyclesDissipate)
 	for (int trial = 0; trial < 200; ++trial) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(1 / 2.8) };
 		spring.step(1e-3, 1e-3, Vec3::Zero());
-		const double a = uniform(random, 0, 9e-4), p = uniform(random, 0, 2 * M_PI), q = uniform(random, 0, 2 * M_PI),
-		             amplitude = uniform(random, 0, 1e-3);
+		const double a = uniform(random, 0, 9e-4), p = uniform(random, 0, 2 * M_PI),
+		             q = uniform(random, 0, 2 * M_PI), amplitude = uniform(random, 0, 1e-3);
 		const auto overlap = [&](double t) { return 1e-3 + a * (std::sin(t + p) - std::sin(p)); };
-		const auto place = [&](double t) { return Vec3(amplitude * (std::sin(2 * t + q) - std::sin(q)), amplitude * (std::cos(t) - 1), 0); };
+		const auto place = [&](double t) {
+			return Vec3(amplitude * (std::sin(2 * t + q) - std::sin(q)), amplitude * (std::cos(t) - 1), 0);
+		};
 		double work = 0, largest = 0;
 		const int steps = 400;
 		for (int k = 1; k <= steps; ++k) {
 			const double t = 2 * M_PI * k / steps, last = 2 * M_PI * (k - 1) / steps;
 			const Vec3 slide = place(t) - place(last);
 			spring.step(std::max(1e-7, overlap(t)), 0, slide);
-			work -= spring.state.shearForce.dot(slide) + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm();
+			work -= spring.state.shearForce.dot(slide)
+			        + 0.5 * spring.pair.shearRatio * spring.state.stiffness * slide.squaredNorm();
 			largest = std::max(largest, std::abs(work));
 		}
 		EXPECT_GE(work, spring.shearEnergy() - 1e-12 * largest) << trial; // rounding of the sum
@@ -220,9 +234,11 @@ TEST(ShearSpring, LosesForceWithItsStiffness)
 	spring.step(1e-3, 1e-3, { 1e-5, 0, 0 });
 	const Vec3 full = spring.state.shearForce;
 	spring.step(4e-3, 0, Vec3::Zero());
-	EXPECT_LT((spring.state.shearForce - full).norm(), 1e-12 * full.norm()); // rounding: the force stays while n grows
+	EXPECT_LT((spring.state.shearForce - full).norm(),
+	        1e-12 * full.norm()); // rounding: the force stays while n grows
 	spring.step(1e-3, 0, Vec3::Zero());
-	EXPECT_LT((spring.state.shearForce - full / 2).norm(), 1e-12 * full.norm()); // stiffness goes with sqrt(n): half
+	EXPECT_LT(
+	        (spring.state.shearForce - full / 2).norm(), 1e-12 * full.norm()); // stiffness goes with sqrt(n): half
 }
 
 TEST(NewPoint, OverlapIsExplainedByApproachOrEnergy)

@@ -13,8 +13,8 @@ constexpr double overlap = 1e-3; // [m]
 constexpr double h = 1e-4; // [s]
 constexpr double rounding = 1e-12; ///< of a root and a few products, relative
 const PairProperties pair { 1e6, 0.5, 0.4, 1 }; ///< heavy: contacts do not stop it within a step
-const FeatureId vertex(FeatureKind::VertexFace, 3, 1), face(FeatureKind::FaceVertex, 2, 5), edge(FeatureKind::EdgeEdge, 4, 7),
-        otherEdge(FeatureKind::EdgeEdge, 4, 8);
+const FeatureId vertex(FeatureKind::VertexFace, 3, 1), face(FeatureKind::FaceVertex, 2, 5),
+        edge(FeatureKind::EdgeEdge, 4, 7), otherEdge(FeatureKind::EdgeEdge, 4, 8);
 
 ContactPoint pointOf(FeatureId id, double at) { return { id, Vec3::Zero(), Vec3::UnitZ(), at }; }
 
@@ -31,13 +31,15 @@ PointRecord loaded(FeatureId id, double at)
 }
 
 /// A step in which B approached with that speed [m/s]. Returns the energy released. [J]
-double step(const std::vector<ContactPoint>& points, std::vector<PointRecord>& records, double speed = 0, bool placedInContact = false)
+double step(const std::vector<ContactPoint>& points, std::vector<PointRecord>& records, double speed = 0,
+        bool placedInContact = false)
 {
 	const Vec3 none = Vec3::Zero(), approach(0, 0, -speed);
-	const double released
-	        = elasticPair(law, { pair, { none, none, none }, { none, approach, none }, h, NormalForm::Closed, placedInContact }, points, records);
-	EXPECT_TRUE(std::equal(
-	        points.begin(), points.end(), records.begin(), records.end(), [](const ContactPoint& p, const PointRecord& s) { return p.id == s.id; }));
+	const double released = elasticPair(law,
+	        { pair, { none, none, none }, { none, approach, none }, h, NormalForm::Closed, placedInContact },
+	        points, records);
+	EXPECT_TRUE(std::equal(points.begin(), points.end(), records.begin(), records.end(),
+	        [](const ContactPoint& p, const PointRecord& s) { return p.id == s.id; }));
 	return released;
 }
 
@@ -47,7 +49,8 @@ void expectOverlap(const PointRecord& record, double effective, double total)
 	EXPECT_NEAR(record.excess, total - effective, rounding * overlap);
 }
 
-/// A body of that mass [kg] on a fixed one, with one point of the overlap, moves with the speed of separation [m/s] in a step of hh [s].
+/// A body of that mass [kg] on a fixed one, with one point of the overlap, moves with the speed of separation [m/s] in
+/// a step of hh [s].
 struct Separation {
 	std::vector<SolverBody> bodies { 2 };
 	std::vector<PointRecord> records { loaded(vertex, overlap) };
@@ -79,7 +82,8 @@ struct Separation {
 
 } // namespace
 
-/// A point that separates within the step gives the body its account A and no more: m (v'^2 - v^2) / 2 = A for the velocity v' after the step.
+/// A point that separates within the step gives the body its account A and no more: m (v'^2 - v^2) / 2 = A for the
+/// velocity v' after the step.
 TEST(SeparatingPoint, ReturnsItsAccount)
 {
 	const double mass = 2, hh = std::sqrt(3 * mass / law.stiffness(overlap)), energy = law.energy(overlap);
@@ -96,10 +100,12 @@ TEST(SeparatingPoint, ClosesTheEnergyBalance)
 	for (const double ratio : { 0., 0.3, 1. })
 		for (const double y : { 0.1, 1., 3., 30. }) // h^2 K / m
 			for (const double share : { 100., 2., 0.5, 1e-3 }) {
-				const double hh = std::sqrt(y * mass / law.stiffness(overlap)), speed = overlap / hh / share;
+				const double hh = std::sqrt(y * mass / law.stiffness(overlap)),
+				             speed = overlap / hh / share;
 				const Separation s(mass, speed, hh, ratio);
 				const double gained = mass / 2 * (s.after() * s.after() - speed * speed);
-				EXPECT_NEAR(gained + s.energies.dashpotNormal + s.records[0].normalStored, energy, (energy + mass * speed * speed) * rounding)
+				EXPECT_NEAR(gained + s.energies.dashpotNormal + s.records[0].normalStored, energy,
+				        (energy + mass * speed * speed) * rounding)
 				        << y << " " << share;
 				EXPECT_GE(s.energies.dashpotNormal, -energy * rounding);
 				EXPECT_LE(share < 1 ? s.records[0].normalStored : 0, energy * rounding);
@@ -112,7 +118,8 @@ TEST(ReleasedEnergy, IsThatOfBothAccounts)
 	const Vec3 shear(300, 400, 0);
 	for (const double speed : { 0., 0.3, -0.3 }) { // [m/s], of a heavy body: its velocity is constant
 		Separation s(1e9, speed, h, 0, shear);
-		const double way = -speed * h / 2, normal = law.energy(overlap + way), tangential = shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap));
+		const double way = -speed * h / 2, normal = law.energy(overlap + way),
+		             tangential = shear.squaredNorm() / (2 * 0.4 * law.stiffness(overlap));
 		EXPECT_LE(s.records[0].normalStored, normal * (1 + 1e-6));
 		EXPECT_NEAR(s.records[0].shearStored, tangential, 1e-9 * tangential);
 		const double both = s.records[0].normalStored + s.records[0].shearStored;
@@ -124,17 +131,20 @@ TEST(ReleasedEnergy, IsThatOfBothAccounts)
 /// Points end before, between and after persistent points, which retain their history and are not treated as new.
 TEST(ReleasedEnergy, ExcludesPersistentPoints)
 {
-	std::vector<PointRecord> records { loaded(vertex, overlap), loaded(face, 2 * overlap), loaded(edge, 3 * overlap), loaded(otherEdge, 4 * overlap) };
+	std::vector<PointRecord> records { loaded(vertex, overlap), loaded(face, 2 * overlap),
+		loaded(edge, 3 * overlap), loaded(otherEdge, 4 * overlap) };
 	records[1].shearForce = Vec3::UnitX();
 	const double released = step({ pointOf(face, 2 * overlap), pointOf(otherEdge, 4 * overlap) }, records);
 	EXPECT_NEAR(released, law.energy(overlap) + law.energy(3 * overlap), rounding * released);
 	expectOverlap(records[0], 2 * overlap, 2 * overlap);
 	expectOverlap(records[1], 4 * overlap, 4 * overlap);
 	EXPECT_EQ(records[0].shearForce, Vec3::UnitX());
-	EXPECT_NEAR(step({ pointOf(face, 2 * overlap) }, records), law.energy(4 * overlap), rounding * law.energy(overlap));
+	EXPECT_NEAR(
+	        step({ pointOf(face, 2 * overlap) }, records), law.energy(4 * overlap), rounding * law.energy(overlap));
 }
 
-/// A vertex slides over a border and an edge takes its place: the edge gets at most the energy of the vertex, and the rest is released.
+/// A vertex slides over a border and an edge takes its place: the edge gets at most the energy of the vertex, and the
+/// rest is released.
 TEST(InitialOverlap, UsesTheReleasedEnergy)
 {
 	for (const double total : { overlap / 2, overlap, 3 * overlap }) {
@@ -150,7 +160,8 @@ TEST(InitialOverlap, UsesTheReleasedEnergy)
 TEST(InitialOverlap, UsesTheReleasedEnergyOnce)
 {
 	std::vector<PointRecord> records { loaded(vertex, overlap) };
-	EXPECT_NEAR(step({ pointOf(edge, overlap / 2), pointOf(otherEdge, 3 * overlap) }, records), 0, rounding * law.energy(overlap));
+	EXPECT_NEAR(step({ pointOf(edge, overlap / 2), pointOf(otherEdge, 3 * overlap) }, records), 0,
+	        rounding * law.energy(overlap));
 	const double left = law.overlapOf(law.energy(overlap) - law.energy(overlap / 2));
 	expectOverlap(records[0], overlap / 2, overlap / 2);
 	expectOverlap(records[1], left, 3 * overlap);
@@ -167,7 +178,8 @@ TEST(InitialOverlap, ApproachTakesNoReleasedEnergy)
 	EXPECT_NEAR(step({ pointOf(edge, 3 * overlap) }, records, speed), law.energy(overlap / 2), rounding * whole);
 	expectOverlap(records[0], overlap, 3 * overlap);
 	records = { loaded(vertex, overlap) };
-	EXPECT_NEAR(step({ pointOf(edge, overlap / 4) }, records, speed), whole, rounding * whole); // the approach explains more than the overlap
+	EXPECT_NEAR(step({ pointOf(edge, overlap / 4) }, records, speed), whole,
+	        rounding * whole); // the approach explains more than the overlap
 	expectOverlap(records[0], overlap / 4, overlap / 4);
 	records.clear();
 	EXPECT_EQ(step({ pointOf(edge, 3 * overlap) }, records, -speed), 0); // separating bodies explain none
@@ -179,8 +191,10 @@ TEST(InitialOverlap, IsTheWholeOverlapOfBodiesPlacedInContact)
 {
 	for (const bool placedInContact : { false, true }) {
 		std::vector<PointRecord> records;
-		EXPECT_EQ(step({ pointOf(vertex, overlap), pointOf(edge, 2 * overlap) }, records, 0, placedInContact), 0);
+		EXPECT_EQ(
+		        step({ pointOf(vertex, overlap), pointOf(edge, 2 * overlap) }, records, 0, placedInContact), 0);
 		for (size_t k = 0; k < 2; ++k)
-			expectOverlap(records[k], placedInContact ? double(k + 1) * overlap : 0, double(k + 1) * overlap);
+			expectOverlap(
+			        records[k], placedInContact ? double(k + 1) * overlap : 0, double(k + 1) * overlap);
 	}
 }

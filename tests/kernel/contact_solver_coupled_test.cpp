@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Coupled contact points on shared bodies: balances of momentum and energy, comparison with a dense solution, stiff heaps.
+/// Coupled contact points on shared bodies: balances of momentum and energy, comparison with a dense solution, stiff
+/// heaps.
 #include "heap.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ TEST(Balance, MomentumIsConserved)
 			for (size_t k = 0; k < places.size(); ++k) {
 				const SolverBody& b = heap.bodies[k];
 				total.linear += b.newVelocity / b.inverseMass;
-				total.angular += b.inverseInertia.inverse() * b.newSpin + places[k].cross(b.newVelocity / b.inverseMass);
+				total.angular += b.inverseInertia.inverse() * b.newSpin
+				        + places[k].cross(b.newVelocity / b.inverseMass);
 			}
 			return total;
 		};
@@ -67,8 +69,9 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 	const int count = int(heap.points.size());
 	Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * count, 6 * int(heap.bodies.size())),
 	                inverseMass = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
-	const auto cross
-	        = [](const Vec3& r) { return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished(); }; // w -> w x r
+	const auto cross = [](const Vec3& r) {
+		return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished();
+	}; // w -> w x r
 	Eigen::VectorXd before(jacobian.cols()), free(jacobian.cols());
 	for (size_t k = 0; k < heap.bodies.size(); ++k) {
 		const SolverBody& b = heap.bodies[k];
@@ -89,16 +92,20 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 	Eigen::VectorXd elastic(3 * count);
 	for (int k = 0; k < count; ++k) {
 		const HeapPoint& p = heap.points[k];
-		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along, diagonalBlock = response.block<3, 3>(3 * k, 3 * k);
-		const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(across * diagonalBlock * across).eigenvalues().maxCoeff();
+		const Mat3 along = p.normal * p.normal.transpose(), across = Mat3::Identity() - along,
+		           diagonalBlock = response.block<3, 3>(3 * k, 3 * k);
+		const double largest
+		        = Eigen::SelfAdjointEigenSolver<Mat3>(across * diagonalBlock * across).eigenvalues().maxCoeff();
 		const auto weight = [](double x) { return 0.5 + x / (12 + 2 * x); };
 		damping.block<3, 3>(3 * k, 3 * k) = p.normalDamping * along + p.shearDamping * across;
 		theta.block<3, 3>(3 * k, 3 * k)
-		        = weight(h * p.normalDamping * p.normal.dot(diagonalBlock * p.normal)) * along + weight(h * p.shearDamping * largest) * across;
+		        = weight(h * p.normalDamping * p.normal.dot(diagonalBlock * p.normal)) * along
+		        + weight(h * p.shearDamping * largest) * across;
 		elastic.segment<3>(3 * k) = p.elasticNormal * p.normal + p.elasticShear;
 	}
 	const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(3 * count, 3 * count);
-	const Eigen::VectorXd right = h * elastic - h * damping * ((one - theta) * jacobian * before + theta * jacobian * free);
+	const Eigen::VectorXd right
+	        = h * elastic - h * damping * ((one - theta) * jacobian * before + theta * jacobian * free);
 	return (one + h * damping * theta * response).partialPivLu().solve(right);
 }
 
@@ -122,7 +129,8 @@ TEST(Coupled, ConvergesToTheDenseSolution)
 		int compared = 0;
 		for (unsigned seed = 0; seed < 200 && compared < 10; ++seed) {
 			Heap heap(seed, 6, damping > 1e4 ? 3 : 10, damping, 1e9, 0);
-			for (auto& p : heap.points) { // a compressive initial guess: unlimited friction has a second solution, in which a point separates
+			for (auto& p : heap.points) { // a compressive initial guess: unlimited friction has a second
+				                      // solution, in which a point separates
 				p.elasticNormal = 100 * damping;
 				p.impulse = h * p.elasticNormal * p.normal;
 			}
@@ -132,8 +140,10 @@ TEST(Coupled, ConvergesToTheDenseSolution)
 				pressed = pressed && dense.segment<3>(3 * k).dot(heap.points[k].normal) > 0;
 			if (!pressed) continue;
 			++compared;
-			EXPECT_LT(errorOf(heap, dense, h, 3000), 1e-6) << damping << " " << seed; // linear convergence of the sweeps
-			EXPECT_LT(errorOf(heap, dense, h, 3000), 0.01 * errorOf(heap, dense, h, 2) + 1e-12) << damping << " " << seed;
+			EXPECT_LT(errorOf(heap, dense, h, 3000), 1e-6)
+			        << damping << " " << seed; // linear convergence of the sweeps
+			EXPECT_LT(errorOf(heap, dense, h, 3000), 0.01 * errorOf(heap, dense, h, 2) + 1e-12)
+			        << damping << " " << seed;
 		}
 		EXPECT_EQ(compared, 10) << damping;
 	}
@@ -155,23 +165,26 @@ TEST(Coupled, FaceWithFourPointsNeedsFewSweeps)
 	EXPECT_LT(errorOf(heap, dense, 1e-4, 60), 1e-4); // linear convergence of the sweeps
 }
 
-/// A long beam lands on one of its lower edges: the normal impulse also rotates it, so that the edge slips. The tangential impulse cancels
-/// this slip in the same visit (coupling).
+/// A long beam lands on one of its lower edges: the normal impulse also rotates it, so that the edge slips. The
+/// tangential impulse cancels this slip in the same visit (coupling).
 TEST(Coupled, TangentialImpulseCancelsTheSlipOfTheNormalOne)
 {
 	const double mass = 20, side = 0.12, length = 4;
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(mass, { 0, 0, -1 }) };
-	bodies[1].inverseInertia = Vec3(12 / (mass * length * length), 6 / (mass * side * side), 12 / (mass * length * length)).asDiagonal();
+	bodies[1].inverseInertia
+	        = Vec3(12 / (mass * length * length), 6 / (mass * side * side), 12 / (mass * length * length))
+	                  .asDiagonal();
 	HeapPoint p = central(1e8);
 	p.armB = { side / 2, 0, -side / 2 };
 	p.friction = 1e9;
 	std::vector<HeapPoint> points { p };
 	EXPECT_LE(solveContacts(bodies, points, 1e-4, 1000, 1e-9), 30); // observed 22; 42 without coupling
-	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed remains
+	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(),
+	        1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed remains
 }
 
-/// Pairs are visited in the same order in all sweeps: an impulse at the first body of a row crosses the whole row in one sweep, and the next
-/// sweep begins at the first pair again.
+/// Pairs are visited in the same order in all sweeps: an impulse at the first body of a row crosses the whole row in
+/// one sweep, and the next sweep begins at the first pair again.
 TEST(Coupled, PairsAreVisitedInTheSameOrder)
 {
 	const int last = 5;
@@ -190,14 +203,17 @@ TEST(Coupled, PairsAreVisitedInTheSameOrder)
 		return bodies;
 	};
 	const std::vector<SolverBody> one = after(1);
-	for (int k = 0; k < last; ++k) // two bodies in contact get their mean velocity: half of the impulse is transmitted
-		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5) << k; // 2 / x = 4e-6 of a relative velocity remains
+	for (int k = 0; k < last;
+	        ++k) // two bodies in contact get their mean velocity: half of the impulse is transmitted
+		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5)
+		        << k; // 2 / x = 4e-6 of a relative velocity remains
 	EXPECT_NEAR(one[last].newVelocity.z(), one[last - 1].newVelocity.z(), 1e-5);
-	EXPECT_NEAR(after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second sweep were in reverse order
+	EXPECT_NEAR(
+	        after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second sweep were in reverse order
 }
 
-/// The order of a pair's points alternates, so that no side of a face is favoured: after the second sweep the first point's equation is
-/// satisfied, not the last one's.
+/// The order of a pair's points alternates, so that no side of a face is favoured: after the second sweep the first
+/// point's equation is satisfied, not the last one's.
 TEST(Coupled, OrderOfPointsAlternates)
 {
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1, { 0, 0, -1 }) };
@@ -205,8 +221,10 @@ TEST(Coupled, OrderOfPointsAlternates)
 	points[0].armB.x() = -0.5;
 	points[1].armB.x() = 0.5;
 	solveContacts(bodies, points, 1e-4, 2);
-	const auto speed = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
-	const double other = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): effect of one point's impulse on the other
+	const auto speed
+	        = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
+	const double other
+	        = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): effect of one point's impulse on the other
 	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed remains
 	EXPECT_NEAR(speed(points[1]), other * other * (other - 1), 1e-5);
 }
@@ -261,7 +279,8 @@ TEST(Stiff, HeapComesToRest)
 		}
 }
 
-/// A tower of light bodies on a heavy one with the large impulses: the remaining error is small for the light ones, too.
+/// A tower of light bodies on a heavy one with the large impulses: the remaining error is small for the light ones,
+/// too.
 TEST(Stiff, ConvergenceIsJudgedByLightMembers)
 {
 	constexpr double h = 1e-4, heavy = 1e5, light = 1, gravity = 10;
@@ -290,7 +309,8 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed remains, x = 1e4
 	}
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
-	std::vector<HeapPoint> points { central(1e7), central(1e7) }; // the heavy one falls on the light one on the ground
+	std::vector<HeapPoint> points { central(1e7),
+		central(1e7) }; // the heavy one falls on the light one on the ground
 	points[1].bodyA = 1;
 	points[1].bodyB = 2;
 	const double before = kineticEnergy(bodies);
@@ -300,8 +320,8 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
 
-/// The warm start of a contact that has just become stiff may be 1e4 times the impulse of the step. The threshold of the sweeps follows the impulses; that of
-/// the first sweep alone would end them with errors of this size.
+/// The warm start of a contact that has just become stiff may be 1e4 times the impulse of the step. The threshold of
+/// the sweeps follows the impulses; that of the first sweep alone would end them with errors of this size.
 TEST(Coupled, ALargeWarmStartDoesNotEndTheSweeps)
 {
 	for (unsigned seed = 0; seed < 40; ++seed) {
@@ -315,7 +335,8 @@ TEST(Coupled, ALargeWarmStartDoesNotEndTheSweeps)
 			largest = std::max(largest, heap.points[k].impulse.norm());
 			error = std::max(error, (heap.points[k].impulse - pushed.points[k].impulse).norm());
 		}
-		EXPECT_LT(error, 0.05 * largest) << seed; // tolerance 1e-3 of the rms, times the number of coupled points
+		EXPECT_LT(error, 0.05 * largest)
+		        << seed; // tolerance 1e-3 of the rms, times the number of coupled points
 	}
 }
 
@@ -340,12 +361,14 @@ TEST(Islands, DependOnThePresentStepOnly)
 			ContactSolver once;
 			Islands islands;
 			const size_t before = reusedIslands.count();
-			EXPECT_EQ(
-			        solveContacts(reused, reusedIslands, bodies, points, 1e-3, 30, 1e-6), solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6))
+			EXPECT_EQ(solveContacts(reused, reusedIslands, bodies, points, 1e-3, 30, 1e-6),
+			        solveContacts(once, islands, fresh, same, 1e-3, 30, 1e-6))
 			        << seed;
 			ASSERT_EQ(reusedIslands.count(), islands.count()) << seed << " after " << before;
 			for (size_t k = 0; k < islands.count(); ++k)
-				ASSERT_TRUE(std::equal(reusedIslands[k].begin(), reusedIslands[k].end(), islands[k].begin(), islands[k].end())) << seed;
+				ASSERT_TRUE(std::equal(reusedIslands[k].begin(), reusedIslands[k].end(),
+				        islands[k].begin(), islands[k].end()))
+				        << seed;
 			for (size_t k = 0; k < bodies.size(); ++k) {
 				EXPECT_EQ(bodies[k].newVelocity, fresh[k].newVelocity) << seed;
 				EXPECT_EQ(bodies[k].newSpin, fresh[k].newSpin) << seed;
@@ -357,7 +380,8 @@ TEST(Islands, DependOnThePresentStepOnly)
 	EXPECT_GT(most, least + 3);
 }
 
-/// A pair of fixed bodies is an island, too: its forces are limited and its energies counted. Pairs without contact points are in none.
+/// A pair of fixed bodies is an island, too: its forces are limited and its energies counted. Pairs without contact
+/// points are in none.
 TEST(Islands, PairsOfFixedBodiesAreIslands)
 {
 	Islands islands;

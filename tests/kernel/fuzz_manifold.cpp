@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// libFuzzer target, not part of the normal build: bytes become two polyhedra and their placements.
-///   cmake --preset fuzz && cmake --build --preset fuzz && build/fuzz/fuzz_manifold -max_len=128 -runs=10000000 CORPUS_FOLDER
+///   cmake --preset fuzz && cmake --build --preset fuzz && build/fuzz/fuzz_manifold -max_len=128 -runs=10000000
+///   CORPUS_FOLDER
 /// A refused polyhedron is a valid outcome; anything not finite, unbounded, unsorted or dependent on the cache is not.
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,8 @@ public:
 		--size;
 		return *data++;
 	}
-	/// On a coarse grid, so that coplanar, parallel and coincident features are common; now and then any bits at all.
+	/// On a coarse grid, so that coplanar, parallel and coincident features are common; now and then any bits at
+	/// all.
 	double coordinate()
 	{
 		const int grid = byte();
@@ -94,10 +96,11 @@ const std::vector<RoundedPolyhedron>& knownBodies()
 	using namespace shapes;
 	static const std::vector<RoundedPolyhedron> bodies = [] {
 		std::vector<RoundedPolyhedron> all;
-		for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(0.105, 7.28, 0.12), Vec3(7.28, 8.19, 0.2), Vec3(1, 1, 1), Vec3(1, 1, 1e-3),
-		             Vec3(1, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1e-3) })
+		for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(0.105, 7.28, 0.12), Vec3(7.28, 8.19, 0.2),
+		             Vec3(1, 1, 1), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1e-3) })
 			all.push_back(roundedBox(extents));
-		for (const auto& points : { Brace { 0.91, 2.73, 0.09, 0.045 }.vertices(), HipSlab { 8, 0.5, 0.4, 0.12 }.vertices(), tetrahedronVertices(0.3),
+		for (const auto& points : { Brace { 0.91, 2.73, 0.09, 0.045 }.vertices(),
+		             HipSlab { 8, 0.5, 0.4, 0.12 }.vertices(), tetrahedronVertices(0.3),
 		             octahedronVertices(0.2), hexagonalPrismVertices(0.1, 1.5), pyramidVertices(1, 0.2) }) {
 			const Vec3 centre = massProperties(Polyhedron::fromVertices(points)).centroid;
 			all.push_back(rounded(moved(points, Quat::Identity(), -centre)));
@@ -116,7 +119,8 @@ RoundedPolyhedron readBody(Bytes& bytes)
 	std::vector<Vec3> points = shape.vertices;
 	for (Vec3& p : points)
 		p *= std::pow(10, kind / 64 - 2);
-	return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), bytes.byte() % 2 ? 0 : shape.thickness() * std::pow(10, kind / 64 - 3));
+	return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points),
+	        bytes.byte() % 2 ? 0 : shape.thickness() * std::pow(10, kind / 64 - 3));
 }
 
 void require(bool condition, const char* what)
@@ -126,13 +130,16 @@ void require(bool condition, const char* what)
 	std::abort();
 }
 
-void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const std::vector<ContactPoint>& points)
+void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
+        const std::vector<ContactPoint>& points)
 {
 	Vec3 axis;
-	const double gap = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(),
-	        poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
+	const double gap
+	        = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(),
+	                poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
 	const double limit = a.radius + b.radius + std::max({ -gap, a.coreHalfThickness, b.coreHalfThickness, 1e-4 });
-	const double noise = 1e-12 * (a.boundingRadius + b.boundingRadius); // cores that just touch in a pattern that is off have no point
+	const double noise = 1e-12
+	        * (a.boundingRadius + b.boundingRadius); // cores that just touch in a pattern that is off have no point
 	require(gap >= -noise || !points.empty(), "overlapping cores without a point");
 	for (size_t k = 0; k < points.size(); ++k) {
 		const ContactPoint& p = points[k];
@@ -157,12 +164,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 		std::vector<ContactPoint> points, fresh;
 		for (int step = 0; step < 3; ++step) {
 			const Pose poseB { bytes.vector() * (a.boundingRadius + b.boundingRadius), bytes.rotation() };
-			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0; // placements are checked by the caller
+			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6)
+				return 0; // placements are checked by the caller
 			updateManifold(a, b, poseA, poseB, patterns, cache, points);
 			check(a, b, poseA, poseB, points);
 			const double gap = updateManifold(a, b, poseA, poseB, patterns, cache, points);
-			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(), poseB.orientation };
-			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(), "a contact within the gap that was promised");
+			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(),
+				poseB.orientation };
+			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(),
+			        "a contact within the gap that was promised");
 			CandidateCache empty;
 			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
 			require(points.size() == fresh.size(), "the cache changes the result");

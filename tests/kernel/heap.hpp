@@ -14,7 +14,8 @@ constexpr double rounding = 1e-13;
 inline SolverBody body(double mass, const Vec3& velocity)
 {
 	const double inertia = 0.1 * mass; // of a sphere of about 0.5 m
-	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0, mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
+	return { velocity, Vec3::Zero(), velocity, Vec3::Zero(), mass > 0 ? 1 / mass : 0,
+		mass > 0 ? Mat3(Mat3::Identity() / inertia) : Mat3(Mat3::Zero()) };
 }
 
 struct HeapPoint : StepInput<double> {
@@ -35,19 +36,24 @@ inline HeapPoint central(double damping, double elastic = 0)
 }
 
 /// Impulse of a point on B, world frame. [N s]
-inline Vec3 worldImpulse(const PointStep& p) { return p.impulse[0] * p.axes[0] + p.impulse[1] * p.axes[1] + p.impulse[2] * p.axes[2]; }
+inline Vec3 worldImpulse(const PointStep& p)
+{
+	return p.impulse[0] * p.axes[0] + p.impulse[1] * p.axes[1] + p.impulse[2] * p.axes[2];
+}
 
 /// One step of points sorted by pairs, by a solver and islands that may have been used before. Returns the number of
 /// sweeps of the island that took most.
-inline int solveContacts(
-        ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveContacts(ContactSolver& solver, Islands& islands, std::vector<SolverBody>& bodies,
+        std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	using Place = std::vector<HeapPoint>::iterator;
 	std::vector<std::pair<Place, Place>> pairs; // points of each
 	std::vector<Link> links;
 	const auto linked = [&](int body) { return bodies[size_t(body)].inverseMass > 0 ? body : ~body; };
 	for (Place p = points.begin(); p != points.end(); p = pairs.back().second) {
-		pairs.emplace_back(p, std::find_if_not(p, points.end(), [&](const HeapPoint& q) { return p->bodyA == q.bodyA && p->bodyB == q.bodyB; }));
+		pairs.emplace_back(p, std::find_if_not(p, points.end(), [&](const HeapPoint& q) {
+			return p->bodyA == q.bodyA && p->bodyB == q.bodyB;
+		}));
 		links.emplace_back(linked(p->bodyA), linked(p->bodyB));
 	}
 	islands.find(bodies.size(), links);
@@ -57,7 +63,8 @@ inline int solveContacts(
 		solver.begin(bodies, h, sweeps);
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
-			const size_t k = solver.addPair(first->bodyA, first->bodyB, &records[size_t(first - points.begin())], size_t(last - first));
+			const size_t k = solver.addPair(first->bodyA, first->bodyB,
+			        &records[size_t(first - points.begin())], size_t(last - first));
 			for (Place p = first; p != last; ++p)
 				solver.prepare<double>(k, size_t(p - first), *p);
 		}
@@ -67,7 +74,8 @@ inline int solveContacts(
 		points[k].impulse = worldImpulse(records[k].step);
 	return maxSweeps;
 }
-inline int solveContacts(std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
+inline int solveContacts(
+        std::vector<SolverBody>& bodies, std::vector<HeapPoint>& points, double h, int sweeps, double tolerance = 0)
 {
 	ContactSolver solver;
 	Islands islands;
@@ -88,7 +96,8 @@ inline double kineticEnergy(const std::vector<SolverBody>& bodies)
 	double energy = 0;
 	for (const auto& b : bodies)
 		if (b.inverseMass > 0)
-			energy += 0.5 * b.newVelocity.squaredNorm() / b.inverseMass + 0.5 * b.newSpin.dot(b.inverseInertia.inverse() * b.newSpin);
+			energy += 0.5 * b.newVelocity.squaredNorm() / b.inverseMass
+			        + 0.5 * b.newSpin.dot(b.inverseInertia.inverse() * b.newSpin);
 	return energy;
 }
 
@@ -103,7 +112,8 @@ struct Heap {
 		for (int k = 0; k < bodyCount; ++k)
 			add(random, k == 0);
 		for (int k = 0; k < pointCount; ++k) {
-			const int a = int(uniform(random, 0, bodyCount - 1e-9)), b = (a + 1 + int(uniform(random, 0, bodyCount - 1 - 1e-9))) % bodyCount;
+			const int a = int(uniform(random, 0, bodyCount - 1e-9)),
+			          b = (a + 1 + int(uniform(random, 0, bodyCount - 1 - 1e-9))) % bodyCount;
 			add(random, a, b, damping, friction, elastic);
 		}
 	}
@@ -114,7 +124,8 @@ private:
 	{
 		const double mass = std::pow(10, uniform(random, -1, 2));
 		const Mat3 axes = randomRotation(random).toRotationMatrix();
-		const Vec3 moments = mass * Vec3(uniform(random, 0.01, 0.1), uniform(random, 0.1, 0.2), uniform(random, 0.1, 0.2));
+		const Vec3 moments
+		        = mass * Vec3(uniform(random, 0.01, 0.1), uniform(random, 0.1, 0.2), uniform(random, 0.1, 0.2));
 		SolverBody b = body(fixed ? 0 : mass, fixed ? Vec3(Vec3::Zero()) : randomVector(random, 1));
 		b.spin = b.newSpin = fixed ? Vec3(Vec3::Zero()) : randomVector(random, 3);
 		if (!fixed) b.inverseInertia = axes * moments.cwiseInverse().asDiagonal() * axes.transpose();
@@ -122,7 +133,8 @@ private:
 	}
 	void add(Random& random, int a, int b, double damping, double friction, double elastic)
 	{
-		HeapPoint p = central(damping * std::pow(10, uniform(random, -1, 1)), elastic * uniform(random, 0.5, 1));
+		HeapPoint p
+		        = central(damping * std::pow(10, uniform(random, -1, 1)), elastic * uniform(random, 0.5, 1));
 		p.bodyA = a;
 		p.bodyB = b;
 		p.armA = randomVector(random, 0.5);

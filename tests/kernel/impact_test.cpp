@@ -12,7 +12,10 @@ constexpr double speed = 1; // [m/s]
 const HertzLaw hertz { 5e9, 0.1 };
 const LinearLaw linear { 1e6 };
 
-template <class Law> PowerSpring springOf(const Law& law, double overlap = 1e-5) { return { overlap, law.force(overlap), law.stiffness(overlap) }; }
+template <class Law> PowerSpring springOf(const Law& law, double overlap = 1e-5)
+{
+	return { overlap, law.force(overlap), law.stiffness(overlap) };
+}
 double kinetic(double v) { return mass / 2 * v * v; }
 
 /// Restitution of m n'' = -max(0, F + C n'), C = 2 ratio sqrt(m dF/dn), with Hertz's F: scipy's DOP853 to 1e-9, as in
@@ -31,7 +34,8 @@ class Drop {
 	double dissipated = 0, elastic = 0, released = 0, work = 0, least = 0; ///< [J]
 
 public:
-	/// steps: of h in the undamped contact; share: of a step, at the end of which the surfaces touch; push: force on the body [N].
+	/// steps: of h in the undamped contact; share: of a step, at the end of which the surfaces touch; push: force
+	/// on the body [N].
 	Drop(double ratio, double steps, double share, double push_ = 0)
 	        : h(springOf(hertz).duration(mass, speed) / steps)
 	        , depth((share - 1) * speed * h)
@@ -50,8 +54,10 @@ public:
 	{
 		const Vec3 none = Vec3::Zero();
 		std::vector<ContactPoint> points;
-		if (depth > 0) points.push_back({ FeatureId(FeatureKind::VertexFace, 3, 1), none, Vec3::UnitZ(), depth });
-		released += elasticPair(hertz, { pair, { none, none, none }, { none, bodies[1].velocity, none }, h }, points, records);
+		if (depth > 0)
+			points.push_back({ FeatureId(FeatureKind::VertexFace, 3, 1), none, Vec3::UnitZ(), depth });
+		released += elasticPair(
+		        hertz, { pair, { none, none, none }, { none, bodies[1].velocity, none }, h }, points, records);
 		for (SolverBody& b : bodies)
 			b.newVelocity = b.velocity, b.newSpin = b.spin;
 		if (depth > 0) bodies[1].newVelocity.z() -= h * push / mass;
@@ -77,24 +83,31 @@ public:
 	const ImpactState& impact() const { return records[0].impact; }
 };
 
-/// A light body rests on a plate and is struck by a heavy one, on a line; Hertz's springs and critical dashpots. Velocity of the heavy one after
-/// the impact over that before: by the classical Runge-Kutta method in steps of a microsecond.
+/// A light body rests on a plate and is struck by a heavy one, on a line; Hertz's springs and critical dashpots.
+/// Velocity of the heavy one after the impact over that before: by the classical Runge-Kutta method in steps of a
+/// microsecond.
 double exactRebound(double light, double heavy)
 {
 	struct State {
 		double x1, v1, x2, v2; ///< overlaps are -x1 and x1 - x2
-		State moved(const State& rate, double dt) const { return { x1 + dt * rate.x1, v1 + dt * rate.v1, x2 + dt * rate.x2, v2 + dt * rate.v2 }; }
+		State moved(const State& rate, double dt) const
+		{
+			return { x1 + dt * rate.x1, v1 + dt * rate.v1, x2 + dt * rate.x2, v2 + dt * rate.v2 };
+		}
 	};
-	const auto force
-	        = [](double n, double speed, double m) { return n > 0 ? std::max(0., hertz.force(n) + 2 * std::sqrt(m * hertz.stiffness(n)) * speed) : 0.; };
+	const auto force = [](double n, double speed, double m) {
+		return n > 0 ? std::max(0., hertz.force(n) + 2 * std::sqrt(m * hertz.stiffness(n)) * speed) : 0.;
+	};
 	const auto rate = [&](const State& s) {
-		const double below = force(-s.x1, -s.v1, light), above = force(s.x1 - s.x2, s.v1 - s.v2, light * heavy / (light + heavy));
+		const double below = force(-s.x1, -s.v1, light),
+		             above = force(s.x1 - s.x2, s.v1 - s.v2, light * heavy / (light + heavy));
 		return State { s.v1, (below - above) / light, s.v2, above / heavy };
 	};
 	State s { 0, 0, 0, -speed };
 	const double dt = 1e-6;
 	for (int k = 0; k < 20000; ++k) {
-		const State a = rate(s), b = rate(s.moved(a, dt / 2)), c = rate(s.moved(b, dt / 2)), d = rate(s.moved(c, dt));
+		const State a = rate(s), b = rate(s.moved(a, dt / 2)), c = rate(s.moved(b, dt / 2)),
+		            d = rate(s.moved(c, dt));
 		s = s.moved(a, dt / 6).moved(b, dt / 3).moved(c, dt / 3).moved(d, dt / 6);
 	}
 	return s.v2 / speed;
@@ -113,7 +126,8 @@ double computedRebound(double light, double heavy, double h, double share)
 	const double resting = 1e-7;
 	double overlaps[2] = { resting, (share - 1) * speed * h }; // below and above the light body
 	std::vector<PointRecord> records[2];
-	const PairProperties pairs[2] = { { light, 0.5, 0.4, 1, 1 }, { light * heavy / (light + heavy), 0.5, 0.4, 1, 1 } };
+	const PairProperties pairs[2]
+	        = { { light, 0.5, 0.4, 1, 1 }, { light * heavy / (light + heavy), 0.5, 0.4, 1, 1 } };
 	for (int k = 0; k < 200; ++k) {
 		for (SolverBody& b : bodies)
 			b.newVelocity = b.velocity;
@@ -121,8 +135,11 @@ double computedRebound(double light, double heavy, double h, double share)
 		ContactSolver solver;
 		solver.begin(bodies, h, 100);
 		for (int i : { 0, 1 }) {
-			if (overlaps[i] > 0) points[i].push_back({ FeatureId(FeatureKind::VertexFace, i, 1), none, Vec3::UnitZ(), overlaps[i] });
-			const BodyKinematics a { none, bodies[i].velocity, none }, b { none, bodies[i + 1].velocity, none };
+			if (overlaps[i] > 0)
+				points[i].push_back(
+				        { FeatureId(FeatureKind::VertexFace, i, 1), none, Vec3::UnitZ(), overlaps[i] });
+			const BodyKinematics a { none, bodies[i].velocity, none },
+			        b { none, bodies[i + 1].velocity, none };
 			elasticPair(hertz, { pairs[i], a, b, h, NormalForm::Closed, k == 0 }, points[i], records[i]);
 			solver.addPair(i, i + 1, records[i].data(), points[i].size());
 		}
@@ -142,7 +159,8 @@ double computedRebound(double light, double heavy, double h, double share)
 
 } // namespace
 
-/// The closed form against numerical solutions of the equation of motion; the linear law: exp(-2) for a critical dashpot.
+/// The closed form against numerical solutions of the equation of motion; the linear law: exp(-2) for a critical
+/// dashpot.
 TEST(Impact, RestitutionIsTheClosedForm)
 {
 	for (const Restitution& expected : restitutions)
@@ -162,8 +180,9 @@ TEST(Impact, DurationIsTheClosedForm)
 	EXPECT_NEAR(springOf(hertz, 1e-7).duration(mass, speed), springOf(hertz, 1e-3).duration(mass, speed), 1e-12);
 }
 
-/// Contacts of 19 steps to a twentieth of one that begin at any fraction of a step: the exact restitution, to rounding of its closed form, with dashpots of
-/// 0.3 and 1 of the critical one. With less the steps decide how much energy the spring stores: never faster, and slower by at most 0.45 (observed 0.448).
+/// Contacts of 19 steps to a twentieth of one that begin at any fraction of a step: the exact restitution, to rounding
+/// of its closed form, with dashpots of 0.3 and 1 of the critical one. With less the steps decide how much energy the
+/// spring stores: never faster, and slower by at most 0.45 (observed 0.448).
 TEST(Impact, HasTheExactRestitutionAtAnyStep)
 {
 	for (const Restitution& expected : restitutions)
@@ -172,7 +191,8 @@ TEST(Impact, HasTheExactRestitutionAtAnyStep)
 				Drop drop(expected.ratio, steps, share);
 				for (int k = 0; k < 1000 && !drop.isOver(); ++k)
 					drop.step();
-				EXPECT_LE(drop.restitution(), expected.hertz * (1 + 1e-3)) << expected.ratio << " " << steps << " " << share;
+				EXPECT_LE(drop.restitution(), expected.hertz * (1 + 1e-3))
+				        << expected.ratio << " " << steps << " " << share;
 				EXPECT_GE(drop.restitution(), expected.hertz - (expected.ratio >= 0.3 ? 1e-3 : 0.45))
 				        << expected.ratio << " " << steps << " " << share;
 				EXPECT_GE(drop.leastDissipation(), -1e-12 * kinetic(speed));
@@ -194,7 +214,8 @@ TEST(Impact, ClosesTheEnergyBalance)
 			}
 }
 
-/// Under a force that stops the body within a small part of the impact, the contact ends at the overlap of the static force.
+/// Under a force that stops the body within a small part of the impact, the contact ends at the overlap of the static
+/// force.
 TEST(Impact, SettlesUnderALoad)
 {
 	const double load = 1e6; // [N]
@@ -205,7 +226,8 @@ TEST(Impact, SettlesUnderALoad)
 	EXPECT_EQ(drop.impact().rebound, noRebound);
 }
 
-/// A load under which the contact begins again and again does not push the body through the plate. Contacts of ten steps to half of one.
+/// A load under which the contact begins again and again does not push the body through the plate. Contacts of ten
+/// steps to half of one.
 TEST(Impact, DoesNotSinkUnderALoad)
 {
 	for (const Restitution& expected : restitutions)
@@ -216,14 +238,16 @@ TEST(Impact, DoesNotSinkUnderALoad)
 					double early = 0, late = 0;
 					for (int k = 0; k < 1000; ++k) {
 						drop.step();
-						(k < 30 ? early : late) = std::max(k < 30 ? early : late, drop.overlap());
+						(k < 30 ? early : late)
+						        = std::max(k < 30 ? early : late, drop.overlap());
 					}
-					EXPECT_LE(late, 1.05 * early) << expected.ratio << " " << steps << " " << share << " " << load;
+					EXPECT_LE(late, 1.05 * early)
+					        << expected.ratio << " " << steps << " " << share << " " << load;
 				}
 }
 
-/// A light body between a heavy one and a plate, down to impacts of a few steps. Observed: 0.033, 0.018 and 0.0020, of second order. Without the
-/// hardening (7): 0.11, 0.075 and 0.0027; every bound fails.
+/// A light body between a heavy one and a plate, down to impacts of a few steps. Observed: 0.033, 0.018 and 0.0020, of
+/// second order. Without the hardening (7): 0.11, 0.075 and 0.0027; every bound fails.
 TEST(Impact, OfAHeavyBodyOnALightOneConverges)
 {
 	struct Bound {
@@ -233,7 +257,8 @@ TEST(Impact, OfAHeavyBodyOnALightOneConverges)
 		const double heavy = 100, light = ratio * heavy, exact = exactRebound(light, heavy);
 		for (const Bound& bound : { Bound { 1e-3, 0.035 }, Bound { 5e-4, 0.02 }, Bound { 1e-4, 0.0021 } })
 			for (double share = 1 / 16.; share < 1; share += 1 / 8.)
-				EXPECT_NEAR(computedRebound(light, heavy, bound.h, share), exact, bound.error) << ratio << " " << bound.h << " " << share;
+				EXPECT_NEAR(computedRebound(light, heavy, bound.h, share), exact, bound.error)
+				        << ratio << " " << bound.h << " " << share;
 	}
 }
 

@@ -48,9 +48,11 @@ TEST(JointSpring, ForceIsTheGradientOfTheEnergy)
 		const double h = 1e-5;
 		for (int axis = 0; axis < 3; ++axis) {
 			const Vec3 e = h * Vec3::Unit(axis);
-			const double slope
-			        = (springForce<double>(k, stretch + e, normal).energy - springForce<double>(k, stretch - e, normal).energy) / (2 * h);
-			EXPECT_NEAR(force[axis], slope, 1e-5); // the energy is quadratic: only cancellation, 500 J * 1e-16 / h
+			const double slope = (springForce<double>(k, stretch + e, normal).energy
+			                             - springForce<double>(k, stretch - e, normal).energy)
+			        / (2 * h);
+			EXPECT_NEAR(force[axis], slope,
+			        1e-5); // the energy is quadratic: only cancellation, 500 J * 1e-16 / h
 		}
 	}
 }
@@ -73,7 +75,8 @@ TEST(JointSpring, TurnsWithTheScene)
 		const Vec3 stretch = randomVector(random, 0.1), normal = randomDirection(random);
 		const Quat rotation = randomRotation(random);
 		const SpringForce<double> here = springForce<double>({ 5e4, 2e4 }, stretch, normal),
-		                          there = springForce<double>({ 5e4, 2e4 }, rotation * stretch, rotation * normal);
+		                          there
+		        = springForce<double>({ 5e4, 2e4 }, rotation * stretch, rotation * normal);
 		EXPECT_LT((rotation * here.force - there.force).norm(), rounding * 5000);
 		EXPECT_NEAR(here.energy, there.energy, rounding * 500);
 	}
@@ -82,7 +85,8 @@ TEST(JointSpring, TurnsWithTheScene)
 TEST(BreakCause, LargerComponentAndItsSign)
 {
 	const JointStiffness k { 1000, 1000 };
-	const auto cause = [&](const Vec3& stretch) { return breakCause(springForce<double>(k, stretch, Vec3::UnitZ())); };
+	const auto cause
+	        = [&](const Vec3& stretch) { return breakCause(springForce<double>(k, stretch, Vec3::UnitZ())); };
 	EXPECT_EQ(cause({ 0, 0, 0.1 }), BreakCause::Tension);
 	EXPECT_EQ(cause({ 0, 0, -0.1 }), BreakCause::Compression);
 	EXPECT_EQ(cause({ 0.1, 0, 0.05 }), BreakCause::Shear);
@@ -117,7 +121,8 @@ struct Joint {
 		std::vector<SpringLanes> groups(groupsOf(broken.size()));
 		packSprings(springs(), groups.data());
 		JointForce found;
-		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, groups.data(), groups.data() + groups.size(), found);
+		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, groups.data(),
+		        groups.data() + groups.size(), found);
 		unpackSprings(groups.data(), stretches, forces);
 		return found;
 	}
@@ -126,7 +131,8 @@ struct Joint {
 	{
 		const Vec3 none = Vec3::Zero();
 		if (!isOverloaded(strength, total())) return {};
-		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs(), { { none, none, none }, { none, velocity, none }, h });
+		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs(),
+		        { { none, none, none }, { none, velocity, none }, h });
 	}
 	/// Indices of the springs that break.
 	std::vector<size_t> breaking()
@@ -142,7 +148,8 @@ struct Joint {
 };
 
 using Indices = std::vector<size_t>;
-const std::vector<Vec3> uneven { { 0, 0, 0.04 }, { 0, 0, -0.06 }, { 0.07, 0, 0.01 }, { 0, 0, 0.01 } }; // 40, 60, 71, 10 N: 181 N in all
+const std::vector<Vec3> uneven { { 0, 0, 0.04 }, { 0, 0, -0.06 }, { 0.07, 0, 0.01 },
+	{ 0, 0, 0.01 } }; // 40, 60, 71, 10 N: 181 N in all
 
 } // namespace
 
@@ -189,7 +196,8 @@ TEST(BreakRule, ReportsCauseForceAndEnergy)
 	for (const bool perJoint : { false, true }) {
 		Joint joint({ 1, perJoint }, uneven);
 		const std::vector<SpringBreak> breaks = joint.breaks();
-		const BreakCause causes[] = { BreakCause::Tension, BreakCause::Compression, BreakCause::Shear, BreakCause::Tension };
+		const BreakCause causes[]
+		        = { BreakCause::Tension, BreakCause::Compression, BreakCause::Shear, BreakCause::Tension };
 		ASSERT_EQ(breaks.size(), 4u);
 		for (size_t k = 0; k < 4; ++k) {
 			EXPECT_EQ(breaks[k].cause, causes[k]);
@@ -205,7 +213,8 @@ TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
 	Joint joint({ 1, false }, { { 0, 0, 0.1 } });
 	joint.velocity = { 0, 0, 2 };
 	const double earlier = 0.1 - joint.h / 2 * 2;
-	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
+	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier,
+	        500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
 	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
 }
 
@@ -221,7 +230,8 @@ TEST(PackedJoints, KeepStretchesAndForcesOfEachSpring)
 			for (Vec3* v : { &anchors[i], &stretched[i], &pulling[i] })
 				*v = randomVector(random, 1);
 		const std::vector<int> broken(count, count == 3);
-		packed.add({ 0, 1, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() }, { anchors, anchors, broken, stretched, pulling });
+		packed.add({ 0, 1, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() },
+		        { anchors, anchors, broken, stretched, pulling });
 		EXPECT_EQ(packed.joints.back().isActive, count != 0 && count != 3);
 		stretches.push_back(stretched);
 		forces.push_back(pulling);

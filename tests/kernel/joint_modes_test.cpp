@@ -27,9 +27,13 @@ struct Joint {
 	std::vector<int> broken = std::vector<int>(points.size(), 0);
 };
 
-JointState stateOf(const Joint& j) { return { size_t(std::count(j.broken.begin(), j.broken.end(), 0)), j.stiffness, 1, 1, Quat::Identity() }; }
+JointState stateOf(const Joint& j)
+{
+	return { size_t(std::count(j.broken.begin(), j.broken.end(), 0)), j.stiffness, 1, 1, Quat::Identity() };
+}
 
-/// Bodies and joints with linear springs: displacements and rotations x, six numbers for each body, leave the arms as they are.
+/// Bodies and joints with linear springs: displacements and rotations x, six numbers for each body, leave the arms as
+/// they are.
 struct Assembly {
 	std::vector<SolverBody> bodies;
 	std::vector<Joint> joints;
@@ -50,13 +54,14 @@ struct Assembly {
 	Matrix stiffness(const Joint& joint) const
 	{
 		Matrix all = Matrix::Zero(size(), size());
-		const Mat3 k
-		        = joint.stiffness.shear * Mat3::Identity() + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
+		const Mat3 k = joint.stiffness.shear * Mat3::Identity()
+		        + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
 		for (size_t i = 0; i < joint.points.size(); ++i) {
 			Matrix stretch = Matrix::Zero(3, size());
 			for (const auto& [body, sign] : { std::pair(joint.a, -1.), std::pair(joint.b, 1.) }) {
 				stretch.block<3, 3>(0, 6 * body) = sign * Mat3::Identity();
-				stretch.block<3, 3>(0, 6 * body + 3) = -sign * crossMatrix(joint.points[i] - bodies[body].position);
+				stretch.block<3, 3>(0, 6 * body + 3)
+				        = -sign * crossMatrix(joint.points[i] - bodies[body].position);
 			}
 			if (!joint.broken[i]) all += stretch.transpose() * k * stretch;
 		}
@@ -69,8 +74,8 @@ struct Assembly {
 			all += stiffness(joint);
 		return all;
 	}
-	/// M^1/2 f(omega^2) M^1/2 of each joint and its bodies, with the eigenvalues omega^2 of M^-1/2 K M^-1/2, by another way than the kernel's: in the
-	/// coordinates of the bodies.
+	/// M^1/2 f(omega^2) M^1/2 of each joint and its bodies, with the eigenvalues omega^2 of M^-1/2 K M^-1/2, by
+	/// another way than the kernel's: in the coordinates of the bodies.
 	template <class Function> Matrix ofModes(Function f) const
 	{
 		Matrix all = Matrix::Zero(size(), size());
@@ -78,9 +83,12 @@ struct Assembly {
 		const Matrix inverse = root.completeOrthogonalDecomposition().pseudoInverse();
 		for (const Joint& joint : joints) {
 			const Eigen::SelfAdjointEigenSolver<Matrix> modes(root * stiffness(joint) * root);
-			const double zero = 1e-12 * modes.eigenvalues().maxCoeff(); // rounding of the rigid motions' eigenvalues
-			const Vector values = modes.eigenvalues().unaryExpr([&](double square) { return square > zero ? f(joint, square) : 0; });
-			all += inverse * modes.eigenvectors() * values.asDiagonal() * modes.eigenvectors().transpose() * inverse;
+			const double zero
+			        = 1e-12 * modes.eigenvalues().maxCoeff(); // rounding of the rigid motions' eigenvalues
+			const Vector values = modes.eigenvalues().unaryExpr(
+			        [&](double square) { return square > zero ? f(joint, square) : 0; });
+			all += inverse * modes.eigenvectors() * values.asDiagonal() * modes.eigenvectors().transpose()
+			        * inverse;
 		}
 		return all;
 	}
@@ -130,7 +138,8 @@ struct Assembly {
 			std::vector<Vec3> anchors = j.points;
 			for (Vec3& point : anchors)
 				point -= bodies[j.a].position;
-			modes[k] = jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
+			modes[k] = jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(),
+			        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
 			solver.addJoint(j.a, j.b);
 			solver.prepareJoint(k, modes[k], Mat3::Identity(), j.ratio, stored[k]);
 		}
@@ -193,7 +202,9 @@ Assembly oscillator(double ratio)
 /// Ground, slender column and beam with two joints off their centres.
 Assembly chain(double ratio)
 {
-	Assembly all { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }), member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) }, {} };
+	Assembly all { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
+		               member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
+		{} };
 	all.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
 	all.joints.push_back({ 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
 	return all;
@@ -209,58 +220,69 @@ Vector randomFree(Random& random, const Assembly& all)
 
 } // namespace
 
-/// Translations along three axes and rotations about them: the damped oscillation exp(-zeta omega t) sin(omega_d t), and its logarithmic
-/// decrement over ten periods. I phi'' + c_phi phi' + k_phi phi = 0 with k_phi = sum k r^2 and c_phi = 2 zeta sqrt(I k_phi).
+/// Translations along three axes and rotations about them: the damped oscillation exp(-zeta omega t) sin(omega_d t),
+/// and its logarithmic decrement over ten periods. I phi'' + c_phi phi' + k_phi phi = 0 with k_phi = sum k r^2 and
+/// c_phi = 2 zeta sqrt(I k_phi).
 TEST(Oscillator, HasTheDampingRatioInEachDirection)
 {
-	const double k[] = { 4 * 40000, 4 * 40000, 4 * 60000, 4 * 60000 * 0.05 * 0.05, 4 * 60000 * 0.06 * 0.06, 4 * 40000 * (0.06 * 0.06 + 0.05 * 0.05) };
+	const double k[] = { 4 * 40000, 4 * 40000, 4 * 60000, 4 * 60000 * 0.05 * 0.05, 4 * 60000 * 0.06 * 0.06,
+		4 * 40000 * (0.06 * 0.06 + 0.05 * 0.05) };
 	const double m[] = { 8, 8, 8, 0.5, 0.7, 0.02 };
 	for (const double zeta : { 0.02, 0.05, 0.3 })
 		for (int axis = 0; axis < 6; ++axis) {
 			Assembly one = oscillator(zeta);
-			const double omega = std::sqrt(k[axis] / m[axis]), damped = omega * std::sqrt(1 - zeta * zeta), h = 2 * pi / damped / 400;
+			const double omega = std::sqrt(k[axis] / m[axis]), damped = omega * std::sqrt(1 - zeta * zeta),
+			             h = 2 * pi / damped / 400;
 			Vector x0 = Vector::Zero(12), v0 = Vector::Zero(12);
 			x0[6 + axis] = 1;
 			v0[6 + axis] = -zeta * omega; // x = exp(-zeta omega t) cos(omega_d t)
 			const int periods = zeta < 0.1 ? 10 : 2;
 			const Vector x = one.run(x0, v0, h, 400 * periods);
-			const double decrement = -std::log(x[6 + axis]) / periods, expected = 2 * pi * zeta / std::sqrt(1 - zeta * zeta);
-			EXPECT_NEAR(decrement, expected, 2e-3 * expected) << zeta << " " << axis; // (omega h)^2 = 2.5e-4, phase error of ten periods included
+			const double decrement = -std::log(x[6 + axis]) / periods,
+			             expected = 2 * pi * zeta / std::sqrt(1 - zeta * zeta);
+			EXPECT_NEAR(decrement, expected, 2e-3 * expected)
+			        << zeta << " " << axis; // (omega h)^2 = 2.5e-4, phase error of ten periods included
 			EXPECT_LT((x - x[6 + axis] * x0).norm(), 1e-9) << "other directions do not move";
 		}
 }
 
-/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with Newmark's g for h omega > 1: it never changes its
-/// energy upwards, however large x is.
+/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with Newmark's g for h omega
+/// > 1: it never changes its energy upwards, however large x is.
 TEST(Oscillator, IsStableAtAnyRate)
 {
 	for (const double x : { 1e-3, 0.9, 1e3, 1e6 }) {
 		const double g = x > 1 ? std::pow(x, 4) / (4 * x * x + 2) : 0;
 		Assembly one = oscillator(1);
 		one.setVelocities((Vector(12) << 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0).finished());
-		one.stored = { one.velocities().dot(one.newmark(x / std::sqrt(4 * 60000 / 8.)) * one.velocities()) / 2 };
+		one.stored
+		        = { one.velocities().dot(one.newmark(x / std::sqrt(4 * 60000 / 8.)) * one.velocities()) / 2 };
 		one.damp(x / std::sqrt(4 * 60000 / 8.));
-		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12) << x; // rounding of some products
+		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12)
+		        << x; // rounding of some products
 	}
 }
 
-/// Newmark's term keeps the amplitude of an undamped joint at any step and advances its phase by acos(1 - y / (2 + 2 beta y)), y = (h omega)^2;
-/// without it the scheme is unstable beyond h omega = 2.
+/// Newmark's term keeps the amplitude of an undamped joint at any step and advances its phase by acos(1 - y / (2 + 2
+/// beta y)), y = (h omega)^2; without it the scheme is unstable beyond h omega = 2.
 TEST(Oscillator, StiffSpringsSetNoLimitToTheStep)
 {
 	const double mass = 30, k = 5e7, omega = std::sqrt(k / mass), start = 1e-4;
 	for (const double turn : { 1.1, 2., 10., 300. }) {
-		Assembly all { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) }, { { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
-		const double h = turn / omega, y = turn * turn, phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2)));
+		Assembly all { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
+			{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
+		const double h = turn / omega, y = turn * turn,
+		             phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2)));
 		double x = start;
-		all.bodies[1].newVelocity.z() = start * (1 - std::cos(phase)) / h; // half a step earlier, on the orbit of start cos(phase k)
+		all.bodies[1].newVelocity.z()
+		        = start * (1 - std::cos(phase)) / h; // half a step earlier, on the orbit of start cos(phase k)
 		all.setVelocities(all.velocities());
 		all.stored = { all.velocities().dot(all.newmark(h) * all.velocities()) / 2 };
 		for (int n = 1; n <= 200; ++n) {
 			all.accelerate((Vector(12) << Vector::Zero(8), -h * k * x / mass, Vector::Zero(3)).finished());
 			all.damp(h);
 			x += h * all.bodies[1].newVelocity.z();
-			EXPECT_NEAR(x, start * std::cos(phase * n), 1e-9 * start * turn * turn) << turn << " " << n; // rounding adds up
+			EXPECT_NEAR(x, start * std::cos(phase * n), 1e-9 * start * turn * turn)
+			        << turn << " " << n; // rounding adds up
 		}
 	}
 }
@@ -272,9 +294,11 @@ TEST(Chain, LosesTheEnergyThatIsDissipated)
 	for (const double h : { 1e-4, 1e-2, 1., 1e3 }) {
 		Assembly all = chain(1);
 		all.setVelocities(randomFree(random, all));
-		const double before = kineticEnergy(all.bodies), dissipated = all.damp(h, 500000); // rigid dashpots of light members converge slowly
+		const double before = kineticEnergy(all.bodies),
+		             dissipated = all.damp(h, 500000); // rigid dashpots of light members converge slowly
 		const double stored = std::accumulate(all.stored.begin(), all.stored.end(), 0.); // by Newmark's term
-		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated + stored, 1e-9 * before) << h; // residual of the sweeps
+		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated + stored, 1e-9 * before)
+		        << h; // residual of the sweeps
 		EXPECT_GE(dissipated, 0) << h;
 	}
 }
@@ -286,13 +310,17 @@ TEST(Chain, SolvesTheDenseSystem)
 	for (const double ratio : { 0.02, 0.3, 1. })
 		for (const double h : { 2.5e-4, 5e-3 }) {
 			Assembly all = chain(ratio);
-			const Matrix W = all.inverseMass(), D = all.damping(), N = all.newmark(h), one = Matrix::Identity(18, 18);
+			const Matrix W = all.inverseMass(), D = all.damping(), N = all.newmark(h),
+			             one = Matrix::Identity(18, 18);
 			const Vector v = randomFree(random, all), change = randomFree(random, all);
-			const Vector expected = (one + h / 2 * W * D + W * N).partialPivLu().solve(v + change - h / 2 * W * D * v + W * N * v);
+			const Vector expected = (one + h / 2 * W * D + W * N)
+			                                .partialPivLu()
+			                                .solve(v + change - h / 2 * W * D * v + W * N * v);
 			all.setVelocities(v);
 			all.accelerate(change);
 			all.damp(h, 5000);
-			EXPECT_LT((all.velocities() - expected).norm(), 1e-9 * expected.norm()) << ratio << " " << h; // residual of the sweeps
+			EXPECT_LT((all.velocities() - expected).norm(), 1e-9 * expected.norm())
+			        << ratio << " " << h; // residual of the sweeps
 		}
 }
 
@@ -356,10 +384,12 @@ TEST(Oscillator, OneSpringDampsNoRotation)
 {
 	Assembly one = oscillator(1);
 	one.joints[0].broken = { 1, 1, 1, 0 };
-	one.setVelocities((Vector(12) << 0, 0, 0, 0, 0, 0, Vec3(1, 2, 3).cross(Vec3(0.06, 0.05, 0)), Vec3(1, 2, 3)).finished());
+	one.setVelocities(
+	        (Vector(12) << 0, 0, 0, 0, 0, 0, Vec3(1, 2, 3).cross(Vec3(0.06, 0.05, 0)), Vec3(1, 2, 3)).finished());
 	const Vector v = one.velocities();
 	one.damp(1e-2);
-	EXPECT_LT((one.velocities() - v).norm(), 1e-6 * v.norm()); // the square root of the rounding of a zero eigenvalue
+	EXPECT_LT(
+	        (one.velocities() - v).norm(), 1e-6 * v.norm()); // the square root of the rounding of a zero eigenvalue
 }
 
 /// sweeps = 0: the impulse of the velocities before the step, -h D w.
@@ -373,7 +403,8 @@ TEST(Oscillator, ExplicitWithoutSweeps)
 	all.accelerate(change);
 	all.damp(h, 0);
 	const Vector expected = v + change - h * all.inverseMass() * all.damping() * v;
-	EXPECT_LT((all.velocities() - expected).norm(), 1e-11 * expected.norm()); // rounding times the ratio of the column's inertias
+	EXPECT_LT((all.velocities() - expected).norm(),
+	        1e-11 * expected.norm()); // rounding times the ratio of the column's inertias
 }
 
 /// Modes depend on springs, masses, moments of inertia and the orientation of the bodies against each other.
@@ -393,7 +424,8 @@ TEST(JointModes, FitWhatTheyWereComputedFor)
 	for (const double share : { 0.9, 1.1 }) {
 		const Quat turned = about(Vec3::UnitZ(), share * modeAngle) * state.relative;
 		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; })), share < 1);
-		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative.coeffs() = -turned.coeffs(); })), share < 1); // the same orientation
+		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative.coeffs() = -turned.coeffs(); })),
+		        share < 1); // the same orientation
 	}
 	EXPECT_FALSE(JointState().fits(state));
 }
@@ -404,7 +436,8 @@ TEST(JointModes, KnowTheirAnchors)
 	std::vector<int> broken(4, 0);
 	const SolverBody a = body(2, Vec3::Zero()), b = body(3, Vec3::Zero());
 	const SpringGroup springs { anchors, broken, { 100, 200 }, Vec3::UnitZ() };
-	const JointModes modes = jointModes(a, b, Mat3::Identity(), springs, { 4, springs.stiffness, 1, 1, Quat::Identity() });
+	const JointModes modes
+	        = jointModes(a, b, Mat3::Identity(), springs, { 4, springs.stiffness, 1, 1, Quat::Identity() });
 	EXPECT_TRUE(modes.haveAnchors(springs));
 	for (Vec3& x : anchors)
 		x *= 2; // about the same centre
@@ -412,7 +445,8 @@ TEST(JointModes, KnowTheirAnchors)
 	EXPECT_FALSE(JointModes().haveAnchors(springs));
 }
 
-/// The converged impulse dissipates energy whatever the modes are: those of another placement, of other bodies, of springs that are gone.
+/// The converged impulse dissipates energy whatever the modes are: those of another placement, of other bodies, of
+/// springs that are gone.
 TEST(JointModes, OldOnesAddNoEnergy)
 {
 	Random random(5);
@@ -427,10 +461,11 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			std::vector<Vec3> anchors = j.points;
 			for (Vec3& point : anchors)
 				point -= all.bodies[j.a].position;
-			modes.push_back(
-			        jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
+			modes.push_back(jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(),
+			        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 		}
-		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix(); // the bodies have turned since then
+		const Mat3 axes = about(randomDirection(random), modeAngle)
+		                          .toRotationMatrix(); // the bodies have turned since then
 		for (size_t k = 0; k < all.joints.size(); ++k)
 			solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], axes, 1, 0);
 		solver.solve(1e-10);
@@ -440,7 +475,8 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			dissipated += solver.joint(k).dissipated;
 			stored += solver.joint(k).stored;
 		}
-		EXPECT_NEAR(kineticEnergy(all.bodies) + dissipated + stored, before, 1e-6 * before) << trial << " " << h;
+		EXPECT_NEAR(kineticEnergy(all.bodies) + dissipated + stored, before, 1e-6 * before)
+		        << trial << " " << h;
 	}
 }
 
@@ -465,10 +501,12 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 		std::vector<Vec3> anchors = j.points;
 		for (Vec3& point : anchors)
 			point -= start[j.a].position;
-		modes.push_back(jointModes(start[j.a], start[j.b], Mat3::Identity(), { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
+		modes.push_back(jointModes(start[j.a], start[j.b], Mat3::Identity(),
+		        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 	}
 	for (size_t k = 0; k < 2; ++k)
-		solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
+		solver.prepareJoint(
+		        solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
 	const Vec3 contact = worldImpulse(record.step);

@@ -14,7 +14,9 @@ bool identical(const std::vector<ContactPoint>& a, const std::vector<ContactPoin
 {
 	if (a.size() != b.size()) return false;
 	for (size_t k = 0; k < a.size(); ++k)
-		if (!(a[k].id == b[k].id && a[k].overlap == b[k].overlap && a[k].position == b[k].position && a[k].normal == b[k].normal)) return false;
+		if (!(a[k].id == b[k].id && a[k].overlap == b[k].overlap && a[k].position == b[k].position
+		            && a[k].normal == b[k].normal))
+			return false;
 	return true;
 }
 
@@ -33,7 +35,8 @@ public:
 	{
 		const double step = width * std::pow(10, uniform(random, -6, -1));
 		pose.position += step * randomDirection(random);
-		pose.orientation = (about(randomDirection(random), uniform(random, 0, step / width)) * pose.orientation).normalized();
+		pose.orientation = (about(randomDirection(random), uniform(random, 0, step / width)) * pose.orientation)
+		                           .normalized();
 		if (pose.position.norm() > 1.5 * touching) pose.position *= 0.7;
 		return pose;
 	}
@@ -45,7 +48,8 @@ private:
 };
 
 /// Both bodies move; returns the number of steps with contact.
-int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width, double touching, const Patterns& patterns, unsigned seed, int steps)
+int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width, double touching,
+        const Patterns& patterns, unsigned seed, int steps)
 {
 	Walk walk(seed, width, touching);
 	Random random(seed + 1);
@@ -58,15 +62,16 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 		const Pose poseA = carried({}, about({ 1, 2, 3 }, 1e-3 * step) * turn, place),
 		           poseB = carried(walk.next(), about({ 1, 2, 3 }, 1e-3 * step) * turn, place);
 		updateManifold(a, b, poseA, poseB, patterns, cache, points);
-		EXPECT_TRUE(identical(points, contacts(a, b, poseA, poseB, patterns))) << "seed " << seed << " step " << step;
+		EXPECT_TRUE(identical(points, contacts(a, b, poseA, poseB, patterns)))
+		        << "seed " << seed << " step " << step;
 		inContact += !points.empty();
 	}
 	return inContact;
 }
 
 /// Points after a motion within the margin, from the candidates before it; compared with those from an empty cache.
-std::vector<ContactPoint> afterMove(
-        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before, const Pose& after, const Patterns& patterns = {})
+std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before,
+        const Pose& after, const Patterns& patterns = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
@@ -85,8 +90,8 @@ TEST(CandidateCache, SimilarBodies)
 {
 	int inContact = 0;
 	for (unsigned seed = 0; seed < 20; ++seed)
-		inContact += follow(
-		        roundedBox({ 1, 0.5, 0.3 }), rounded(hexagonalPrismVertices(0.2, 0.9), 0.02), 1, 0.5, { seed % 2 == 0, seed % 3 == 0 }, seed, 300);
+		inContact += follow(roundedBox({ 1, 0.5, 0.3 }), rounded(hexagonalPrismVertices(0.2, 0.9), 0.02), 1,
+		        0.5, { seed % 2 == 0, seed % 3 == 0 }, seed, 300);
 	EXPECT_GT(inContact, 600);
 }
 
@@ -94,11 +99,13 @@ TEST(CandidateCache, LongMembers)
 {
 	int inContact = 0;
 	for (unsigned seed = 0; seed < 20; ++seed)
-		inContact += follow(roundedBox({ 3, 0.1, 0.1 }), roundedBox({ 0.1, 0.1, 2.7 }), 0.3, 0.2, { seed % 2 == 0, true }, seed, 300);
+		inContact += follow(roundedBox({ 3, 0.1, 0.1 }), roundedBox({ 0.1, 0.1, 2.7 }), 0.3, 0.2,
+		        { seed % 2 == 0, true }, seed, 300);
 	EXPECT_GT(inContact, 600);
 }
 
-/// The small body rotates about its centre: vertices and edges of the large body pass its faces within the large radius.
+/// The small body rotates about its centre: vertices and edges of the large body pass its faces within the large
+/// radius.
 TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.2), small = roundedBox({ 0.05, 0.04, 0.03 });
@@ -106,22 +113,25 @@ TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 	int inContact = 0;
 	for (unsigned seed = 0; seed < 30; ++seed) {
 		Random random(seed);
-		const Vec3 axis = randomDirection(random), place = corner + 0.19 * Vec3(1, 1, 1).cwiseProduct(randomDirection(random).cwiseAbs());
+		const Vec3 axis = randomDirection(random),
+		           place = corner + 0.19 * Vec3(1, 1, 1).cwiseProduct(randomDirection(random).cwiseAbs());
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		for (int step = 0; step < 300; ++step) {
 			const Pose poseB { place, about(axis, step * 0.01) };
 			updateManifold(large, small, {}, poseB, { true, true }, cache, points);
-			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB, { true, true }))) << "seed " << seed << " step " << step;
+			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB, { true, true })))
+			        << "seed " << seed << " step " << step;
 			inContact += !points.empty();
 		}
 	}
 	EXPECT_GT(inContact, 1000);
 }
 
-/// An edge moves towards a position just beyond another edge, along the normal of its own inclined face, along which the gap is measured.
-/// The face supports its vertices (flushTolerance) even if that gap is slightly larger than the sum of the radii. The skin subtracted from
-/// the margin covers this, and so does the second skin within which candidates are searched.
+/// An edge moves towards a position just beyond another edge, along the normal of its own inclined face, along which
+/// the gap is measured. The face supports its vertices (flushTolerance) even if that gap is slightly larger than the
+/// sum of the radii. The skin subtracted from the margin covers this, and so does the second skin within which
+/// candidates are searched.
 TEST(CandidateCache, ObliqueApproachFromAfar)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
@@ -138,7 +148,8 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
 			supported = supported || (distance > touch && !points.empty());
 			if (distance == start) {
-				EXPECT_LT((cache.axis - axis).norm(), 1e-12); // the gap is measured along the normal of the inclined face
+				EXPECT_LT((cache.axis - axis).norm(),
+				        1e-12); // the gap is measured along the normal of the inclined face
 			}
 		}
 		EXPECT_TRUE(supported); // the tested case occurred
@@ -150,18 +161,23 @@ TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
 	const Vec3 above(0.499 + 0.049 + flushTolerance / 2, 0, 0.499 + 0.049 + 0.0015);
-	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() }, { above, Quat::Identity() }), FeatureKind::FaceVertex), 2);
+	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() },
+	                        { above, Quat::Identity() }),
+	                  FeatureKind::FaceVertex),
+	        2);
 }
 
-/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flushTolerance) even if its end is slightly farther than
-/// the sum of the radii.
+/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flushTolerance) even if its end
+/// is slightly farther than the sum of the radii.
 TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
-	const Vec3 outward = Vec3(1, 0, 1).normalized(), beyond = 0.99 * flushTolerance * Vec3::UnitY() + (0.002 - 1e-8) * outward;
+	const Vec3 outward = Vec3(1, 0, 1).normalized(),
+	           beyond = 0.99 * flushTolerance * Vec3::UnitY() + (0.002 - 1e-8) * outward;
 	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), -outward);
 	const Vec3 centre = Vec3::Constant(0.499) + beyond + 0.049 * std::sqrt(3.) * outward;
-	const auto points = afterMove(large, small, { centre + move * beyond.normalized(), onCorner }, { centre, onCorner }, { true, true });
+	const auto points = afterMove(
+	        large, small, { centre + move * beyond.normalized(), onCorner }, { centre, onCorner }, { true, true });
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
 }
 
@@ -170,10 +186,14 @@ TEST(CandidateCache, ParallelEdgesThatTurn)
 {
 	const auto cube = roundedBox({ 0.3, 0.3, 0.3 }, 0.01);
 	const Vec3 above(0, 1e-3, 0.299);
-	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() }, { above, about(Vec3::UnitZ(), 2 * parallelSine) }), FeatureKind::EdgeEdge), 8);
+	EXPECT_EQ(count(afterMove(cube, cube, { above, Quat::Identity() },
+	                        { above, about(Vec3::UnitZ(), 2 * parallelSine) }),
+	                  FeatureKind::EdgeEdge),
+	        8);
 }
 
-/// Crossed laths pass through each other within one motion: the edges of the far sides come into contact, deeper than the sum of the radii.
+/// Crossed laths pass through each other within one motion: the edges of the far sides come into contact, deeper than
+/// the sum of the radii.
 TEST(CandidateCache, LathsThatPassThroughEachOther)
 {
 	const auto lath = roundedBox({ 0.2, 0.0064, 0.0064 }, 2e-4);
@@ -184,33 +204,38 @@ TEST(CandidateCache, LathsThatPassThroughEachOther)
 		EXPECT_NEAR(p.overlap, 0.0064 - move / 2, 1e-13); // rounding of positions
 }
 
-/// Two ridges at a small angle in deep contact, whose edges do not cross yet. A small pitch shifts their crossing by the depth times the pitch
-/// over the squared sine of the angle, onto both edges.
+/// Two ridges at a small angle in deep contact, whose edges do not cross yet. A small pitch shifts their crossing by
+/// the depth times the pitch over the squared sine of the angle, onto both edges.
 TEST(CandidateCache, CrossingsOfDeepEdgesRunFar)
 {
 	const Quat onEdge = about(Vec3::UnitX(), M_PI / 4);
-	const auto lower = rounded(moved(boxVertices({ 1, 0.18, 0.18 }), onEdge, { -0.49, 0, 0 }), 0.01), upper = roundedBox({ 2, 0.18, 0.18 }, 0.01);
+	const auto lower = rounded(moved(boxVertices({ 1, 0.18, 0.18 }), onEdge, { -0.49, 0, 0 }), 0.01),
+	           upper = roundedBox({ 2, 0.18, 0.18 }, 0.01);
 	const double half = 0.08 * std::sqrt(2.), depth = 0.07, beyond = 0.04, sine = 0.21, pitch = 0.03;
 	const Vec3 end(0, 0, half), along(std::sqrt(1 - sine * sine), sine, 0);
 	const Pose before { { beyond, 0, 2 * half - depth }, about(Vec3::UnitZ(), std::asin(sine)) * onEdge };
-	const Pose after = carried({ before.position - end, before.orientation }, about(Vec3::UnitZ().cross(along), pitch), end);
+	const Pose after
+	        = carried({ before.position - end, before.orientation }, about(Vec3::UnitZ().cross(along), pitch), end);
 	const auto isDeep = [&](const ContactPoint& p) { return p.overlap > 0.02 + depth; };
 	for (const auto& p : contacts(lower, upper, {}, before))
 		EXPECT_FALSE(isDeep(p));
 	const auto points = afterMove(lower, upper, before, after);
 	const auto crossing = std::find_if(points.begin(), points.end(), isDeep);
 	ASSERT_NE(crossing, points.end());
-	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine), 2e-3); // to first order; (pitch / sine)^2 = 2 %
+	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine),
+	        2e-3); // to first order; (pitch / sine)^2 = 2 %
 }
 
-/// Pairs vibrate for longer than restInterval and then move: the features left out at rest must become candidates in time.
+/// Pairs vibrate for longer than restInterval and then move: the features left out at rest must become candidates in
+/// time.
 TEST(CandidateCache, PairsAfterRest)
 {
 	const auto beam = roundedBox({ 1, 0.12, 0.12 }), post = roundedBox({ 0.105, 0.105, 0.9 });
 	int inContact = 0, atRest = 0, fewer = 0;
 	for (unsigned seed = 0; seed < 40; ++seed) {
 		Random random(seed);
-		Pose poseB { { uniform(random, -0.4, 0.4), uniform(random, -0.02, 0.02), 0.5099 }, about(randomDirection(random), seed % 2 == 0 ? 0 : 1e-3) };
+		Pose poseB { { uniform(random, -0.4, 0.4), uniform(random, -0.02, 0.02), 0.5099 },
+			about(randomDirection(random), seed % 2 == 0 ? 0 : 1e-3) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		size_t most = 0;
@@ -218,9 +243,11 @@ TEST(CandidateCache, PairsAfterRest)
 			const bool vibrates = step % (2 * restInterval) < 3 * restInterval / 2;
 			const double displacement = vibrates ? 1e-7 : std::pow(10, uniform(random, -6, -2.5));
 			poseB.position += displacement * randomDirection(random);
-			poseB.orientation = (about(randomDirection(random), displacement) * poseB.orientation).normalized();
+			poseB.orientation
+			        = (about(randomDirection(random), displacement) * poseB.orientation).normalized();
 			updateManifold(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 }, cache, points);
-			ASSERT_TRUE(identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 })))
+			ASSERT_TRUE(
+			        identical(points, contacts(beam, post, {}, poseB, { seed % 3 == 0, seed % 4 != 0 })))
 			        << "seed " << seed << " step " << step;
 			inContact += !points.empty();
 			if (cache.skin == candidateSkin) most = std::max(most, cache.candidates.size());
@@ -239,19 +266,23 @@ TEST(CandidateCache, PairsAfterSettlement)
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
 	for (int step = 0; step < 3 * restInterval; ++step)
-		updateManifold(beam, post, {}, { { 0, 0, 0.51 - 2e-6 * std::min(step, 3 * restInterval / 2) }, Quat::Identity() }, {}, cache, points);
+		updateManifold(beam, post, {},
+		        { { 0, 0, 0.51 - 2e-6 * std::min(step, 3 * restInterval / 2) }, Quat::Identity() }, {}, cache,
+		        points);
 	EXPECT_EQ(cache.skin, restSkin);
 }
 
-/// A cube above another slides past its edge and down: the axis of the search no longer separates the cores. It is replaced within
-/// axisInterval updates.
+/// A cube above another slides past its edge and down: the axis of the search no longer separates the cores. It is
+/// replaced within axisInterval updates.
 TEST(CandidateCache, SeparatingAxisAfterSlidingPastAnEdge)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	const double above = 1e-3, beside = 1.5e-3;
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	const auto gapAt = [&](double x, double z) { return updateManifold(cube, cube, {}, { { x, 0, z }, Quat::Identity() }, {}, cache, points); };
+	const auto gapAt = [&](double x, double z) {
+		return updateManifold(cube, cube, {}, { { x, 0, z }, Quat::Identity() }, {}, cache, points);
+	};
 	gapAt(0.998, 1 + above);
 	EXPECT_NEAR(gapAt(0.998, 1 + above), above - 2 * flushTolerance, 1e-15);
 	EXPECT_EQ(gapAt(1 + beside, 0.9995), 0);

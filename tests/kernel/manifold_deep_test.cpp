@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Overlapping cores, as after an impact: the overlap is bounded, and a displacement along the normals separates the pair.
+/// Overlapping cores, as after an impact: the overlap is bounded, and a displacement along the normals separates the
+/// pair.
 #include "shapes.hpp"
 #include <kernel/separating_axis.hpp>
 #include <algorithm>
@@ -16,8 +17,10 @@ double gapOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose&
 	return coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis);
 }
 
-/// Overlap of feature points: at most the contact distance plus half the core. Overlap of the core point: that of the cores.
-void expectBounded(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB, const std::vector<ContactPoint>& points)
+/// Overlap of feature points: at most the contact distance plus half the core. Overlap of the core point: that of the
+/// cores.
+void expectBounded(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB,
+        const std::vector<ContactPoint>& points)
 {
 	const double touch = a.radius + b.radius, half = std::max(a.coreHalfThickness, b.coreHalfThickness);
 	const double depth = -gapOf(a, b, poseB) + 1e-12; // the same support function, rounding only
@@ -108,19 +111,25 @@ TEST(DeepOverlap, CorePointPartsThePairInOneMove)
 	EXPECT_EQ(points[0].id.kind(), FeatureKind::CoreCore);
 	const double depth = points[0].overlap - 2 * plate.radius;
 	EXPECT_NEAR(depth, -gapOf(plate, plate, crossing), 1e-13); // the same support function, rounding only
-	EXPECT_LT(gapOf(plate, plate, { crossing.position + 0.99 * depth * points[0].normal, crossing.orientation }), 0);
-	EXPECT_GE(gapOf(plate, plate, { crossing.position + 1.000001 * depth * points[0].normal, crossing.orientation }), 0);
+	EXPECT_LT(
+	        gapOf(plate, plate, { crossing.position + 0.99 * depth * points[0].normal, crossing.orientation }), 0);
+	EXPECT_GE(
+	        gapOf(plate, plate, { crossing.position + 1.000001 * depth * points[0].normal, crossing.orientation }),
+	        0);
 }
 
-/// A block penetrates the top of a ridge with undercut sides. Two of its vertices leave the ridge through the side: they project onto the
-/// top and are below its plane, but outside the ridge. They are not in contact.
+/// A block penetrates the top of a ridge with undercut sides. Two of its vertices leave the ridge through the side:
+/// they project onto the top and are below its plane, but outside the ridge. They are not in contact.
 TEST(DeepOverlap, NoContactOfAVertexOutsideTheBody)
 {
-	const double radius = 0.01, depth = 0.05, side = 0.5 - radius * (1 + M_SQRT2) - depth; // of the core's slope of 45 degrees at that depth
-	const auto ridge = rounded(prismVertices({ { -0.5, 0 }, { -0.1, -0.4 }, { 0.1, -0.4 }, { 0.5, 0 } }, 1), radius);
+	const double radius = 0.01, depth = 0.05,
+	             side = 0.5 - radius * (1 + M_SQRT2) - depth; // of the core's slope of 45 degrees at that depth
+	const auto ridge
+	        = rounded(prismVertices({ { -0.5, 0 }, { -0.1, -0.4 }, { 0.1, -0.4 }, { 0.5, 0 } }, 1), radius);
 	const auto block = roundedBox({ 0.2 + 2 * radius, 0.3, 0.3 }, radius);
 	for (const double out : { -0.02, 0.02 }) {
-		const auto points = contacts(ridge, block, {}, { { side + out - 0.1, 0.15 - 2 * radius - depth, 0 }, Quat::Identity() });
+		const auto points = contacts(
+		        ridge, block, {}, { { side + out - 0.1, 0.15 - 2 * radius - depth, 0 }, Quat::Identity() });
 		EXPECT_EQ(count(points, FeatureKind::FaceVertex), out > 0 ? 2 : 4);
 		EXPECT_EQ(points.size(), out > 0 ? 2u : 4u);
 		for (const auto& p : points) {
@@ -151,8 +160,9 @@ TEST(DeepOverlap, CrossedBeams)
 TEST(DeepOverlap, RandomPairsArePushedApart)
 {
 	Random random(31);
-	const std::vector<RoundedPolyhedron> bodies { roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 0.1, 0.1 }), roundedBox({ 0.6, 0.5, 0.05 }),
-		rounded(hexagonalPrismVertices(0.2, 0.5), 0.02), rounded(octahedronVertices(0.5)) };
+	const std::vector<RoundedPolyhedron> bodies { roundedBox({ 0.5, 0.5, 0.5 }), roundedBox({ 1, 0.1, 0.1 }),
+		roundedBox({ 0.6, 0.5, 0.05 }), rounded(hexagonalPrismVertices(0.2, 0.5), 0.02),
+		rounded(octahedronVertices(0.5)) };
 	int deep = 0, stuck = 0;
 	for (int trial = 0; trial < 400; ++trial) {
 		const auto &a = bodies[trial % 5], &b = bodies[trial / 5 % 5];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Flush members: vertices lie exactly above borders of faces. Patterns::flushSupports decides these contacts, not rounding.
+/// Flush members: vertices lie exactly above borders of faces. Patterns::flushSupports decides these contacts, not
+/// rounding.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
 
@@ -46,7 +47,8 @@ TEST(FlushColumn, VertexEdgePatternReplacesFaceSupport)
 	const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, false });
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 4);
 	EXPECT_EQ(points.size(), 4u);
-	EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }), FeatureKind::FaceVertex), 4);
+	EXPECT_EQ(
+	        count(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }), FeatureKind::FaceVertex), 4);
 	EXPECT_EQ(contacts(pair.beam, pair.column, {}, pair.onBeam(), { true, true }).size(), 4u);
 }
 
@@ -58,20 +60,24 @@ TEST(FlushColumn, CountSurvivesNoiseAndPlacement)
 		const double noise = trial < 100 ? 1e-12 : trial < 200 ? 1e-9 : 1e-6; // all far below flushTolerance
 		const Quat rotation = randomRotation(random);
 		const Vec3 far = 1000 * randomDirection(random);
-		const Pose beam = carried(noisy({}, random, noise), rotation, far), column = carried(noisy(pair.onBeam(), random, noise), rotation, far);
+		const Pose beam = carried(noisy({}, random, noise), rotation, far),
+		           column = carried(noisy(pair.onBeam(), random, noise), rotation, far);
 		EXPECT_EQ(contacts(pair.beam, pair.column, beam, column, supported).size(), 4u);
 		EXPECT_EQ(contacts(pair.beam, pair.column, beam, column, unsupported).size(), 0u);
 		EXPECT_EQ(contacts(pair.column, pair.beam, column, beam, supported).size(), 4u);
 	}
 }
 
-/// Slid across the beam: the two vertices beyond the border lose contact after flushTolerance (0.1 mm). The column's edges
-/// cross the border of the beam instead, so that four points remain. Vertices inside the border are in contact with both settings.
+/// Slid across the beam: the two vertices beyond the border lose contact after flushTolerance (0.1 mm). The column's
+/// edges cross the border of the beam instead, so that four points remain. Vertices inside the border are in contact
+/// with both settings.
 TEST(FlushColumn, SlidAcrossTheBorder)
 {
 	const FlushColumn pair;
 	for (const double slide : { 2e-5, 9e-5 }) {
-		EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), supported), FeatureKind::FaceVertex), 4);
+		EXPECT_EQ(count(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), supported),
+		                  FeatureKind::FaceVertex),
+		        4);
 		EXPECT_EQ(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), unsupported).size(), 0u);
 	}
 	for (const double slide : { 1.1e-4, 1e-3, 1e-2 })
@@ -92,7 +98,8 @@ TEST(CoincidentVertices, StackOfEqualBoxes)
 	for (int trial = 0; trial < 200; ++trial) {
 		const Quat rotation = randomRotation(random);
 		const Vec3 far = 1000 * randomDirection(random);
-		const Pose lower = carried(noisy({}, random, 1e-12), rotation, far), upper = carried(noisy(onTop, random, 1e-12), rotation, far);
+		const Pose lower = carried(noisy({}, random, 1e-12), rotation, far),
+		           upper = carried(noisy(onTop, random, 1e-12), rotation, far);
 		EXPECT_EQ(contacts(cube, cube, lower, upper, supported).size(), 4u);
 		EXPECT_EQ(contacts(cube, cube, upper, lower, supported).size(), 4u);
 		EXPECT_EQ(contacts(cube, cube, lower, upper, unsupported).size(), 0u);
@@ -110,19 +117,22 @@ TEST(CoincidentVertices, ExtraPatternsCountEachCornerOnce)
 		EXPECT_NEAR(p.overlap, press, 1e-13); // rounding at positions of metres
 }
 
-/// A bar on its edge at the border of a box: its ends are in contact with the top of the box, and the corners of the box with the side of
-/// the bar. The positions coincide, the normals differ: both are contacts.
+/// A bar on its edge at the border of a box: its ends are in contact with the top of the box, and the corners of the
+/// box with the side of the bar. The positions coincide, the normals differ: both are contacts.
 TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 {
 	const auto box = roundedBox({ 1, 1, 1 }, 0.001), bar = roundedBox({ 0.1, 1, 0.1 }, 0.001);
-	const double inside = 1e-4, above = 5e-5, half = 0.049 * std::sqrt(2.); // of the bar's core edge, from the box's
-	const auto points = contacts(box, bar, {}, { { 0.499 - inside, 0, 0.499 + above + half }, about(Vec3::UnitY(), M_PI / 4) });
+	const double inside = 1e-4, above = 5e-5,
+	             half = 0.049 * std::sqrt(2.); // of the bar's core edge, from the box's
+	const auto points = contacts(
+	        box, bar, {}, { { 0.499 - inside, 0, 0.499 + above + half }, about(Vec3::UnitY(), M_PI / 4) });
 	EXPECT_EQ(count(points, FeatureKind::VertexFace), 2);
 	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 2);
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
 		const bool side = p.id.kind() == FeatureKind::VertexFace;
-		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13); // rounding at positions of metres
+		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above),
+		        1e-13); // rounding at positions of metres
 		EXPECT_NEAR(p.normal.z(), side ? std::sqrt(0.5) : 1, 1e-13);
 		EXPECT_LT((p.position - points[0].position).cwiseProduct(Vec3(1, 0, 1)).norm(), 2e-4);
 	}
@@ -141,7 +151,11 @@ TEST(CoincidentVertices, SlidAlongOneSide)
 	const auto cube = roundedBox({ 1, 1, 1 });
 	for (const double slide : { 0., 5e-5, 9.9e-5, 1.5e-4, 3e-4, 0.1 })
 		for (const double sign : { -1., 1. })
-			EXPECT_EQ(contacts(cube, cube, {}, { { sign * slide, 0, 1 - press }, Quat::Identity() }, supported).size(), 4u) << slide;
+			EXPECT_EQ(contacts(cube, cube, {}, { { sign * slide, 0, 1 - press }, Quat::Identity() },
+			                  supported)
+			                  .size(),
+			        4u)
+			        << slide;
 }
 
 /// Displaced along the diagonal: one vertex of each box, two crossings.
@@ -149,14 +163,17 @@ TEST(CoincidentVertices, SlidAlongTheDiagonal)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
 	for (const double slide : { 0., 5e-5, 9.9e-5, 1.5e-4, 3e-4, 0.1 })
-		EXPECT_EQ(contacts(cube, cube, {}, { { slide, slide, 1 - press }, Quat::Identity() }, supported).size(), 4u) << slide;
+		EXPECT_EQ(contacts(cube, cube, {}, { { slide, slide, 1 - press }, Quat::Identity() }, supported).size(),
+		        4u)
+		        << slide;
 }
 
 /// Zero overlap: no point, or one of rounding size; overlap 1e-9 m: all points.
 TEST(FlushFaces, TouchingWithoutOverlap)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });
-	const Pose apart { { 0.1, 0.1, 1 + 1e-12 }, Quat::Identity() }, pressed { { 0.1, 0.1, 1 - 1e-9 }, Quat::Identity() };
+	const Pose apart { { 0.1, 0.1, 1 + 1e-12 }, Quat::Identity() },
+	        pressed { { 0.1, 0.1, 1 - 1e-9 }, Quat::Identity() };
 	EXPECT_TRUE(contacts(cube, cube, {}, apart).empty());
 	EXPECT_EQ(contacts(cube, cube, {}, pressed).size(), 4u);
 	for (const auto& p : contacts(cube, cube, {}, { { 0.1, 0.1, 1 }, Quat::Identity() })) {

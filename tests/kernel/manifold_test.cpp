@@ -21,18 +21,25 @@ void expectPoint(const ContactPoint& p, const Vec3& normal, double overlap, doub
 }
 
 /// Exactly one point at each of the positions.
-void expectPositions(const std::vector<ContactPoint>& points, const std::vector<Vec3>& positions, double tolerance = rounding)
+void expectPositions(
+        const std::vector<ContactPoint>& points, const std::vector<Vec3>& positions, double tolerance = rounding)
 {
 	EXPECT_EQ(points.size(), positions.size());
 	for (const Vec3& position : positions)
-		EXPECT_EQ(std::count_if(points.begin(), points.end(), [&](const ContactPoint& p) { return (p.position - position).norm() < tolerance; }), 1)
+		EXPECT_EQ(std::count_if(points.begin(), points.end(),
+		                  [&](const ContactPoint& p) { return (p.position - position).norm() < tolerance; }),
+		        1)
 		        << position.transpose();
 }
 
-std::vector<Vec3> rectangle(double x, double y, double z) { return { { x, y, z }, { -x, y, z }, { x, -y, z }, { -x, -y, z } }; }
+std::vector<Vec3> rectangle(double x, double y, double z)
+{
+	return { { x, y, z }, { -x, y, z }, { x, -y, z }, { -x, -y, z } };
+}
 
 /// Two aligned boxes, B on top of A and pressed in.
-std::vector<ContactPoint> stacked(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double heightA, double heightB, const Quat& turnB = Quat::Identity())
+std::vector<ContactPoint> stacked(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double heightA,
+        double heightB, const Quat& turnB = Quat::Identity())
 {
 	return contacts(a, b, {}, { { 0, 0, (heightA + heightB) / 2 - press }, turnB });
 }
@@ -68,7 +75,8 @@ TEST(FaceOnFace, SameSizeHasFourPointsNotEight)
 /// Intersection of two squares of half side 0.4, one rotated by 45 degrees: an octagon.
 TEST(FaceOnFace, TurnedByFortyFiveDegrees)
 {
-	const auto points = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), 1, 1, about({ 0, 0, 1 }, M_PI / 4));
+	const auto points
+	        = stacked(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), 1, 1, about({ 0, 0, 1 }, M_PI / 4));
 	const double s = 0.4 * (std::sqrt(2.) - 1), z = 0.5 - press / 2;
 	auto positions = rectangle(0.4, s, z);
 	for (const Vec3& p : rectangle(s, 0.4, z))
@@ -100,7 +108,8 @@ TEST(FaceOnFace, PositionWithUnequalRadii)
 TEST(FaceOnFace, TiltedByTenMicroradians)
 {
 	const double tilt = 1e-5, z = 0.75 - press;
-	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {}, { { 0, 0, z }, about({ 0, 1, 0 }, tilt) });
+	const auto points = contacts(
+	        roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {}, { { 0, 0, z }, about({ 0, 1, 0 }, tilt) });
 	EXPECT_EQ(count(points, FeatureKind::FaceVertex), 4);
 	for (const auto& p : points) {
 		const double x = p.position.x() > 0 ? 0.2 : -0.2;
@@ -112,7 +121,8 @@ TEST(FaceOnFace, TiltedByTenMicroradians)
 TEST(FaceOnFace, TiltedByTenDegreesStandsOnTwoCorners)
 {
 	const double tilt = M_PI / 18, lowest = 0.2 * std::sin(tilt) + 0.2 * std::cos(tilt) + 0.05;
-	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {}, { { 0, 0, 0.5 + lowest - press }, about({ 0, 1, 0 }, tilt) });
+	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 0.5, 0.5, 0.5 }), {},
+	        { { 0, 0, 0.5 + lowest - press }, about({ 0, 1, 0 }, tilt) });
 	const double x = 0.2 * std::cos(tilt) - 0.2 * std::sin(tilt);
 	expectPositions(points, { { x, 0.2, 0.5 - press / 2 }, { x, -0.2, 0.5 - press / 2 } });
 	for (const auto& p : points)
@@ -127,7 +137,8 @@ TEST(EdgeOnEdge, CrossedAtNinetyAndThirtyDegrees)
 	const Quat onEdge = about({ 1, 0, 0 }, M_PI / 4);
 	for (const double angle : { M_PI / 2, M_PI / 6 }) {
 		const double height = 2 * core + 2 * bar.radius - press;
-		const auto points = contacts(bar, bar, { { 0, 0, 0 }, onEdge }, { { 0, 0, height }, about({ 0, 0, 1 }, angle) * onEdge });
+		const auto points = contacts(
+		        bar, bar, { { 0, 0, 0 }, onEdge }, { { 0, 0, height }, about({ 0, 0, 1 }, angle) * onEdge });
 		EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 1);
 		expectPositions(points, { { 0, 0, height / 2 } });
 		for (const auto& p : points)
@@ -192,28 +203,33 @@ TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 	EXPECT_TRUE(contacts(a, b, {}, poseB).empty());
 	const auto points = contacts(a, b, {}, poseB, { true, true });
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
-	expectPositions(points, { edge + towards * (a.radius - press / 2) }, 1e-12); // rounding of the rotation onto the corner
+	expectPositions(
+	        points, { edge + towards * (a.radius - press / 2) }, 1e-12); // rounding of the rotation onto the corner
 	for (const auto& p : points)
 		expectPoint(p, towards, press, 1e-12);
 }
 
-/// A corner on a slope just below a narrow ridge is also within the contact distance of the far edge of the ridge, but behind it: only the
-/// slope is in contact.
+/// A corner on a slope just below a narrow ridge is also within the contact distance of the far edge of the ridge, but
+/// behind it: only the slope is in contact.
 TEST(CornerOnEdge, NoContactBehindAnEdge)
 {
 	const double radius = 0.01, width = 0.005, below = 0.005, rest = width / 2 + radius * (M_SQRT2 - 1);
-	const auto ridge = rounded(prismVertices({ { -rest - 0.2, -0.2 }, { rest + 0.2, -0.2 }, { rest, 0 }, { -rest, 0 } }, 0.5), radius);
+	const auto ridge = rounded(
+	        prismVertices({ { -rest - 0.2, -0.2 }, { rest + 0.2, -0.2 }, { rest, 0 }, { -rest, 0 } }, 0.5), radius);
 	const auto cube = roundedBox({ 0.2, 0.2, 0.2 }, radius);
 	const Vec3 slope = Vec3(-1, 1, 0).normalized(), down = Vec3(-1, -1, 0).normalized();
 	const Vec3 foot = Vec3(-width / 2, -radius, 0) + below * down, corner = foot + radius * slope;
 	const Vec3 towards = Vec3(width / 2, -radius, 0) - corner;
 	ASSERT_LT(towards.norm(), 2 * radius); // within the contact distance of the far edge
 	ASSERT_GT(towards.dot(Vec3(1, 1 + M_SQRT2, 0)), 0); // behind it
-	const Pose poseB { corner + (0.1 - radius) * std::sqrt(3.) * slope, Quat::FromTwoVectors(Vec3(1, 1, 1), -slope) };
+	const Pose poseB { corner + (0.1 - radius) * std::sqrt(3.) * slope,
+		Quat::FromTwoVectors(Vec3(1, 1, 1), -slope) };
 	for (const bool swapped : { false, true }) {
-		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true }) : contacts(ridge, cube, {}, poseB, { true, true });
+		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true })
+		                            : contacts(ridge, cube, {}, poseB, { true, true });
 		EXPECT_EQ(count(points, swapped ? FeatureKind::VertexFace : FeatureKind::FaceVertex), 1);
-		expectPositions(points, { foot + radius / 2 * slope }, 1e-12); // rounding of the rotation onto the corner
+		expectPositions(
+		        points, { foot + radius / 2 * slope }, 1e-12); // rounding of the rotation onto the corner
 		for (const auto& p : points)
 			expectPoint(p, swapped ? Vec3(-slope) : slope, radius, 1e-12);
 	}
@@ -225,7 +241,8 @@ protected:
 	const Brace shape { 0.805, 2.61, 0.09, 0.045 };
 	const RoundedPolyhedron brace = rounded(shape.vertices());
 	const RoundedPolyhedron beam = roundedBox({ 3, 0.105, 0.12 }), column = roundedBox({ 0.105, 0.105, 2.61 });
-	const Pose beamPose { { 0.5, 0, -0.06 }, Quat::Identity() }, columnPose { { -0.0525, 0, 1.305 }, Quat::Identity() };
+	const Pose beamPose { { 0.5, 0, -0.06 }, Quat::Identity() },
+	        columnPose { { -0.0525, 0, 1.305 }, Quat::Identity() };
 	const Pose bracePose { { -press, 0, -press }, Quat::Identity() };
 };
 
@@ -305,14 +322,16 @@ TEST(Symmetry, SwappedBodies)
 	int touching = 0;
 	for (int trial = 0; trial < 2000; ++trial) {
 		const auto a = roundedBox({ 1, 0.5, 0.3 }), b = rounded(hexagonalPrismVertices(0.2, 0.9), 0.02);
-		const Pose poseA { Vec3::Zero(), randomRotation(random) }, poseB { randomVector(random, 0.6), randomRotation(random) };
+		const Pose poseA { Vec3::Zero(), randomRotation(random) },
+		        poseB { randomVector(random, 0.6), randomRotation(random) };
 		const auto points = contacts(a, b, poseA, poseB), swapped = contacts(b, a, poseB, poseA);
 		ASSERT_EQ(points.size(), swapped.size());
 		touching += !points.empty();
 		for (const auto& p : points)
 			EXPECT_EQ(std::count_if(swapped.begin(), swapped.end(),
 			                  [&](const ContactPoint& q) { // nearly parallel edges: rounding / parallelSine
-				                  return (p.position - q.position).norm() < 1e-10 && (p.normal + q.normal).norm() < 1e-10
+				                  return (p.position - q.position).norm() < 1e-10
+				                          && (p.normal + q.normal).norm() < 1e-10
 				                          && std::abs(p.overlap - q.overlap) < 1e-10;
 			                  }),
 			        1)
@@ -326,12 +345,15 @@ TEST(Symmetry, SceneTurnedAndMovedByAKilometre)
 	Random random(12);
 	const auto a = roundedBox({ 1, 0.5, 0.3 }), b = rounded(hexagonalPrismVertices(0.2, 0.9), 0.02);
 	for (int trial = 0; trial < 500; ++trial) {
-		const Pose poseA { Vec3::Zero(), randomRotation(random) }, poseB { randomVector(random, 0.6), randomRotation(random) };
+		const Pose poseA { Vec3::Zero(), randomRotation(random) },
+		        poseB { randomVector(random, 0.6), randomRotation(random) };
 		const Quat rotation = randomRotation(random);
 		const Vec3 far = 1000 * randomDirection(random);
-		const auto here = contacts(a, b, poseA, poseB), there = contacts(a, b, carried(poseA, rotation, far), carried(poseB, rotation, far));
+		const auto here = contacts(a, b, poseA, poseB),
+		           there = contacts(a, b, carried(poseA, rotation, far), carried(poseB, rotation, far));
 		ASSERT_EQ(here.size(), there.size());
-		for (size_t k = 0; k < here.size(); ++k) { // positions at 1 km are rounded to 1e-13 m, times 1 / parallelSine
+		for (size_t k = 0; k < here.size();
+		        ++k) { // positions at 1 km are rounded to 1e-13 m, times 1 / parallelSine
 			EXPECT_EQ(here[k].id, there[k].id);
 			EXPECT_NEAR(here[k].overlap, there[k].overlap, 1e-9);
 			EXPECT_LT((rotation * here[k].normal - there[k].normal).norm(), 1e-9);
@@ -348,7 +370,8 @@ TEST(Continuity, OverlapFollowsThePose)
 	int compared = 0;
 	for (int trial = 0; trial < 4000; ++trial) {
 		const Pose poseB { randomVector(random, 0.6), randomRotation(random) };
-		const Pose nearby { poseB.position + 1e-9 * randomDirection(random), about(randomDirection(random), 1e-9) * poseB.orientation };
+		const Pose nearby { poseB.position + 1e-9 * randomDirection(random),
+			about(randomDirection(random), 1e-9) * poseB.orientation };
 		const auto before = contacts(a, b, {}, poseB), after = contacts(a, b, {}, nearby);
 		for (const auto& p : before)
 			for (const auto& q : after)
@@ -366,7 +389,8 @@ TEST(Order, SortedByUniqueIds)
 	EXPECT_EQ(id.kind(), FeatureKind::EdgeVertex);
 	EXPECT_EQ(id.a(), 5000);
 	EXPECT_EQ(id.b(), 16383);
-	const auto points = contacts(roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), {}, { { 0.2, 0.1, 0.999 }, Quat::Identity() });
+	const auto points = contacts(
+	        roundedBox({ 1, 1, 1 }), roundedBox({ 1, 1, 1 }), {}, { { 0.2, 0.1, 0.999 }, Quat::Identity() });
 	EXPECT_EQ(points.size(), 4u); // one vertex of each in the other's face, two crossings
 	for (size_t k = 1; k < points.size(); ++k)
 		EXPECT_TRUE(points[k - 1].id < points[k].id);

@@ -34,11 +34,13 @@ void expectRefusal(const std::vector<Vec3>& points, const std::string& part)
 
 TEST(HalfSpaces, RoundTrip)
 {
-	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(),
-	             brace.vertices(), pyramidVertices(1, 2) }) {
-		const Polyhedron body = Polyhedron::fromVertices(points), again = Polyhedron::fromHalfSpaces(planesOf(body));
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1),
+	             hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 2) }) {
+		const Polyhedron body = Polyhedron::fromVertices(points),
+		                 again = Polyhedron::fromHalfSpaces(planesOf(body));
 		expectCounts(again, body.vertices.size(), body.edges.size(), body.faces.size());
-		EXPECT_NEAR(massProperties(again).volume, massProperties(body).volume, 1e-12 * massProperties(body).volume); // three-plane solves
+		EXPECT_NEAR(massProperties(again).volume, massProperties(body).volume,
+		        1e-12 * massProperties(body).volume); // three-plane solves
 	}
 }
 
@@ -55,7 +57,8 @@ TEST(HalfSpaces, CornersAtTheOrigin)
 {
 	Random random(8);
 	for (int trial = 0; trial < 50; ++trial) {
-		const auto points = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 }); // degree-4 apex at the origin
+		const auto points
+		        = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 }); // degree-4 apex at the origin
 		const Polyhedron body = Polyhedron::fromVertices(moved(points, randomRotation(random), Vec3::Zero()));
 		expectCounts(Polyhedron::fromHalfSpaces(planesOf(body)), 5, 8, 5);
 	}
@@ -90,21 +93,27 @@ TEST(HalfSpaces, OpenPrismAndHalfSpaceAreUnbounded)
 	EXPECT_THROW(Polyhedron::fromHalfSpaces(open), PolyhedronError);
 	EXPECT_THROW(Polyhedron::fromHalfSpaces({ { Vec3(0, 0, 1), 1 } }), PolyhedronError);
 	auto tilted = planesOf(Polyhedron::fromVertices(pyramidVertices(1, 1))); // without its base: a cone downwards
-	tilted.erase(std::remove_if(tilted.begin(), tilted.end(), [](const HalfSpace& h) { return h.normal.z() < -0.5; }), tilted.end());
+	tilted.erase(
+	        std::remove_if(tilted.begin(), tilted.end(), [](const HalfSpace& h) { return h.normal.z() < -0.5; }),
+	        tilted.end());
 	EXPECT_THROW(Polyhedron::fromHalfSpaces(tilted), PolyhedronError);
 }
 
 TEST(Core, PlanesMoveByTheRadius)
 {
-	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1), hexagonalPrismVertices(1, 2), hip.vertices(),
-	             brace.vertices(), pyramidVertices(1, 1) }) {
+	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1),
+	             hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 1) }) {
 		const RoundedPolyhedron body = rounded(points, 0.004);
 		expectCounts(body.core, body.sharp.vertices.size(), body.sharp.edges.size(), body.sharp.faces.size());
 		for (const Face& inner : body.core.faces) {
 			const auto& faces = body.sharp.faces;
-			const auto outer = std::max_element(faces.begin(), faces.end(),
-			        [&](const Face& p, const Face& q) { return p.plane.normal.dot(inner.plane.normal) < q.plane.normal.dot(inner.plane.normal); });
-			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004, 1e-12); // three-plane solves, metre-sized
+			const auto outer
+			        = std::max_element(faces.begin(), faces.end(), [&](const Face& p, const Face& q) {
+				          return p.plane.normal.dot(inner.plane.normal)
+				                  < q.plane.normal.dot(inner.plane.normal);
+			          });
+			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004,
+			        1e-12); // three-plane solves, metre-sized
 			EXPECT_NEAR(outer->plane.normal.dot(inner.plane.normal), 1, rounding);
 		}
 	}
@@ -160,7 +169,9 @@ TEST(Core, WarpedFaces)
 	Random random(10);
 	for (const double grid : { 1e-3, 1e-4, 1e-5, 1e-6 })
 		for (int trial = 0; trial < 60; ++trial) {
-			const auto shape = trial % 3 == 0 ? hip.vertices() : trial % 3 == 1 ? brace.vertices() : boxVertices({ 0.105, 0.12, 2.73 });
+			const auto shape = trial % 3 == 0 ? hip.vertices()
+			        : trial % 3 == 1          ? brace.vertices()
+			                                  : boxVertices({ 0.105, 0.12, 2.73 });
 			const auto exact = moved(shape, randomRotation(random), randomVector(random, 3));
 			auto typed = exact;
 			for (Vec3& p : typed)
@@ -196,7 +207,8 @@ TEST(Refusals, SayWhatIsWrong)
 TEST(Refusals, PointsThatAreNoCorners)
 {
 	const auto box = boxVertices({ 1, 1, 1 });
-	const std::vector<Vec3> extras { { 0.1, 0.2, 0.3 }, { 0.5, 0.5, 0 }, { 0.5, 0.1, 0.2 }, { 0, 0, 0.5 }, { 0.5, 0, 0 } }; // inside, on an edge, on faces
+	const std::vector<Vec3> extras { { 0.1, 0.2, 0.3 }, { 0.5, 0.5, 0 }, { 0.5, 0.1, 0.2 }, { 0, 0, 0.5 },
+		{ 0.5, 0, 0 } }; // inside, on an edge, on faces
 	for (const Vec3& extra : extras) {
 		auto bad = box;
 		bad.push_back(extra);
@@ -215,13 +227,15 @@ TEST(Refusals, TooManyVertices)
 {
 	Random random(12);
 	for (const size_t count : { maxVertices + 1, size_t(2000), size_t(20000) })
-		expectRefusal(ellipsoidPoints(random, int(count), { 1, 1, 1 }), "at most 64 vertices, got " + std::to_string(count));
+		expectRefusal(ellipsoidPoints(random, int(count), { 1, 1, 1 }),
+		        "at most 64 vertices, got " + std::to_string(count));
 	const auto begin = std::clock();
 	const auto points = ellipsoidPoints(random, int(maxVertices), { 1, 0.8, 0.6 });
 	EXPECT_EQ(Polyhedron::fromVertices(points).vertices.size(), maxVertices);
 	std::vector<Eigen::Vector2d> outline;
 	for (int k = 0; k < int(maxVertices) / 2; ++k)
-		outline.emplace_back(0.3 * std::cos(4 * M_PI * k / maxVertices), 0.3 * std::sin(4 * M_PI * k / maxVertices));
+		outline.emplace_back(
+		        0.3 * std::cos(4 * M_PI * k / maxVertices), 0.3 * std::sin(4 * M_PI * k / maxVertices));
 	EXPECT_EQ(rounded(prismVertices(outline, 2)).core.vertices.size(), maxVertices);
 	EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.5 * slowdown); // observed: 0.02 s of processor time
 }

@@ -77,16 +77,19 @@ TEST(Topology, PlatesNeedlesAndSlivers)
 {
 	for (const Vec3& extents : { Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(10, 1, 0.01) }) {
 		expectCounts(Polyhedron::fromVertices(boxVertices(extents)), 8, 12, 6);
-		expectCounts(Polyhedron::fromVertices(moved(boxVertices(extents), about({ 1, 2, 3 }, 1), { 5, 6, 7 })), 8, 12, 6);
+		expectCounts(Polyhedron::fromVertices(moved(boxVertices(extents), about({ 1, 2, 3 }, 1), { 5, 6, 7 })),
+		        8, 12, 6);
 	}
-	expectCounts(Polyhedron::fromVertices({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1e-3, 0 }, { 0.5, 0.3e-3, 1e-3 } }), 4, 6, 4);
+	expectCounts(Polyhedron::fromVertices({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1e-3, 0 }, { 0.5, 0.3e-3, 1e-3 } }), 4,
+	        6, 4);
 }
 
 /// Single precision moves vertices by 6e-8 of their coordinates; planarShare (1e-6) forgives that.
 TEST(Topology, SinglePrecisionBoxKeepsSixPlaneFaces)
 {
 	Random random(2);
-	for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(8.34, 7.43, 0.2), Vec3(1, 1, 1), Vec3(1, 0.3, 0.01) })
+	for (const Vec3& extents :
+	        { Vec3(0.105, 0.105, 2.73), Vec3(8.34, 7.43, 0.2), Vec3(1, 1, 1), Vec3(1, 0.3, 0.01) })
 		for (int trial = 0; trial < 50; ++trial) {
 			auto points = moved(boxVertices(extents), randomRotation(random), Vec3::Zero());
 			for (Vec3& p : points)
@@ -98,7 +101,8 @@ TEST(Topology, SinglePrecisionBoxKeepsSixPlaneFaces)
 TEST(Mass, Box)
 {
 	const double a = 0.105, b = 0.12, c = 2.73, v = a * b * c;
-	expectMass(boxVertices({ a, b, c }), v, Vec3::Zero(), v / 12 * Vec3(b * b + c * c, a * a + c * c, a * a + b * b));
+	expectMass(
+	        boxVertices({ a, b, c }), v, Vec3::Zero(), v / 12 * Vec3(b * b + c * c, a * a + c * c, a * a + b * b));
 }
 
 TEST(Mass, RegularSolids)
@@ -121,7 +125,8 @@ TEST(Mass, BraceVolume)
 	const double left = brace.rise - brace.cutZ();
 	const double area = brace.run * brace.rise - brace.run / brace.rise * left * left;
 	EXPECT_NEAR(mass.volume, area * brace.depth, rounding);
-	EXPECT_LT((mass.centroid - Vec3(brace.run / 2, 0, brace.rise / 2)).norm(), 10 * rounding); // few-metre coordinates
+	EXPECT_LT((mass.centroid - Vec3(brace.run / 2, 0, brace.rise / 2)).norm(),
+	        10 * rounding); // few-metre coordinates
 }
 
 /// Triangle without its three cut corners, sheared by the slope: shear changes neither volume nor plan centroid.
@@ -142,11 +147,13 @@ TEST(Mass, RotationAndKilometreTranslation)
 		const MassProperties here = massProperties(Polyhedron::fromVertices(points));
 		const Mat3 rotation = randomRotation(random).toRotationMatrix();
 		const Vec3 far = 1000 * randomDirection(random);
-		const MassProperties there = massProperties(Polyhedron::fromVertices(moved(points, Quat(rotation), far)));
+		const MassProperties there
+		        = massProperties(Polyhedron::fromVertices(moved(points, Quat(rotation), far)));
 		const double noise = 1e-11; // vertices at 1 km are rounded to 1e-13 m; relative to a width of 0.2 m
 		EXPECT_NEAR(there.volume, here.volume, noise * here.volume);
 		EXPECT_LT((there.centroid - rotation * here.centroid - far).norm(), noise);
-		EXPECT_LT((there.inertia - rotation * here.inertia * rotation.transpose()).norm(), noise * here.inertia.norm());
+		EXPECT_LT((there.inertia - rotation * here.inertia * rotation.transpose()).norm(),
+		        noise * here.inertia.norm());
 	}
 }
 
@@ -155,19 +162,24 @@ TEST(Mass, PartsAddUp)
 {
 	Random random(4);
 	const auto aboutOrigin = [](const MassProperties& m) {
-		return Mat3(m.inertia + m.volume * (m.centroid.squaredNorm() * Mat3::Identity() - m.centroid * m.centroid.transpose()));
+		return Mat3(m.inertia
+		        + m.volume
+		                * (m.centroid.squaredNorm() * Mat3::Identity() - m.centroid * m.centroid.transpose()));
 	};
 	for (int trial = 0; trial < 30; ++trial) {
-		const Polyhedron whole = Polyhedron::fromVertices(ellipsoidPoints(random, 10 + trial % 6, { 1, 0.7, 0.5 }));
+		const Polyhedron whole
+		        = Polyhedron::fromVertices(ellipsoidPoints(random, 10 + trial % 6, { 1, 0.7, 0.5 }));
 		const MassProperties mass = massProperties(whole);
 		const Vec3 normal = randomDirection(random);
 		auto upper = planesOf(whole), lower = upper;
 		upper.push_back({ -normal, -normal.dot(mass.centroid) });
 		lower.push_back({ normal, normal.dot(mass.centroid) });
-		const MassProperties u = massProperties(Polyhedron::fromHalfSpaces(upper)), l = massProperties(Polyhedron::fromHalfSpaces(lower));
+		const MassProperties u = massProperties(Polyhedron::fromHalfSpaces(upper)),
+		                     l = massProperties(Polyhedron::fromHalfSpaces(lower));
 		const double noise = 1e-5; // corners closer than 4e-6 of the size are merged by fromHalfSpaces
 		EXPECT_NEAR(u.volume + l.volume, mass.volume, noise * mass.volume);
-		EXPECT_LT((u.volume * u.centroid + l.volume * l.centroid - mass.volume * mass.centroid).norm(), noise * mass.volume);
+		EXPECT_LT((u.volume * u.centroid + l.volume * l.centroid - mass.volume * mass.centroid).norm(),
+		        noise * mass.volume);
 		EXPECT_LT((aboutOrigin(u) + aboutOrigin(l) - aboutOrigin(mass)).norm(), noise * mass.inertia.norm());
 	}
 }
@@ -183,7 +195,9 @@ TEST(Mass, MonteCarlo)
 	Mat3 inertia = Mat3::Zero();
 	for (int k = 0; k < samples; ++k) {
 		const Vec3 x = randomVector(random, 1).cwiseProduct(Vec3(1, 0.8, 0.6));
-		if (std::any_of(body.faces.begin(), body.faces.end(), [&](const Face& f) { return f.plane.normal.dot(x) > f.plane.offset; })) continue;
+		if (std::any_of(body.faces.begin(), body.faces.end(),
+		            [&](const Face& f) { return f.plane.normal.dot(x) > f.plane.offset; }))
+			continue;
 		const Vec3 r = x - mass.centroid;
 		volume += cell;
 		inertia += cell * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
@@ -196,7 +210,8 @@ TEST(Mass, MonteCarlo)
 TEST(PrincipalAxes, IdentityForAlignedBoxAndForCube)
 {
 	for (const Vec3& extents : { Vec3(1, 2, 3), Vec3(3, 2, 1), Vec3(0.105, 0.105, 2.73), Vec3(1, 1, 1) })
-		EXPECT_EQ(principalAxes(massProperties(Polyhedron::fromVertices(boxVertices(extents))).inertia), Mat3::Identity());
+		EXPECT_EQ(principalAxes(massProperties(Polyhedron::fromVertices(boxVertices(extents))).inertia),
+		        Mat3::Identity());
 	const auto turnedCube = moved(boxVertices({ 1, 1, 1 }), about({ 1, 2, 3 }, 0.7), Vec3::Zero());
 	EXPECT_EQ(principalAxes(massProperties(Polyhedron::fromVertices(turnedCube)).inertia), Mat3::Identity());
 }
@@ -205,10 +220,12 @@ TEST(PrincipalAxes, RightHandedAndDiagonal)
 {
 	Random random(6);
 	for (int trial = 0; trial < 300; ++trial) {
-		const Mat3 inertia = massProperties(Polyhedron::fromVertices(ellipsoidPoints(random, 8, { 1, 0.5, 0.3 }))).inertia;
+		const Mat3 inertia
+		        = massProperties(Polyhedron::fromVertices(ellipsoidPoints(random, 8, { 1, 0.5, 0.3 }))).inertia;
 		const Mat3 axes = principalAxes(inertia);
 		EXPECT_NEAR(axes.determinant(), 1, rounding);
-		EXPECT_LT((axes.transpose() * axes - Mat3::Identity()).norm(), 10 * rounding); // orthonormality of the solver
+		EXPECT_LT((axes.transpose() * axes - Mat3::Identity()).norm(),
+		        10 * rounding); // orthonormality of the solver
 		const Mat3 inside = axes.transpose() * inertia * axes;
 		EXPECT_LT((inside - Mat3(inside.diagonal().asDiagonal())).norm(), 10 * rounding * inertia.norm());
 	}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Random convex bodies of 4 to 64 corners: each is accepted, has the volume of its convex hull and a sound core. TIMBER_HULLS: their number.
+/// Random convex bodies of 4 to 64 corners: each is accepted, has the volume of its convex hull and a sound core.
+/// TIMBER_HULLS: their number.
 #include "topology.hpp"
 #include <algorithm>
 #include <cstdlib>
@@ -60,12 +61,14 @@ using LongVec2 = Eigen::Matrix<long double, 2, 1>;
 long double hullArea(std::vector<LongVec2> points)
 {
 	const auto cross = [](const LongVec2& a, const LongVec2& b) { return a.x() * b.y() - a.y() * b.x(); };
-	std::sort(points.begin(), points.end(), [](const LongVec2& p, const LongVec2& q) { return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y()); });
+	std::sort(points.begin(), points.end(),
+	        [](const LongVec2& p, const LongVec2& q) { return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y()); });
 	long double area = 0;
 	for (const int side : { 1, -1 }) {
 		std::vector<LongVec2> chain;
 		for (const LongVec2& p : points) {
-			while (chain.size() > 1 && side * cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0)
+			while (chain.size() > 1
+			        && side * cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0)
 				chain.pop_back();
 			chain.push_back(p);
 		}
@@ -75,7 +78,8 @@ long double hullArea(std::vector<LongVec2> points)
 	return area;
 }
 
-/// Volume of the convex hull: the area of a section is quadratic between the heights of two corners. No hull in space is needed.
+/// Volume of the convex hull: the area of a section is quadratic between the heights of two corners. No hull in space
+/// is needed.
 double sectionVolume(const Points& points)
 {
 	std::vector<LongVec3> x;
@@ -94,8 +98,10 @@ double sectionVolume(const Points& points)
 	};
 	long double volume = 0;
 	for (size_t k = 1; k < x.size(); ++k) {
-		const long double low = x[k - 1].z(), high = x[k].z(), part = (high - low) / 4; // three inner points: the ends may be faces
-		volume += (high - low) / 3 * (2 * sectionArea(low + part) - sectionArea(low + 2 * part) + 2 * sectionArea(high - part));
+		const long double low = x[k - 1].z(), high = x[k].z(),
+		                  part = (high - low) / 4; // three inner points: the ends may be faces
+		volume += (high - low) / 3
+		        * (2 * sectionArea(low + part) - sectionArea(low + 2 * part) + 2 * sectionArea(high - part));
 	}
 	return double(volume);
 }
@@ -150,7 +156,8 @@ Points lowRoofs(Random& random)
 		if (random() % 3)
 			for (int k = int(random() % 3); k >= 0; --k) {
 				const Vec3 along = randomVector(random, 0.4);
-				points.push_back(along - along.dot(normal) * normal + (0.5 + std::pow(10, uniform(random, -5.5, -2))) * normal);
+				points.push_back(along - along.dot(normal) * normal
+				        + (0.5 + std::pow(10, uniform(random, -5.5, -2))) * normal);
 			}
 	return points;
 }
@@ -185,7 +192,8 @@ bool removeRefused(Points& points, Polyhedron& body)
 {
 	for (size_t k = 0; k < points.size(); ++k)
 		for (size_t l = points.size(); --l > k;)
-			if ((points[k] - points[l]).norm() < 2e-6 * sizeOf(points)) points.erase(points.begin() + long(l));
+			if ((points[k] - points[l]).norm() < 2e-6 * sizeOf(points))
+				points.erase(points.begin() + long(l));
 	while (points.size() >= 4)
 		try {
 			body = Polyhedron::fromVertices(points);
@@ -201,7 +209,8 @@ bool removeRefused(Points& points, Polyhedron& body)
 			const Vec3 point = points[k];
 			points.erase(points.begin() + long(k));
 			if (points.size() < 4) return false;
-			EXPECT_LE(largestHeight(supportingPlanes(points), point), 1.02e-6 * sizeOf(points)) << text; // planarShare
+			EXPECT_LE(largestHeight(supportingPlanes(points), point), 1.02e-6 * sizeOf(points))
+			        << text; // planarShare
 		}
 	return false;
 }
@@ -214,8 +223,10 @@ void expectClosed(const Polyhedron& body, double tolerance)
 	for (const Face& face : body.faces) {
 		EXPECT_GE(face.corners.size(), 3u);
 		for (size_t k = 0; k < face.corners.size(); ++k) {
-			EXPECT_TRUE(sides.insert({ face.corners[k], face.corners[(k + 1) % face.corners.size()] }).second);
-			EXPECT_NEAR(face.plane.normal.dot(body.vertices[face.corners[k]]), face.plane.offset, tolerance);
+			EXPECT_TRUE(
+			        sides.insert({ face.corners[k], face.corners[(k + 1) % face.corners.size()] }).second);
+			EXPECT_NEAR(
+			        face.plane.normal.dot(body.vertices[face.corners[k]]), face.plane.offset, tolerance);
 			EXPECT_TRUE(face.sidePlanes[k].normal.allFinite() && face.bevelPlanes[k].normal.allFinite());
 		}
 		for (const Vec3& v : body.vertices)
@@ -232,8 +243,8 @@ void expectClosed(const Polyhedron& body, double tolerance)
 void expectRests(const RoundedPolyhedron& body)
 {
 	static const RoundedPolyhedron plate = roundedBox({ 100, 100, 1 }, 0.1);
-	const auto widest = std::max_element(
-	        body.core.faces.begin(), body.core.faces.end(), [](const Face& f, const Face& g) { return f.corners.size() < g.corners.size(); });
+	const auto widest = std::max_element(body.core.faces.begin(), body.core.faces.end(),
+	        [](const Face& f, const Face& g) { return f.corners.size() < g.corners.size(); });
 	const Quat turn = Quat::FromTwoVectors(widest->plane.normal, Vec3(0, 0, -1));
 	const double overlap = 0.01 * body.radius;
 	double low = 1e300;
@@ -270,7 +281,8 @@ TEST(RandomHulls, AllAreAcceptedWithTheirVolumeAndCore)
 		const double room = -largestHeight(planes, middle), size = sizeOf(points);
 		if (room < 1e-3 * size) continue;
 		++bodies;
-		const double radius = trial % 2 && sharp.shortestEdge() < 9 * room ? 0 : uniform(random, 0.01, 0.95) * room;
+		const double radius
+		        = trial % 2 && sharp.shortestEdge() < 9 * room ? 0 : uniform(random, 0.01, 0.95) * room;
 		try {
 			const RoundedPolyhedron body = RoundedPolyhedron::fromSharp(sharp, radius);
 			expectClosed(body.core, warpShare * size);
@@ -309,9 +321,11 @@ TEST(RandomHulls, LargestRadius)
 /// Corners typed to two decimals. Reference: SciPy's (Qhull's) intersection of the half-spaces.
 TEST(RandomHulls, TwoDecimals)
 {
-	const RoundedPolyhedron body = rounded({ { -0.79, 0.59, 0.15 }, { 0.38, -0.78, 0.49 }, { 0.80, -0.60, 0.02 }, { 0.89, 0.45, 0.0 },
-	        { 0.55, -0.06, 0.83 }, { 0.87, 0.50, 0.0 }, { -0.94, -0.34, -0.10 }, { 0.53, 0.85, 0.07 } });
+	const RoundedPolyhedron body
+	        = rounded({ { -0.79, 0.59, 0.15 }, { 0.38, -0.78, 0.49 }, { 0.80, -0.60, 0.02 }, { 0.89, 0.45, 0.0 },
+	                { 0.55, -0.06, 0.83 }, { 0.87, 0.50, 0.0 }, { -0.94, -0.34, -0.10 }, { 0.53, 0.85, 0.07 } });
 	EXPECT_EQ(body.core.vertices.size(), 20u);
-	EXPECT_NEAR(massProperties(body.core).volume / massProperties(body.sharp).volume, 0.959, 0.0005); // its last digit
+	EXPECT_NEAR(
+	        massProperties(body.core).volume / massProperties(body.sharp).volume, 0.959, 0.0005); // its last digit
 	EXPECT_NEAR(body.core.shortestEdge(), 5e-4, 1e-4); // likewise
 }

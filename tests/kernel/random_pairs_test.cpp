@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Random pairs, including slivers, plates, needles and size ratios of 1:1000: the manifold is finite, bounded, sorted and independent of
-/// the cache.
+/// Random pairs, including slivers, plates, needles and size ratios of 1:1000: the manifold is finite, bounded, sorted
+/// and independent of the cache.
 #include "shapes.hpp"
 #include <kernel/separating_axis.hpp>
 #include <kernel/constants.hpp>
@@ -27,11 +27,13 @@ std::vector<RoundedPolyhedron> randomBodies(Random& random, int wanted, int& ref
 		if (kind == 1) axes = { 1, 1e-3, 1e-3 };
 		try {
 			const bool box = kind == 2;
-			auto points = box ? boxVertices(axes * size) : ellipsoidPoints(random, 4 + int(uniform(random, 0, 9)), axes * size);
+			auto points = box ? boxVertices(axes * size)
+			                  : ellipsoidPoints(random, 4 + int(uniform(random, 0, 9)), axes * size);
 			const Quat turn = randomRotation(random);
-			const Polyhedron sharp
-			        = Polyhedron::fromVertices(moved(points, turn, -(turn * massProperties(Polyhedron::fromVertices(points)).centroid)));
-			bodies.push_back(RoundedPolyhedron::fromSharp(sharp, uniform(random, 0.02, 0.2) * std::min(sharp.shortestEdge(), sharp.thickness())));
+			const Polyhedron sharp = Polyhedron::fromVertices(moved(
+			        points, turn, -(turn * massProperties(Polyhedron::fromVertices(points)).centroid)));
+			bodies.push_back(RoundedPolyhedron::fromSharp(
+			        sharp, uniform(random, 0.02, 0.2) * std::min(sharp.shortestEdge(), sharp.thickness())));
 		} catch (const PolyhedronError&) {
 			++refused;
 		}
@@ -43,14 +45,18 @@ double depthOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pos
 {
 	Vec3 axis;
 	const Mat3 rotation = (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix();
-	return std::max(0., -coreGap(a.core, b.core, rotation, poseA.orientation.conjugate() * (poseB.position - poseA.position), axis));
+	return std::max(0.,
+	        -coreGap(a.core, b.core, rotation, poseA.orientation.conjugate() * (poseB.position - poseA.position),
+	                axis));
 }
 
-void expectSound(
-        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, double depth, const std::vector<ContactPoint>& points)
+void expectSound(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
+        double depth, const std::vector<ContactPoint>& points)
 {
 	const double touch = a.radius + b.radius;
-	const double limit = touch + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0., 1e-4 }); // 1e-4: flushTolerance
+	const double limit = touch
+	        + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0.,
+	                1e-4 }); // 1e-4: flushTolerance
 	for (size_t k = 0; k < points.size(); ++k) {
 		const ContactPoint& p = points[k];
 		EXPECT_TRUE(p.position.allFinite());
@@ -75,8 +81,10 @@ TEST(RandomPairs, TwentyThousand)
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
 		const Vec3 far = trial % 4 == 0 ? Vec3(1000 * randomDirection(random)) : Vec3(Vec3::Zero());
 		const Pose poseA { far, randomRotation(random) };
-		const Vec3& vertex = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
-		const Pose poseB { far + poseA.orientation * vertex + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random),
+		const Vec3& vertex
+		        = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
+		const Pose poseB { far + poseA.orientation * vertex
+			        + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random),
 			randomRotation(random) };
 		const auto points = contacts(a, b, poseA, poseB, { trial % 2 == 0, trial % 3 != 0 });
 		const double depth = depthOf(a, b, poseA, poseB);
@@ -97,7 +105,8 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 	const auto bodies = randomBodies(random, 200, refused);
 	for (int trial = 0; trial < 2500; ++trial) {
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
-		const Pose poseB { a.core.vertices[random() % a.core.vertices.size()] * uniform(random, 0, 1), randomRotation(random) };
+		const Pose poseB { a.core.vertices[random() % a.core.vertices.size()] * uniform(random, 0, 1),
+			randomRotation(random) };
 		Vec3 axis;
 		if (coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis) >= 0) continue;
 		++deep;
@@ -108,7 +117,10 @@ TEST(RandomPairs, DeepPairsAreHeldAndPushedOut)
 			EXPECT_GT(p.normal.dot(axis), 0.4999) << trial; // deepNormalCosine, rounded
 			const FeatureKind kind = p.id.kind();
 			if (kind == FeatureKind::VertexFace || kind == FeatureKind::FaceVertex) {
-				EXPECT_TRUE(vertices.insert({ kind, kind == FeatureKind::VertexFace ? p.id.a() : p.id.b() }).second) << trial;
+				EXPECT_TRUE(
+				        vertices.insert({ kind, kind == FeatureKind::VertexFace ? p.id.a() : p.id.b() })
+				                .second)
+				        << trial;
 			}
 		}
 	}
@@ -143,7 +155,8 @@ TEST(RandomPairs, CacheHoldsNoResult)
 	EXPECT_GT(touching, 1000);
 }
 
-/// No contact within the safe displacement, measured as in CollisionTrigger; some pairs are in contact slightly beyond it.
+/// No contact within the safe displacement, measured as in CollisionTrigger; some pairs are in contact slightly beyond
+/// it.
 TEST(RandomPairs, SafeDisplacement)
 {
 	Random random(91);
@@ -153,7 +166,8 @@ TEST(RandomPairs, SafeDisplacement)
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
 		const Patterns patterns { trial % 2 == 0, trial % 3 != 0 };
 		const Vec3 direction = randomDirection(random);
-		const Pose poseB { (a.boundingRadius + b.boundingRadius) * uniform(random, 0.3, 1.2) * direction, randomRotation(random) };
+		const Pose poseB { (a.boundingRadius + b.boundingRadius) * uniform(random, 0.3, 1.2) * direction,
+			randomRotation(random) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		updateManifold(a, b, {}, poseB, patterns, cache, points); // finds the axis
@@ -163,9 +177,13 @@ TEST(RandomPairs, SafeDisplacement)
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.boundingRadius);
 		const double left = gap - rotationDisplacement(turn, b.halfExtents);
 		ASSERT_GE(left, 0);
-		EXPECT_TRUE(contacts(a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns).empty()) << trial;
+		EXPECT_TRUE(contacts(
+		        a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns)
+		                    .empty())
+		        << trial;
 		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
-		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, patterns).empty();
+		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, patterns)
+		                   .empty();
 	}
 	EXPECT_GT(separated, 1000);
 	EXPECT_GT(beyond, separated / 20);
@@ -185,5 +203,6 @@ TEST(RandomPairs, RotationDisplacementBoundsAllPoints)
 	}
 	const auto column = roundedBox({ 0.12, 0.12, 2.73 });
 	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitZ(), 0.01), column.halfExtents), 0.01 * M_SQRT2 * 0.048, 1e-5);
-	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitX(), 0.01), column.halfExtents), 0.01 * std::hypot(0.048, 1.353), 1e-5);
+	EXPECT_NEAR(rotationDisplacement(about(Vec3::UnitX(), 0.01), column.halfExtents),
+	        0.01 * std::hypot(0.048, 1.353), 1e-5);
 }

@@ -31,7 +31,10 @@ struct Placed {
 
 Placed randomPair(Random& random, double distance)
 {
-	const auto hull = [&] { return Polyhedron::fromVertices(ellipsoidPoints(random, 4 + int(uniform(random, 0, 5)), { 1, 0.6, 0.4 })); };
+	const auto hull = [&] {
+		return Polyhedron::fromVertices(
+		        ellipsoidPoints(random, 4 + int(uniform(random, 0, 5)), { 1, 0.6, 0.4 }));
+	};
 	const Polyhedron a = hull(), b = hull();
 	const Mat3 rotation = randomRotation(random).toRotationMatrix();
 	return { a, b, rotation, distance * randomDirection(random) };
@@ -53,7 +56,8 @@ TEST(CoreGap, AlignedBoxes)
 TEST(CoreGap, CrossedEdges)
 {
 	const Polyhedron bar = Polyhedron::fromVertices(boxVertices({ 4, 1, 1 }));
-	const Mat3 turn = (about({ 1, 0, 0 }, -M_PI / 4) * about({ 0, 0, 1 }, M_PI / 2) * about({ 1, 0, 0 }, M_PI / 4)).toRotationMatrix();
+	const Mat3 turn = (about({ 1, 0, 0 }, -M_PI / 4) * about({ 0, 0, 1 }, M_PI / 2) * about({ 1, 0, 0 }, M_PI / 4))
+	                          .toRotationMatrix();
 	const Vec3 up = about({ 1, 0, 0 }, -M_PI / 4) * Vec3::UnitZ();
 	for (const double gap : { -0.1, 0.2 }) {
 		Vec3 axis;
@@ -92,12 +96,15 @@ TEST(CoreGap, PointReflectionAndSwap)
 				p = -p;
 			return Polyhedron::fromVertices(points);
 		};
-		const Placed mirror { reflected(pair.a.vertices), reflected(pair.b.vertices), pair.rotation, -pair.translation };
-		const Placed swapped { pair.b, pair.a, pair.rotation.transpose(), -(pair.rotation.transpose() * pair.translation) };
+		const Placed mirror { reflected(pair.a.vertices), reflected(pair.b.vertices), pair.rotation,
+			-pair.translation };
+		const Placed swapped { pair.b, pair.a, pair.rotation.transpose(),
+			-(pair.rotation.transpose() * pair.translation) };
 		Vec3 axis, axisMirror, axisSwapped;
 		EXPECT_NEAR(pair.gap(axis), mirror.gap(axisMirror), rounding);
 		EXPECT_NEAR(pair.gap(axis), swapped.gap(axisSwapped), rounding);
-		EXPECT_LT((axis + axisMirror).norm(), 1e-9); // normals of random triangles: rounding over their sharpness
+		EXPECT_LT(
+		        (axis + axisMirror).norm(), 1e-9); // normals of random triangles: rounding over their sharpness
 		EXPECT_LT((axis + pair.rotation * axisSwapped).norm(), 1e-9);
 	}
 }

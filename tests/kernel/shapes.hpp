@@ -11,11 +11,15 @@ namespace timber::shapes {
 
 using Random = std::mt19937;
 
-inline double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+inline double uniform(Random& random, double low, double high)
+{
+	return std::uniform_real_distribution<double>(low, high)(random);
+}
 
 inline Vec3 randomVector(Random& random, double size)
 {
-	const double x = uniform(random, -size, size), y = uniform(random, -size, size), z = uniform(random, -size, size);
+	const double x = uniform(random, -size, size), y = uniform(random, -size, size),
+	             z = uniform(random, -size, size);
 	return { x, y, z };
 }
 
@@ -87,8 +91,8 @@ struct Brace {
 	{
 		std::vector<Vec3> points;
 		for (const double y : { -depth / 2, depth / 2 })
-			for (const Vec3& p : { Vec3(0, y, 0), Vec3(cutX(), y, 0), Vec3(run, y, rise - cutZ()), Vec3(run, y, rise), Vec3(run - cutX(), y, rise),
-			             Vec3(0, y, cutZ()) })
+			for (const Vec3& p : { Vec3(0, y, 0), Vec3(cutX(), y, 0), Vec3(run, y, rise - cutZ()),
+			             Vec3(run, y, rise), Vec3(run - cutX(), y, rise), Vec3(0, y, cutZ()) })
 				points.push_back(p);
 		return points;
 	}
@@ -103,8 +107,9 @@ struct HipSlab {
 		const double w = eave / 2;
 		std::vector<Vec3> points;
 		for (const double z : { -thickness / 2, thickness / 2 })
-			for (const auto& p : { Eigen::Vector2d(cut - w, 0), Eigen::Vector2d(w - cut, 0), Eigen::Vector2d(w - cut, cut),
-			             Eigen::Vector2d(cut, w - cut), Eigen::Vector2d(-cut, w - cut), Eigen::Vector2d(cut - w, cut) })
+			for (const auto& p : { Eigen::Vector2d(cut - w, 0), Eigen::Vector2d(w - cut, 0),
+			             Eigen::Vector2d(w - cut, cut), Eigen::Vector2d(cut, w - cut),
+			             Eigen::Vector2d(-cut, w - cut), Eigen::Vector2d(cut - w, cut) })
 				points.emplace_back(p.x(), p.y(), z + slope * p.y());
 		return points;
 	}
@@ -137,7 +142,10 @@ inline RoundedPolyhedron rounded(const std::vector<Vec3>& points, double radius 
 {
 	return RoundedPolyhedron::fromSharp(Polyhedron::fromVertices(points), radius);
 }
-inline RoundedPolyhedron roundedBox(const Vec3& extents, double radius = 0) { return rounded(boxVertices(extents), radius); }
+inline RoundedPolyhedron roundedBox(const Vec3& extents, double radius = 0)
+{
+	return rounded(boxVertices(extents), radius);
+}
 
 /// The pose after a rotation and translation of the whole scene.
 inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translation)
@@ -146,8 +154,8 @@ inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translat
 }
 
 /// Contact points from an empty cache.
-inline std::vector<ContactPoint> contacts(
-        const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB, const Patterns& patterns = {})
+inline std::vector<ContactPoint> contacts(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA,
+        const Pose& poseB, const Patterns& patterns = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;

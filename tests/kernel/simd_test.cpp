@@ -14,7 +14,8 @@ namespace {
 
 const PairProperties properties { 3, 0.4, 1 / 2.8, 4e-3 };
 
-/// A moving pair with points of all kinds: growing and shrinking overlaps, short and deep, loaded and free, at rest and sliding.
+/// A moving pair with points of all kinds: growing and shrinking overlaps, short and deep, loaded and free, at rest and
+/// sliding.
 struct MovingPair {
 	std::vector<SolverBody> bodies;
 	std::vector<ContactPoint> points;
@@ -26,21 +27,24 @@ struct MovingPair {
 		const double speed = seed % 3 == 0 ? 0 : 0.5;
 		for (const double mass : { 2., seed % 4 == 0 ? 0. : 5. }) {
 			bodies.push_back(body(mass, mass > 0 ? randomVector(random, speed) : Vec3(Vec3::Zero())));
-			bodies.back().spin = bodies.back().newSpin = mass > 0 ? randomVector(random, speed) : Vec3(Vec3::Zero());
+			bodies.back().spin = bodies.back().newSpin
+			        = mass > 0 ? randomVector(random, speed) : Vec3(Vec3::Zero());
 			bodies.back().newVelocity += mass > 0 ? randomVector(random, 0.1) : Vec3(Vec3::Zero());
 		}
 		for (SolverBody& b : bodies)
 			b.position = randomVector(random, 1);
 		for (size_t k = 0; k < count; ++k) {
-			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1), randomDirection(random),
-			        std::pow(10, uniform(random, -9, -2)) });
+			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1),
+			        randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
 			PointRecord s;
 			s.id = points[k].id;
 			s.excess = k % 3 == 0 ? uniform(random, 0, 1) * points[k].overlap : 0;
 			s.overlap = std::pow(10, uniform(random, -9, -2.4));
 			s.stiffness = k % 5 == 4 ? 0 : law.stiffness(s.overlap);
 			s.normalForce = law.force(s.overlap);
-			s.shearForce = k % 4 == 3 ? Vec3(Vec3::Zero()) : Vec3(uniform(random, 0, 1) * s.normalForce * points[k].normal.unitOrthogonal());
+			s.shearForce = k % 4 == 3
+			        ? Vec3(Vec3::Zero())
+			        : Vec3(uniform(random, 0, 1) * s.normalForce * points[k].normal.unitOrthogonal());
 			s.dashpotForce = randomVector(random, 0.1 * s.normalForce);
 			s.normalStored = uniform(random, 0, 1) * law.energy(s.overlap);
 			s.shearStored = uniform(random, 0, 1) * s.shearForce.norm() * s.overlap;
@@ -49,7 +53,10 @@ struct MovingPair {
 		}
 	}
 	BodyKinematics kinematics(size_t k) const { return { bodies[k].position, bodies[k].velocity, bodies[k].spin }; }
-	ElasticInput step(NormalForm form = NormalForm::Closed) const { return { properties, kinematics(0), kinematics(1), h, form }; }
+	ElasticInput step(NormalForm form = NormalForm::Closed) const
+	{
+		return { properties, kinematics(0), kinematics(1), h, form };
+	}
 
 	static constexpr double h = 2e-4;
 	const HertzLaw law { 5.25e9, 0.05 };
@@ -84,13 +91,16 @@ TEST(LanesOfAPair, ElasticForcesAreThoseOfEachPoint)
 				alone.records = { each[k] };
 				elasticPair(pair.law, pair.step(form), alone.points, alone.records);
 				expectSame(alone.records[0], pair.records[k]);
-				const Vec3 armA = pair.points[k].position - pair.bodies[0].position, armB = pair.points[k].position - pair.bodies[1].position;
+				const Vec3 armA = pair.points[k].position - pair.bodies[0].position,
+				           armB = pair.points[k].position - pair.bodies[1].position;
 				const auto velocity = [&](const SolverBody& b, const Vec3& arm) {
 					return Vec3(b.velocity + b.spin.cross(arm - pair.h / 2 * b.spin.cross(arm)));
 				};
-				const RelativeMotion<double> motion { velocity(pair.bodies[1], armB) - velocity(pair.bodies[0], armA),
+				const RelativeMotion<double> motion { velocity(pair.bodies[1], armB)
+					        - velocity(pair.bodies[0], armA),
 					(pair.bodies[0].spin + pair.bodies[1].spin) / 2 };
-				elasticStep<HertzLaw, ContactPoint, double>(pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
+				elasticStep<HertzLaw, ContactPoint, double>(
+				        pair.law, properties, pair.points[k], motion, pair.h, form, each[k]);
 				expectSame(each[k], pair.records[k]);
 			}
 		}
@@ -137,11 +147,12 @@ TEST(LanesOfAPair, StepsAreThoseOfEachPoint)
 					for (int row = 0; row < 3; ++row)
 						for (int part = 0; part < 3; ++part)
 							EXPECT_EQ(u.rows[row].part[part][c], v.rows[row].part[part][c]);
-					for (const auto quad :
-					        { &S::before, &S::velocity, &S::impulse, &S::factor, &S::bias, &S::mass, &S::column, &S::shearResponse })
+					for (const auto quad : { &S::before, &S::velocity, &S::impulse, &S::factor,
+					             &S::bias, &S::mass, &S::column, &S::shearResponse })
 						EXPECT_EQ((u.*quad)[c], (v.*quad)[c]) << seed;
 				}
-				for (const auto member : { &S::friction, &S::energy, &S::shearEnergy, &S::damping, &S::length })
+				for (const auto member :
+				        { &S::friction, &S::energy, &S::shearEnergy, &S::damping, &S::length })
 					EXPECT_EQ(u.*member, v.*member) << seed;
 			}
 		}
@@ -166,28 +177,36 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			const PointRecord& s = p.records[k];
 			const PointStep& c = s.step;
 			const Vec3 impulse = worldImpulse(c), f = impulse / p.h, &normal = c.axes[0],
-			           after = relativeVelocity<double>(
-			                   c.armA, c.armB, p.bodies[0].newVelocity, p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
+			           after = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].newVelocity,
+			                   p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
 			sum += impulse;
 			torqueA -= c.armA.cross(impulse);
 			torqueB += c.armB.cross(impulse);
 			EXPECT_LE(s.shearForce.norm(), properties.friction * f.dot(normal) * (1 + rounding) + rounding);
 			EXPECT_EQ(s.dashpotForce, Vec3(f - s.normalForce * normal - s.shearForce));
 			const Vec3 mean = (after
-			                          + relativeVelocity<double>(
-			                                  c.armA, c.armB, p.bodies[0].velocity, p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin))
+			                          + relativeVelocity<double>(c.armA, c.armB, p.bodies[0].velocity,
+			                                  p.bodies[0].spin, p.bodies[1].velocity, p.bodies[1].spin))
 			        / 2;
-			const double pn = impulse.dot(normal), way = -p.h / 2 * after.dot(normal), ks = properties.shearRatio * s.stiffness;
-			const double law = way > -s.overlap ? s.energy + p.law.energy(s.overlap + way) - p.law.energy(s.overlap) : 0;
+			const double pn = impulse.dot(normal), way = -p.h / 2 * after.dot(normal),
+			             ks = properties.shearRatio * s.stiffness;
+			const double law = way > -s.overlap
+			        ? s.energy + p.law.energy(s.overlap + way) - p.law.energy(s.overlap)
+			        : 0;
 			const double available = before[k].normalStored - pn * mean.dot(normal);
-			// A contact with an overlap of rounding size does not harden within a step: its spring has at most the law's energy.
+			// A contact with an overlap of rounding size does not harden within a step: its spring has at
+			// most the law's energy.
 			const bool isDefined = s.overlap > roundingOverlap;
 			if (!isDefined) {
-				EXPECT_LE(s.normalStored, std::min(available, law) + 1e-12 * (std::abs(available) + law)) << seed;
+				EXPECT_LE(
+				        s.normalStored, std::min(available, law) + 1e-12 * (std::abs(available) + law))
+				        << seed;
 			}
 			const double stored = isDefined ? std::min(available, law) : s.normalStored;
 			const bool slides = (impulse - pn * normal).norm() >= properties.friction * pn * (1 - 1e-9);
-			const Vec3 spring = slides ? s.shearForce : Vec3(s.shearForce - ks * p.h / 2 * (after - after.dot(normal) * normal));
+			const Vec3 spring = slides
+			        ? s.shearForce
+			        : Vec3(s.shearForce - ks * p.h / 2 * (after - after.dot(normal) * normal));
 			const double shearLaw = s.stiffness > 0 ? spring.squaredNorm() / (2 * ks) : 0,
 			             shearAvailable = before[k].shearStored - (impulse - pn * normal).dot(mean),
 			             shearStored = std::min(shearAvailable, shearLaw);
@@ -196,18 +215,22 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 			sums.elasticNormal += stored;
 			sums.elasticShear += shearStored;
 			// Small differences of large terms: relative to the terms.
-			const double normalTerms = before[k].normalStored + std::abs(pn * mean.dot(normal)) + s.energy + p.law.energy(s.overlap),
-			             shearTerms = before[k].shearStored + std::abs((impulse - pn * normal).dot(mean)) + shearLaw;
+			const double normalTerms = before[k].normalStored + std::abs(pn * mean.dot(normal)) + s.energy
+			        + p.law.energy(s.overlap),
+			             shearTerms
+			        = before[k].shearStored + std::abs((impulse - pn * normal).dot(mean)) + shearLaw;
 			EXPECT_NEAR(s.normalStored, stored, 1e-12 * normalTerms) << seed;
 			EXPECT_NEAR(s.shearStored, shearStored, 1e-12 * shearTerms) << seed;
 		}
 		EXPECT_EQ(force.onB, Vec3(sum / p.h));
 		EXPECT_EQ(force.torqueA, Vec3(torqueA / p.h));
 		EXPECT_EQ(force.torqueB, Vec3(torqueB / p.h));
-		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear, &PairEnergies::friction, &PairEnergies::elasticNormal,
-		             &PairEnergies::elasticShear })
+		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear,
+		             &PairEnergies::friction, &PairEnergies::elasticNormal, &PairEnergies::elasticShear })
 			EXPECT_NEAR(energies.*member, sums.*member,
-			        1e-11 * (1 + std::abs(energies.elasticNormal) + std::abs(energies.*member))); // other orders of some products
+			        1e-11
+			                * (1 + std::abs(energies.elasticNormal)
+			                        + std::abs(energies.*member))); // other orders of some products
 	}
 }
 
@@ -227,14 +250,19 @@ TEST(LanesOfAPair, ImpulsesActAsOneByOne)
 			for (const int body : { 0, 1 }) {
 				SolverBody& b = each[size_t(body)];
 				if (b.inverseMass == 0) continue;
-				const Vec3 impulse = body == 0 ? Vec3(-worldImpulse(c)) : worldImpulse(c), arm = body == 0 ? c.armA : c.armB;
+				const Vec3 impulse = body == 0 ? Vec3(-worldImpulse(c)) : worldImpulse(c),
+				           arm = body == 0 ? c.armA : c.armB;
 				b.newVelocity += b.inverseMass * impulse;
 				b.newSpin += b.inverseInertia * arm.cross(impulse);
 			}
 		}
 		for (const size_t body : { 0, 1 }) {
-			EXPECT_LT((p.bodies[body].newVelocity - each[body].newVelocity).norm(), rounding * (1 + each[body].newVelocity.norm())) << count;
-			EXPECT_LT((p.bodies[body].newSpin - each[body].newSpin).norm(), rounding * (1 + each[body].newSpin.norm())) << count;
+			EXPECT_LT((p.bodies[body].newVelocity - each[body].newVelocity).norm(),
+			        rounding * (1 + each[body].newVelocity.norm()))
+			        << count;
+			EXPECT_LT((p.bodies[body].newSpin - each[body].newSpin).norm(),
+			        rounding * (1 + each[body].newSpin.norm()))
+			        << count;
 		}
 	}
 }
@@ -256,19 +284,23 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 	Random random(3);
 	for (size_t count = 1; count <= 9; ++count)
 		for (const JointStiffness k : { JointStiffness { 58800, 58800 }, JointStiffness { 5e4, 2e4 } }) {
-			const Mat3 axesA = randomRotation(random).toRotationMatrix(), axesB = randomRotation(random).toRotationMatrix();
+			const Mat3 axesA = randomRotation(random).toRotationMatrix(),
+			           axesB = randomRotation(random).toRotationMatrix();
 			const Vec3 apart = randomVector(random, 1), normal = randomDirection(random);
-			std::vector<Vec3> anchorsA(count), anchorsB(count), stretches(count, Vec3::Ones()), forces(count, Vec3::Ones());
+			std::vector<Vec3> anchorsA(count), anchorsB(count), stretches(count, Vec3::Ones()),
+			        forces(count, Vec3::Ones());
 			std::vector<int> broken(count);
 			for (size_t i = 0; i < count; ++i) {
 				anchorsA[i] = randomVector(random, 1);
-				anchorsB[i] = axesB.transpose() * (axesA * anchorsA[i] - apart + randomVector(random, 0.1));
+				anchorsB[i]
+				        = axesB.transpose() * (axesA * anchorsA[i] - apart + randomVector(random, 0.1));
 				broken[i] = i % 3 == 1;
 			}
 			std::vector<SpringLanes> groups(groupsOf(count));
 			packSprings({ anchorsA, anchorsB, broken, stretches, forces }, groups.data());
 			JointForce total;
-			springForces(k, { axesA, axesB, apart }, normal, groups.data(), groups.data() + groups.size(), total);
+			springForces(k, { axesA, axesB, apart }, normal, groups.data(), groups.data() + groups.size(),
+			        total);
 			unpackSprings(groups.data(), stretches, forces);
 			JointForce wanted;
 			for (size_t i = 0; i < count; ++i) {
@@ -307,8 +339,9 @@ TEST(LanesOfBodies, FreeRotationIsThatOfEachBody)
 		}
 		const double h = 1e-3;
 		QuatOf<Lanes> turned(Group<Lanes, const Eigen::Vector4d>(orientations.data(), laneCount).vectors());
-		const Vec3s spin = freeRotation<Lanes>(turned, Group<Lanes, const Vec3>(momenta.data(), laneCount).vectors(),
-		        Group<Lanes, const Vec3>(inertias.data(), laneCount).vectors(), h);
+		const Vec3s spin
+		        = freeRotation<Lanes>(turned, Group<Lanes, const Vec3>(momenta.data(), laneCount).vectors(),
+		                Group<Lanes, const Vec3>(inertias.data(), laneCount).vectors(), h);
 		for (int i = 0; i < laneCount; ++i) {
 			Quat one(orientations[i]);
 			EXPECT_EQ(lane(spin, i), freeRotation<double>(one, momenta[i], inertias[i], h)) << trial;
@@ -323,7 +356,8 @@ TEST(LanesOfBodies, FreeRotationIsThatOfEachBody)
 TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 {
 	Random random(4);
-	const Polyhedron wedge = Polyhedron::fromVertices({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0.1, 0 }, { 0, 0, 0.3 }, { 1, 0, 0.3 }, { 1, 0.1, 0.3 } });
+	const Polyhedron wedge = Polyhedron::fromVertices(
+	        { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0.1, 0 }, { 0, 0, 0.3 }, { 1, 0, 0.3 }, { 1, 0.1, 0.3 } });
 	for (int trial = 0; trial < 2000; ++trial) {
 		std::vector<Vec3> points(laneCount);
 		for (Vec3& x : points)

@@ -69,14 +69,17 @@ TEST(SlipLaw, BackboneOfFirstLoading)
 namespace {
 
 /// Points of a wall test: hardening, two peaks, a gentler start than the second line, no force at the end. [m, N]
-const std::vector<BackbonePoint> points { { 0.002, 1000 }, { 0.005, 3700 }, { 0.012, 5000 }, { 0.016, 4200 }, { 0.02, 4600 }, { 0.03, 1500 }, { 0.04, 0 } };
+const std::vector<BackbonePoint> points { { 0.002, 1000 }, { 0.005, 3700 }, { 0.012, 5000 }, { 0.016, 4200 },
+	{ 0.02, 4600 }, { 0.03, 1500 }, { 0.04, 0 } };
 constexpr double steepest = 9e5; ///< of the second line [N/m]
 
 double interpolated(double r)
 {
 	BackbonePoint last { 0, 0 };
 	for (const BackbonePoint& point : points) {
-		if (r <= point.stretch) return last.force + (point.force - last.force) * (r - last.stretch) / (point.stretch - last.stretch);
+		if (r <= point.stretch)
+			return last.force
+			        + (point.force - last.force) * (r - last.stretch) / (point.stretch - last.stretch);
 		last = point;
 	}
 	return 0;
@@ -105,7 +108,8 @@ TEST(SlipLaw, BackboneThroughPoints)
 			for (int i = 1; i <= 80; ++i) {
 				const double r = 0.0005 * i;
 				spring.lead(r * direction, steps);
-				EXPECT_LT((spring.force - interpolated(r) * direction).norm(), rounding * F) << phi << " " << r;
+				EXPECT_LT((spring.force - interpolated(r) * direction).norm(), rounding * F)
+				        << phi << " " << r;
 			}
 			EXPECT_NEAR(spring.energy, 0, rounding * area);
 			EXPECT_NEAR(spring.dissipated, area, rounding * area) << phi << " " << steps;
@@ -124,7 +128,8 @@ TEST(SlipLaw, AreaOfASteadyLoopOfPoints)
 			spring.lead(a * direction, 50);
 			EXPECT_LT((spring.force - force * direction).norm(), rounding * F);
 			spring.lead(-a * direction, 50);
-			EXPECT_NEAR(spring.dissipated - dissipated, 4 * phi * force * (a - force / steepest), rounding * F * a * 100);
+			EXPECT_NEAR(spring.dissipated - dissipated, 4 * phi * force * (a - force / steepest),
+			        rounding * F * a * 100);
 		}
 }
 
@@ -135,11 +140,13 @@ TEST(SlipLaw, PointsThatAreNoBackbone)
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 0 } }), "of two or more points");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.01, 0 } }), "of ascending stretches > 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 5 } }), "of forces > 0, the last one 0");
-	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 0 }, { 0.03, 0 } }), "of forces > 0, the last one 0");
+	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 0 }, { 0.03, 0 } }),
+	        "of forces > 0, the last one 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, std::nan("") }, { 0.02, 0 } }), "finite");
 }
 
-/// A steady cycle of amplitude a encloses the parallelogram of the friction part, 4 phi F g (a - F g / k), and nothing else.
+/// A steady cycle of amplitude a encloses the parallelogram of the friction part, 4 phi F g (a - F g / k), and nothing
+/// else.
 TEST(SlipLaw, AreaOfASteadyLoop)
 {
 	for (const double phi : shares)
@@ -147,12 +154,15 @@ TEST(SlipLaw, AreaOfASteadyLoop)
 			Spring spring { lawOf(phi) };
 			spring.lead(a * direction, 4);
 			spring.lead(-a * direction, 4); // steady from here on
-			const double work = spring.work, dissipated = spring.dissipated, limit = backbone(std::max(a, y)) / k;
+			const double work = spring.work, dissipated = spring.dissipated,
+			             limit = backbone(std::max(a, y)) / k;
 			const double area = 4 * phi * k * limit * std::max(0., a - limit);
 			spring.lead(a * direction, 10000);
 			spring.lead(-a * direction, 10000);
-			EXPECT_NEAR(spring.dissipated - dissipated, area, F * 1e-13); // 2e4 plastic flows, each rounded to 5e-18 m
-			EXPECT_NEAR(spring.work - work, area, 10 * k * std::pow(2 * a / 10000, 2) / 8); // k step^2 / 8 for each of at most 10 kinks
+			EXPECT_NEAR(spring.dissipated - dissipated, area,
+			        F * 1e-13); // 2e4 plastic flows, each rounded to 5e-18 m
+			EXPECT_NEAR(spring.work - work, area,
+			        10 * k * std::pow(2 * a / 10000, 2) / 8); // k step^2 / 8 for each of at most 10 kinks
 		}
 }
 
@@ -167,7 +177,8 @@ TEST(SlipLaw, PinchingPath)
 		for (const double r : { 0.019, 0.0175, 0.01, 0., 0.01, 0.0175, 0.019, 0.02 }) {
 			const Vec3 way = randomDirection(random);
 			spring.move(r * way);
-			const Vec3 friction = phi * k * (spring.stretch - spring.history.plastic), slip = spring.force - friction;
+			const Vec3 friction = phi * k * (spring.stretch - spring.history.plastic),
+			           slip = spring.force - friction;
 			EXPECT_LT((slip - (1 - phi) * k * std::max(0., r - slack) * way).norm(), rounding * F) << r;
 		}
 	}
@@ -197,11 +208,13 @@ TEST(SlipLaw, EnergyToFailure)
 			EXPECT_NEAR(spring.energy, 0, rounding * area);
 			EXPECT_NEAR(spring.dissipated, area, rounding * area) << phi << " " << steps;
 			if (steps < 1000) continue;
-			EXPECT_NEAR(spring.work, area, 2 * k * std::pow(du / steps, 2) / 8); // k step^2 / 8 for each of two kinks
+			EXPECT_NEAR(spring.work, area,
+			        2 * k * std::pow(du / steps, 2) / 8); // k step^2 / 8 for each of two kinks
 		}
 }
 
-/// Cycles of increasing amplitude to failure: the area below the backbone, and the friction part's loops, with closed forms for both.
+/// Cycles of increasing amplitude to failure: the area below the backbone, and the friction part's loops, with closed
+/// forms for both.
 TEST(SlipLaw, EnergyOfGrowingCycles)
 {
 	const double phi = 0.4;
@@ -209,8 +222,10 @@ TEST(SlipLaw, EnergyOfGrowingCycles)
 	const double first = 0.008, second = 0.011; // on the plateau
 	for (const double a : { first, -first, second, -second })
 		spring.move(a * direction);
-	// slip part: F (R - y); friction part: phi F per plastic stretch, which is the path less 2 y for each reversal and y at the start
-	const double slip = (1 - phi) * F * (second - y), path = first - y + 2 * (first - y) + (first + second - 2 * y) + 2 * (second - y);
+	// slip part: F (R - y); friction part: phi F per plastic stretch, which is the path less 2 y for each reversal
+	// and y at the start
+	const double slip = (1 - phi) * F * (second - y),
+	             path = first - y + 2 * (first - y) + (first + second - 2 * y) + 2 * (second - y);
 	EXPECT_NEAR(spring.dissipated, slip + phi * F * path, rounding * F * path);
 	EXPECT_NEAR(spring.energy, F * F / (2 * k), rounding * F * y);
 }
@@ -227,14 +242,15 @@ TEST(SlipLaw, LongStepsAreShortStepsOnRadialPaths)
 			EXPECT_LT((once.history.plastic - often.history.plastic).norm(), rounding * du) << a;
 			EXPECT_NEAR(once.history.largest, often.history.largest, rounding * du);
 			EXPECT_NEAR(once.energy, often.energy, rounding * F * du) << a;
-			if (a == 0.02 || a == 0.011) continue; // see the head of slip_law.hpp: tested in EnergyOfALongStep
+			if (a == 0.02 || a == 0.011)
+				continue; // see the head of slip_law.hpp: tested in EnergyOfALongStep
 			EXPECT_NEAR(once.dissipated, often.dissipated, rounding * F * du) << phi << " " << a;
 		}
 	}
 }
 
-/// Circles of radius a: plastic stretch and stretch have a right-angled triangle with the elastic limit. The friction part dissipates
-/// 2 pi phi F sqrt(a^2 - y^2) in a turn, the slip part nothing.
+/// Circles of radius a: plastic stretch and stretch have a right-angled triangle with the elastic limit. The friction
+/// part dissipates 2 pi phi F sqrt(a^2 - y^2) in a turn, the slip part nothing.
 TEST(SlipLaw, EnergyOfACircle)
 {
 	const double a = 0.011, phi = 0.3;
@@ -270,7 +286,8 @@ struct Path {
 		Vec3 x = Vec3::Zero();
 		for (int n = 0; n < 3; ++n)
 			for (int c = 0; c < 3; ++c)
-				x[c] += amplitude[n][c] * (std::sin((n + 2) * 2 * M_PI * time + phase[n][c]) - std::sin(phase[n][c]));
+				x[c] += amplitude[n][c]
+				        * (std::sin((n + 2) * 2 * M_PI * time + phase[n][c]) - std::sin(phase[n][c]));
 		return x;
 	}
 };
@@ -302,8 +319,10 @@ TEST(SlipLaw, EnergyBalanceOnRandomPaths)
 	double coarse = 0, fine = 0;
 	for (int trial = 0; trial < 60; ++trial) {
 		const Path path(random, uniform(random, 0.002, 0.015));
-		const double phi = shares[trial % 3], one = imbalance(path, phi, steps), other = imbalance(path, phi, finer * steps);
-		// the work of a step with a kink is off by k step^2 / 8; 8 reversals of each component give some 30 kinks
+		const double phi = shares[trial % 3], one = imbalance(path, phi, steps),
+		             other = imbalance(path, phi, finer * steps);
+		// the work of a step with a kink is off by k step^2 / 8; 8 reversals of each component give some 30
+		// kinks
 		EXPECT_LT(std::abs(one), 30 * k * std::pow(longestStep(path, steps), 2) / 8) << trial;
 		coarse += one * one;
 		fine += other * other;
@@ -317,13 +336,16 @@ TEST(SlipLaw, ForceIsTheGradientOfTheStoredEnergyAtConstantHistory)
 	for (int trial = 0; trial < 200; ++trial) {
 		const SlipLaw law = lawOf(uniform(random, 0, 1));
 		const SlipHistory history { randomVector(random, 0.004), 0.011 };
-		const Vec3 at = history.plastic + randomVector(random, 0.8 * y / std::sqrt(3.)); // within the elastic limit and R
+		const Vec3 at = history.plastic
+		        + randomVector(random, 0.8 * y / std::sqrt(3.)); // within the elastic limit and R
 		if (at.norm() > 0.99 * history.largest) continue;
 		for (int axis = 0; axis < 3; ++axis) {
 			const Vec3 h = 1e-7 * Vec3::Unit(axis);
-			const SlipForce ahead = slipForce(law, history, at + h), back = slipForce(law, history, at - h), here = slipForce(law, history, at);
+			const SlipForce ahead = slipForce(law, history, at + h), back = slipForce(law, history, at - h),
+			                here = slipForce(law, history, at);
 			EXPECT_EQ(here.dissipated, 0);
-			EXPECT_NEAR(here.force[axis], (ahead.energy - back.energy) / 2e-7, 1e-3); // curvature of the kink at r = s: k h / 4 at most
+			EXPECT_NEAR(here.force[axis], (ahead.energy - back.energy) / 2e-7,
+			        1e-3); // curvature of the kink at r = s: k h / 4 at most
 		}
 	}
 }
@@ -338,7 +360,8 @@ TEST(SlipLaw, TurnsWithTheScene)
 		for (int i = 1; i <= 200; ++i) {
 			here.move(path.at(i / 200.));
 			there.move(rotation * path.at(i / 200.));
-			EXPECT_LT((rotation * here.force - there.force).norm(), 1e-9 * F); // rounding at r = s: the direction of e amplifies it
+			EXPECT_LT((rotation * here.force - there.force).norm(),
+			        1e-9 * F); // rounding at r = s: the direction of e amplifies it
 		}
 		EXPECT_NEAR(here.dissipated, there.dissipated, 1e-9 * F * du);
 	}
@@ -361,8 +384,8 @@ namespace {
 /// Two springs between A at the origin and B.
 struct Joint {
 	SlipLaw law = lawOf(0.3);
-	std::vector<Vec3> anchorsA { { 0.1, 0, 0 }, { -0.1, 0, 0 } }, anchorsB { { 0.1, 0, 0 }, { -0.1, 0, 0 } }, stretches { 2 }, forces { 2 },
-	        plastic { 2, Vec3(Vec3::Zero()) };
+	std::vector<Vec3> anchorsA { { 0.1, 0, 0 }, { -0.1, 0, 0 } }, anchorsB { { 0.1, 0, 0 }, { -0.1, 0, 0 } },
+	        stretches { 2 }, forces { 2 }, plastic { 2, Vec3(Vec3::Zero()) };
 	std::vector<int> broken { 0, 0 };
 	std::vector<double> largest { 0, 0 };
 	Mat3 axesA = Mat3::Identity(), axesB = Mat3::Identity();
@@ -370,8 +393,14 @@ struct Joint {
 
 	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
 	SlipHistories histories() { return { plastic, largest }; }
-	JointForce place(const Vec3& distance) { return slipForces(law, { axesA, axesB, distance }, axis, springs(), histories()); }
-	std::vector<SpringBreak> breaks() { return slipBreaks(law, { axesA, axesB, Vec3::Zero() }, Vec3::UnitZ(), springs(), histories()); }
+	JointForce place(const Vec3& distance)
+	{
+		return slipForces(law, { axesA, axesB, distance }, axis, springs(), histories());
+	}
+	std::vector<SpringBreak> breaks()
+	{
+		return slipBreaks(law, { axesA, axesB, Vec3::Zero() }, Vec3::UnitZ(), springs(), histories());
+	}
 };
 
 } // namespace
@@ -454,13 +483,17 @@ TEST(SlipJoint, EnergyOfSpringsAlongAnAxis)
 	for (int k = 1; k <= steps; ++k) {
 		const double t = 2. * k / steps, before = 2. * (k - 1) / steps;
 		const JointForce now = place(t);
-		const Vec3 move(0.004 * (std::sin(3 * t) - std::sin(3 * before)), 0.02 * (t - before), 0.009 * (std::sin(t) - std::sin(before)));
+		const Vec3 move(0.004 * (std::sin(3 * t) - std::sin(3 * before)), 0.02 * (t - before),
+		        0.009 * (std::sin(t) - std::sin(before)));
 		const Vec3 spinA(0, 0.03 * (std::sin(2 * t) - std::sin(2 * before)), 0),
 		        spinB = 0.05 * (std::sin(t) - std::sin(before)) * Vec3(1, 2, 0).normalized();
-		work += ((last.force + now.force).dot(move) - (last.torqueA + now.torqueA).dot(spinA) - (last.torqueB + now.torqueB).dot(spinB)) / 2;
+		work += ((last.force + now.force).dot(move) - (last.torqueA + now.torqueA).dot(spinA)
+		                - (last.torqueB + now.torqueB).dot(spinB))
+		        / 2;
 		dissipated += now.dissipated;
 		last = now;
 	}
 	EXPECT_GT(dissipated, F * y);
-	EXPECT_NEAR(work, last.energy + dissipated, 1e-4 * dissipated); // the sum over steps and the radial return: 1e-4 / 2 at 10 000 steps
+	EXPECT_NEAR(work, last.energy + dissipated,
+	        1e-4 * dissipated); // the sum over steps and the radial return: 1e-4 / 2 at 10 000 steps
 }

@@ -87,7 +87,8 @@ TEST(ThreadChoice, LossIsBoundedWhenThreadsHurt)
 	EXPECT_GT(outcome.shareOfAll, 0);
 }
 
-/// Trials with one thread take 2 % of the time, and the choice needs one trial; a step takes half as long with two threads.
+/// Trials with one thread take 2 % of the time, and the choice needs one trial; a step takes half as long with two
+/// threads.
 TEST(ThreadChoice, AllThreadsWhenTheyPay)
 {
 	ThreadChoice choice;

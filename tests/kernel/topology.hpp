@@ -6,8 +6,8 @@
 
 namespace timber::shapes {
 
-/// Closed surface, consistent orientation: Euler's formula, unit normals, all vertices inside all planes; `share`: tolerance of
-/// planar faces as a fraction of the size (planarShare).
+/// Closed surface, consistent orientation: Euler's formula, unit normals, all vertices inside all planes; `share`:
+/// tolerance of planar faces as a fraction of the size (planarShare).
 inline void expectSound(const Polyhedron& body, double share = 1e-6)
 {
 	EXPECT_EQ(int(body.vertices.size()) - int(body.edges.size()) + int(body.faces.size()), 2);

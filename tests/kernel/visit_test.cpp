@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The rule of one visit: its monotony, on which the convergence of the sweeps rests (contact_solver.hpp), and its limits.
+/// The rule of one visit: its monotony, on which the convergence of the sweeps rests (contact_solver.hpp), and its
+/// limits.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
 #include <kernel/contact_visit.hpp>
@@ -9,18 +10,25 @@ using namespace timber::shapes;
 
 namespace {
 
-double logUniform(Random& random, double low, double high) { return std::exp(uniform(random, std::log(low), std::log(high))); }
+double logUniform(Random& random, double low, double high)
+{
+	return std::exp(uniform(random, std::log(low), std::log(high)));
+}
 bool oneOf(Random& random, int n) { return uniform(random, 0, n) < 1; }
 
-/// A point of any law, light and heavy, loaded and loose, hardening, in an impact or not. The response is that of a point alone.
+/// A point of any law, light and heavy, loaded and loose, hardening, in an impact or not. The response is that of a
+/// point alone.
 PointStep randomPoint(Random& random)
 {
 	PointStep c {};
-	const double a = 1 / logUniform(random, 1e-3, 1e4), h = logUniform(random, 1e-6, 1e-3), n = logUniform(random, 1e-9, 1e-2);
+	const double a = 1 / logUniform(random, 1e-3, 1e4), h = logUniform(random, 1e-6, 1e-3),
+	             n = logUniform(random, 1e-9, 1e-2);
 	c.power = oneOf(random, 3) ? 1 : oneOf(random, 2) ? 1.5 : 2;
-	const double K = logUniform(random, 1e-4, 1e6) / (a * h * h), F = K * n / c.power, C = uniform(random, 0, 2) * std::sqrt(K / a);
+	const double K = logUniform(random, 1e-4, 1e6) / (a * h * h), F = K * n / c.power,
+	             C = uniform(random, 0, 2) * std::sqrt(K / a);
 	const double x = a * h * C, theta = 0.5 + x / (12 + 2 * x), y = a * h * h * K, beta = y / (4 * y + 2);
-	const double D = theta * h * C + beta * h * h * K, Q = beta * h * h * K - (1 - theta) * h * C, speed = logUniform(random, 1e-6, 30);
+	const double D = theta * h * C + beta * h * h * K, Q = beta * h * h * K - (1 - theta) * h * C,
+	             speed = logUniform(random, 1e-6, 30);
 	c.column = PointStep::Quad { a, 0, 0, 0 };
 	c.before[0] = uniform(random, -1, 1) * speed;
 	c.velocity[0] = c.before[0] + uniform(random, -1, 1) * speed;
@@ -28,7 +36,9 @@ PointStep randomPoint(Random& random)
 	c.factor[0] = a * c.mass[0];
 	c.bias[0] = (h * F + Q * c.before[0]) / (1 + a * D);
 	c.friction = uniform(random, 0, 1);
-	c.energy = oneOf(random, 3) ? 0 : oneOf(random, 3) ? std::numeric_limits<double>::infinity() : logUniform(random, 1e-6, 10) * F * n;
+	c.energy = oneOf(random, 3) ? 0
+	        : oneOf(random, 3)  ? std::numeric_limits<double>::infinity()
+	                            : logUniform(random, 1e-6, 10) * F * n;
 	c.rebound = oneOf(random, 2) ? noRebound : uniform(random, 0, 1) * std::abs(c.before[0]);
 	c.hardening = c.power > 1 ? F : 0;
 	c.overlap = n;
@@ -48,8 +58,8 @@ double impulseAt(PointStep c, double base, double p0)
 
 } // namespace
 
-/// Never rises with b, and falls by at most the change of b over a: without jumps. Newton's method of the hardening ends within
-/// hardeningTolerance of its root.
+/// Never rises with b, and falls by at most the change of b over a: without jumps. Newton's method of the hardening
+/// ends within hardeningTolerance of its root.
 TEST(Visit, ImpulseFallsContinuouslyWithTheVelocity)
 {
 	Random random(3);
@@ -58,7 +68,8 @@ TEST(Visit, ImpulseFallsContinuouslyWithTheVelocity)
 		const double a = c.response(), scale = std::abs(c.before[0]) + std::abs(c.velocity[0]) + a * c.bias[0];
 		double base = -3 * scale, p = impulseAt(c, base, 0);
 		for (int k = 0; k < 40; ++k) {
-			const double next = base + scale * (oneOf(random, 2) ? uniform(random, 0, 0.3) : logUniform(random, 1e-9, 1e-2));
+			const double next = base
+			        + scale * (oneOf(random, 2) ? uniform(random, 0, 0.3) : logUniform(random, 1e-9, 1e-2));
 			const double now = impulseAt(c, next, 0), error = 1e-5 * (p + std::abs(base) / a);
 			ASSERT_LE(now, p + error) << trial << " power " << c.power;
 			ASSERT_GE(now, p - (next - base) / a - error) << trial << " power " << c.power;
@@ -68,7 +79,8 @@ TEST(Visit, ImpulseFallsContinuouslyWithTheVelocity)
 	}
 }
 
-/// The force of the law at the end of the step minus its linear extrapolation, for a law that is no power: F = k n (1 + n/d).
+/// The force of the law at the end of the step minus its linear extrapolation, for a law that is no power: F = k n (1 +
+/// n/d).
 TEST(Visit, HardensAsTheLaw)
 {
 	const double k = 1e6, depth = 0.01;
@@ -79,20 +91,24 @@ TEST(Visit, HardensAsTheLaw)
 			const double stiffness = k * (1 + 2 * n / depth);
 			c.power = 2;
 			c.overlap = n;
-			c.hardening = (stiffness * n - force(n)) / (c.power - 1); // as contact_pair.cpp takes it from force and stiffness
+			c.hardening = (stiffness * n - force(n))
+			        / (c.power - 1); // as contact_pair.cpp takes it from force and stiffness
 			const Hardening spring(c, d, 0);
 			EXPECT_NEAR(spring.force, force(n + d) - force(n) - stiffness * d, 1e-9 * force(n + d));
-			EXPECT_NEAR(spring.slope, k * (1 + 2 * (n + d) / depth) - stiffness, 1e-9 * stiffness * (1 + d / n));
+			EXPECT_NEAR(spring.slope, k * (1 + 2 * (n + d) / depth) - stiffness,
+			        1e-9 * stiffness * (1 + d / n));
 		}
 }
 
-/// What a visit gives depends on the velocity without the impulse, not on the impulse before: a second visit changes nothing.
+/// What a visit gives depends on the velocity without the impulse, not on the impulse before: a second visit changes
+/// nothing.
 TEST(Visit, IsExactInOneCoordinate)
 {
 	Random random(4);
 	for (int trial = 0; trial < 20000; ++trial) {
 		const PointStep c = randomPoint(random);
-		const double a = c.response(), base = uniform(random, -2, 2) * std::abs(c.before[0]), p = impulseAt(c, base, 0);
+		const double a = c.response(), base = uniform(random, -2, 2) * std::abs(c.before[0]),
+		             p = impulseAt(c, base, 0);
 		EXPECT_NEAR(impulseAt(c, base, p), p, 1e-5 * (p + std::abs(base) / a)) << trial;
 	}
 }
@@ -102,10 +118,12 @@ TEST(Visit, RespectsItsLimits)
 	Random random(5);
 	for (int trial = 0; trial < 20000; ++trial) {
 		const PointStep c = randomPoint(random);
-		const double a = c.response(), base = uniform(random, -2, 2) * std::abs(c.before[0]), p = impulseAt(c, base, 0), after = base + a * p;
+		const double a = c.response(), base = uniform(random, -2, 2) * std::abs(c.before[0]),
+		             p = impulseAt(c, base, 0), after = base + a * p;
 		EXPECT_GE(p, 0);
 		if (c.energy < 1e300) { // (5)
-			EXPECT_LE(p * (c.before[0] + after) / 2, c.energy * (1 + 1e-9) + 1e-9 * p * std::abs(base)) << trial;
+			EXPECT_LE(p * (c.before[0] + after) / 2, c.energy * (1 + 1e-9) + 1e-9 * p * std::abs(base))
+			        << trial;
 		}
 		const double bound = c.rebound + reboundSoftness * std::max(0., c.rebound - c.velocity[0] - a * p);
 		if (p > 0 && c.rebound < noRebound) { // (6)
@@ -120,18 +138,23 @@ TEST(Visit, TangentialImpulseReturnsAtMostItsAccount)
 	Random random(6);
 	for (int trial = 0; trial < 20000; ++trial) {
 		PointStep c = randomPoint(random);
-		const double a = logUniform(random, 1e-3, 1e3), b = logUniform(random, 1e-3, 1e3), coupling = uniform(random, -0.99, 0.99) * std::sqrt(a * b);
+		const double a = logUniform(random, 1e-3, 1e3), b = logUniform(random, 1e-3, 1e3),
+		             coupling = uniform(random, -0.99, 0.99) * std::sqrt(a * b);
 		c.shearResponse = PointStep::Quad { a, coupling, b, 0 };
 		c.before = PointStep::Quad { 0, uniform(random, -1, 1), uniform(random, -1, 1), 0 };
 		c.shearEnergy = oneOf(random, 3) ? 0 : logUniform(random, 1e-6, 1);
-		const PointStep::Quad old { 1, uniform(random, -1, 1), uniform(random, -1, 1), 0 }, u { 0, uniform(random, -1, 1), uniform(random, -1, 1), 0 };
+		const PointStep::Quad old { 1, uniform(random, -1, 1), uniform(random, -1, 1), 0 },
+		        u { 0, uniform(random, -1, 1), uniform(random, -1, 1), 0 };
 		PointStep::Quad p { uniform(random, 0, 1), uniform(random, -1, 1), uniform(random, -1, 1), 0 };
 		const PointStep::Quad wanted = p;
 		limitShear(c, p, old, u);
-		const double x = p[1] - old[1], y = p[2] - old[2], after1 = u[1] + a * x + coupling * y, after2 = u[2] + coupling * x + b * y;
+		const double x = p[1] - old[1], y = p[2] - old[2], after1 = u[1] + a * x + coupling * y,
+		             after2 = u[2] + coupling * x + b * y;
 		const double size = std::hypot(p[1], p[2]);
 		EXPECT_LE(size, c.friction * p[0] * (1 + 1e-12)) << trial;
-		EXPECT_LE((p[1] * (c.before[1] + after1) + p[2] * (c.before[2] + after2)) / 2, c.shearEnergy + 1e-9 * size * (1 + a + b)) << trial;
+		EXPECT_LE((p[1] * (c.before[1] + after1) + p[2] * (c.before[2] + after2)) / 2,
+		        c.shearEnergy + 1e-9 * size * (1 + a + b))
+		        << trial;
 		EXPECT_NEAR(p[1] * wanted[2], p[2] * wanted[1], 1e-12); // shortened, not turned
 		EXPECT_EQ(p[0], wanted[0]);
 	}

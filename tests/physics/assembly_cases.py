@@ -41,7 +41,8 @@ def load_on_fixed():
     return -total[2]
 
 
-# --- a stack -----------------------------------------------------------------------------------------------------------
+# --- a stack
+# -----------------------------------------------------------------------------------------------------------
 def build_stack(blocks, widths=(0.35, 0.30)):
     """A stack of blocks of 10 cm on a fixed plate, alternately of two widths [m]."""
     O.reset()
@@ -55,15 +56,17 @@ def build_stack(blocks, widths=(0.35, 0.30)):
 
 @case
 def stack_at_rest(duration=10.0, blocks=20):
-    """A stack settles in the first two seconds; then it does not move, and the force on the plate is its weight to rounding."""
+    """A stack settles in the first two seconds; then it does not move, and the force on the plate is its weight to
+    rounding.
+    """
     build_stack(blocks)
     advance(2)
     settled = positions()
     advance(duration - 2)
     note = f"stack of {blocks}, {duration:g} s"
-    # Weight: remaining oscillation, 4e-12 after 10 s, and rounding, 3e-14 after 60 s. Creep: remainder of the settlement, 2e-8 m,
-    # constant until 60 s. Energy: remaining oscillation, 3e-17 J (velocities of 1e-9 m/s), 3e-23 J after 20 s. Sweeps in one direction
-    # only would increase the creep tenfold.
+    # Weight: remaining oscillation, 4e-12 after 10 s, and rounding, 3e-14 after 60 s. Creep: remainder of the
+    # settlement, 2e-8 m, constant until 60 s. Energy: remaining oscillation, 3e-17 J (velocities of 1e-9 m/s), 3e-23 J
+    # after 20 s. Sweeps in one direction only would increase the creep tenfold.
     return [
         Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
         Row("6", "stack: creep after 2 s [m]", 0, abs(positions() - settled).max(), bound=1e-7, dt=DT, note=note),
@@ -71,7 +74,8 @@ def stack_at_rest(duration=10.0, blocks=20):
     ]
 
 
-# --- arch and wedge ----------------------------------------------------------------------------------------------------
+# --- arch and wedge
+# ----------------------------------------------------------------------------------------------------
 TAPER = np.radians(15)
 """Inclination of the wedge faces of arch and wedge from the vertical. [rad]"""
 
@@ -89,8 +93,9 @@ def arch_parts():
 def critical_friction(parts):
     """Friction coefficient below which the arch opens.
 
-    When it opens, all faces slide. The force on a wedge face is inclined by TAPER + phi from the horizontal: the thrust on each
-    block is W/2 cot(TAPER + phi), W the weight of the wedge. The friction under a block of weight Wa is tan(phi) (Wa + W/2).
+    When it opens, all faces slide. The force on a wedge face is inclined by TAPER + phi from the horizontal: the thrust
+    on each block is W/2 cot(TAPER + phi), W the weight of the wedge. The friction under a block of weight Wa is
+    tan(phi) (Wa + W/2).
     """
     frame = Frame(parts, [], [("plate", "left")])
     wedge, block = frame.mass[3], frame.mass[1]
@@ -99,7 +104,9 @@ def critical_friction(parts):
 
 
 def run_parts(parts, friction, duration):
-    """Run a scene of prisms; returns the displacements (n, 3) and the largest displacement in the second half of the time. [m]"""
+    """Run a scene of prisms; returns the displacements (n, 3) and the largest displacement in the second half of the
+    time. [m]
+    """
     O.reset()
     append_parts(parts, Timber(friction=friction))
     O.engines = yt.engines()
@@ -117,8 +124,8 @@ def arch_opens_at_the_limit():
     parts = arch_parts()
     limit = critical_friction(parts)
     rows = []
-    # The elastic displacement of the faces before friction is mobilised (0.1 mm of 300 mm) is far below the margin of 5 %; the arch
-    # stands at 2 % above the limit, too. The creep of a standing arch is rounding.
+    # The elastic displacement of the faces before friction is mobilised (0.1 mm of 300 mm) is far below the margin of 5
+    # %; the arch stands at 2 % above the limit, too. The creep of a standing arch is rounding.
     for share, stands in ((0.95, False), (1.05, True), (3.0, True)):
         moved, creep = run_parts(parts, share * limit, 2.0)
         rows.append(Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands), float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
@@ -128,7 +135,9 @@ def arch_opens_at_the_limit():
 
 
 def wedge_parts(layers=8, inner=0.15, outer=0.25, height=0.1):
-    """Layers of four blocks between two fixed slopes, open below: two inner boxes and two outer blocks with a sloping face."""
+    """Layers of four blocks between two fixed slopes, open below: two inner boxes and two outer blocks with a sloping
+    face.
+    """
     half = lambda z: inner + outer + (z - layers * height / 2) * np.tan(TAPER)  # noqa: E731
     low, high = -0.3, layers * height + 0.3
     slope = np.array([[half(low), low], [half(low) + 0.3, low], [half(high) + 0.3, high], [half(high), high]])
@@ -157,7 +166,8 @@ def wedge_of_32():
     ]
 
 
-# --- one-bay frames ----------------------------------------------------------------------------------------------------
+# --- one-bay frames
+# ----------------------------------------------------------------------------------------------------
 SPAN, HEIGHT, COLUMN = 1.82, 2.4, 0.105
 """Distance of the column axes; height and side of the columns. [m]"""
 CORNER_FITTING, BRACING_PLATE = 58800.0, 69580.0
@@ -172,7 +182,8 @@ def brace_corners(start, end, depth):
 
 
 def one_bay_frame(braced):
-    """Two columns and a beam on a fixed plate; the brace is supported by its joints alone, so that the frame is linear."""
+    """Two columns and a beam on a fixed plate; the brace is supported by its joints alone, so that the frame is linear.
+    """
     half = COLUMN / 2
     parts = [
         Part("plate", rectangle(-0.5, -0.2, SPAN + 0.5, 0), 0.4, True),
@@ -214,8 +225,8 @@ def lateral_stiffness(frame, model, name, push=1.0, steps=50):
     x = 3 * list(model.bodies).index(BEAM)
     load = np.zeros(len(model.rest))
     load[x] = push
-    # The rotation of the feet is 8 % of that at uplift, and Hertz's law is not linear: 0.08^2 / 9 = 7e-4; observed 7e-5 with a third of
-    # the force. Remaining oscillation of the brace in its undamped joints: 1e-8 m in 1e-5 m.
+    # The rotation of the feet is 8 % of that at uplift, and Hertz's law is not linear: 0.08^2 / 9 = 7e-4; observed 7e-5
+    # with a third of the force. Remaining oscillation of the brace in its undamped joints: 1e-8 m in 1e-5 m.
     return Row("6", f"{name} frame: lateral stiffness [N/m]", push / model.deflection(load)[x], got, bound=2e-3, dt=DT)
 
 
@@ -230,7 +241,8 @@ def lowest_frequency(frame, model, name, cycles):
     start_in_mode(model.bodies, 1e-5 * 2 * np.pi * frequencies[0] * shape)
     vibration = recorded(cycles / frequencies[0], every, beam_at) - rest
     got = vibration_frequency(every * np.arange(len(vibration)), vibration)
-    # The amplitude is 10 um of 300 um at uplift; the error of the linear Hertz stiffness grows with its square. Observed: 5e-5.
+    # The amplitude is 10 um of 300 um at uplift; the error of the linear Hertz stiffness grows with its square.
+    # Observed: 5e-5.
     return Row("6", f"{name} frame: lowest frequency [Hz]", frequencies[0], got, bound=1e-3, dt=DT)
 
 
@@ -252,7 +264,8 @@ def frames():
     return rows
 
 
-# --- the house ---------------------------------------------------------------------------------------------------------
+# --- the house
+# ---------------------------------------------------------------------------------------------------------
 @case
 def house_weight(settle=0.5, average=0.2):
     """House C2 with 1 m of snow: the force on the fixed foundation is its weight."""
@@ -262,5 +275,6 @@ def house_weight(settle=0.5, average=0.2):
     for _ in range(10):
         advance(average / 10)
         forces.append(load_on_fixed())
-    # Remaining oscillation: light beams of the entrance in their undamped joints, snow on its soft springs. Observed: 1.3e-4 (C2), 1e-6 averaged after 1.2 s.
+    # Remaining oscillation: light beams of the entrance in their undamped joints, snow on its soft springs. Observed:
+    # 1.3e-4 (C2), 1e-6 averaged after 1.2 s.
     return [Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT, note="mean of 0.2 s after 0.5 s")]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Shared by all physics cases: scenes, runs, and the closed forms of the paper's contact law. Needs a running YADE.
 
-Expected values follow from the paper's equations, implemented here a second time. The package provides positions, velocities and
-forces only.
+Expected values follow from the paper's equations, implemented here a second time. The package provides positions,
+velocities and forces only.
 """
 import importlib
 import pathlib
@@ -29,7 +29,9 @@ def scene(bodies, dt, **options):
 
 
 def integrate_first():
-    """Put the integrator first: a velocity set between two steps then acts on positions and contact forces in the same step."""
+    """Put the integrator first: a velocity set between two steps then acts on positions and contact forces in the same
+    step.
+    """
     O.engines = [O.engines[-1]] + O.engines[:-1]
 
 
@@ -79,7 +81,8 @@ def equivalent_modulus():
 
 
 def hertz_constant(volume1, volume2):
-    """c of F = c n^1.5 at one contact point (Eqs. 35-37), spheres of the same volumes. volume [m3]; returns [N/m^1.5]."""
+    """c of F = c n^1.5 at one contact point (Eqs. 35-37), spheres of the same volumes. volume [m3]; returns [N/m^1.5].
+    """
     r1, r2 = (3 * np.array([volume1, volume2]) / (4 * np.pi)) ** (1 / 3)
     return 4 / 3 * equivalent_modulus() * np.sqrt(r1 * r2 / (r1 + r2))
 

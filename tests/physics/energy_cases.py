@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 7: input by ground motion and gravity = kinetic + elastic + dissipated energy, over time and for several time steps."""
+"""Item 7: input by ground motion and gravity = kinetic + elastic + dissipated energy, over time and for several time
+steps.
+"""
 import math
 
 import reference_frame
@@ -19,7 +21,9 @@ DT = DEFAULT_DT / 2
 EVERY = 0.01
 """Time between samples of the balance. [s]"""
 REQUIRED = 1e-6
-"""Largest residual over the input at half the default time step or less [-]: twice the largest one observed, 4e-7 of light members."""
+"""Largest residual over the input at half the default time step or less [-]: twice the largest one observed, 4e-7 of
+light members.
+"""
 
 
 def shaken_portal(dt, scale=1.0, strength=None, beam=0.3):
@@ -41,8 +45,8 @@ def shaken_house(dt, house="B", start=18.5):
 
 
 def balance(duration):
-    """Energy balance over time: terms {name: (m,) [J]}; 'input' is the work of ground motion and gravity, 'residual' the error of
-    the balance."""
+    """Energy balance over time: terms {name: (m,) [J]}; 'input' is the work of ground motion and gravity, 'residual'
+    the error of the balance."""
     names = sorted(yt.energy())
     rows = recorded(duration, EVERY, lambda: [yt.energy()[n] for n in names] + [yt.energy_residual(yt.energy())])
     terms = dict(zip(names, rows.T))
@@ -55,8 +59,8 @@ def share(history):
 
 
 def closing(name, build, duration, dts=(DT, DT / 2, DT / 4), note="", least_order=1.8):
-    """Rows of the residual for several time steps. Contacts close by their accounts of energy; the work of joints, weight and ground motion over a
-    step has an error of second order."""
+    """Rows of the residual for several time steps. Contacts close by their accounts of energy; the work of joints,
+    weight and ground motion over a step has an error of second order."""
     shares = []
     for dt in dts:
         build(dt)
@@ -81,7 +85,9 @@ def light_portal():
 
 @case
 def falling_frame():
-    """Springs of 2 kN break, the frame collapses; the brace lands at 3 m/s within two steps. Observed: 2e-7, 5e-8, 1.2e-8."""
+    """Springs of 2 kN break, the frame collapses; the brace lands at 3 m/s within two steps. Observed: 2e-7, 5e-8,
+    1.2e-8.
+    """
     build = lambda dt: shaken_portal(dt, 3.0, 2000.0)  # noqa: E731
     return closing("frame that breaks and collapses", build, 1.5, note="impacts of 4 kg members last one step")
 
@@ -93,7 +99,9 @@ def house_in_strong_shaking(duration=0.25, dts=(DT, DT / 2)):
 
 
 def brace_impact(speed, dt, phase):
-    """Impact of an upright brace (2.8 kg) on a plate; phase: fraction of the step at which it touches. Returns the residual over its kinetic energy. [-]"""
+    """Impact of an upright brace (2.8 kg) on a plate; phase: fraction of the step at which it touches. Returns the
+    residual over its kinetic energy. [-]
+    """
     O.reset()
     O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
     brace = yt.box((0.045, 0.09, 2.0), (0, 0, 1.001 + phase * speed * dt))
@@ -108,7 +116,8 @@ def brace_impact(speed, dt, phase):
 
 @case
 def impacts_of_one_or_two_steps():
-    """Four contact points stop the brace within a step; their accounts close the balance to rounding. Observed: 7e-15."""
+    """Four contact points stop the brace within a step; their accounts close the balance to rounding. Observed: 7e-15.
+    """
     phases = [(k + 0.5) / 16 for k in range(16)]
     return [
         Row("7", f"impact of a brace, {v:g} m/s: residual / kinetic [-]", 0, max((brace_impact(v, DT, p) for p in phases), key=abs), bound=1e-13, dt=DT, note="duration of two steps")

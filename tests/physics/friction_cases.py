@@ -21,7 +21,9 @@ def transform(body, orientation, origin):
 
 
 def incline(angle, dt=1e-4, orientation=Quaternion.Identity, origin=Vector3.Zero):
-    """Block at rest on a plate inclined towards +x [rad]; the scene is rotated by `orientation` and translated to `origin`."""
+    """Block at rest on a plate inclined towards +x [rad]; the scene is rotated by `orientation` and translated to
+    `origin`.
+    """
     tilted = orientation * turned((0, 1, 0), angle)
     plate = yt.box(PLATE, (0, 0, -PLATE[2] / 2), None, yt.timber(friction=MU), fixed=True)
     block = yt.box(BLOCK, (0, 0, BLOCK[2] / 2), None, yt.timber(friction=MU))
@@ -58,8 +60,8 @@ def sticks_below_the_friction_angle():
 def slides_above_the_friction_angle():
     """g (sin - mu cos), from the increase of speed in 0.5 s.
 
-    A constant force has no time-step error. The error is that of the contact solver (tolerance 1e-3): 1.1e-8 at the lowest
-    acceleration; with a tolerance of 1e-9 it is 5e-11.
+    A constant force has no time-step error. The error is that of the contact solver (tolerance 1e-3): 1.1e-8 at the
+    lowest acceleration; with a tolerance of 1e-9 it is 5e-11.
     """
     rows = []
     for share in (1.02, 1.5, 2.0):
@@ -116,8 +118,9 @@ def dissipated():
 def sliding_distance():
     """v^2 / (2 mu g), and the heat m v^2 / 2.
 
-    The initial velocity is that of half a step before (leapfrog), which shortens the distance by v dt / 2: order 1. Observed: 2.7e-4 at
-    5e-5 s, of which 2.4e-4 are this half step. The heat is not affected; observed 1e-7, energy that remains in the springs.
+    The initial velocity is that of half a step before (leapfrog), which shortens the distance by v dt / 2: order 1.
+    Observed: 2.7e-4 at 5e-5 s, of which 2.4e-4 are this half step. The heat is not affected; observed 1e-7, energy that
+    remains in the springs.
     """
     dts = (4e-4, 2e-4, 1e-4, 5e-5)
     runs = [sliding_run(dt) for dt in dts]
@@ -158,8 +161,8 @@ def sliding_distance():
 
 @case
 def independent_of_position_and_direction():
-    """The sliding run in three other directions and at a distance of 1 km ends at the same position of its own frame. Observed: 3e-14 m
-    and 2e-11 m (a coordinate of 1 km is rounded to 1e-13 m).
+    """The sliding run in three other directions and at a distance of 1 km ends at the same position of its own frame.
+    Observed: 3e-14 m and 2e-11 m (a coordinate of 1 km is rounded to 1e-13 m).
     """
     reference = sliding_run(1e-4)["end"]
     poses = {

@@ -21,18 +21,23 @@ SPEEDS = (0.01, 0.1, 1.0, 10.0)
 UNITS = {"duration": "s", "overlap": "m", "force": "N", "restitution": "-"}
 
 CORNER = HALF - (np.sqrt(3) - 1) * 0.1 * HALF * np.sqrt(2)
-"""Distance of an octahedron's rounded corner from its centre: moving the faces in by r moves the corner by sqrt(3) r, r = 10 % of an edge. [m]"""
+"""Distance of an octahedron's rounded corner from its centre: moving the faces in by r moves the corner by sqrt(3) r, r
+= 10 % of an edge. [m]
+"""
 
 
 def edge(width):
-    """Distance of a square bar's rounded edge from its centre: moving the faces in by r = width/10 moves the edge by sqrt(2) r. [m]"""
+    """Distance of a square bar's rounded edge from its centre: moving the faces in by r = width/10 moves the edge by
+    sqrt(2) r. [m]
+    """
     return width / np.sqrt(2) - (np.sqrt(2) - 1) * 0.1 * width
 
 
 class Impact:
     """Central impact of two frictionless bodies along z.
 
-    kind      'plate' (corner on a fixed plate), 'block' (corner on a free block), 'edges' (crossed edges of two free bars),
+    kind      'plate' (corner on a fixed plate), 'block' (corner on a free block), 'edges' (crossed edges of two free
+    bars),
               'flat' (face on a fixed plate: four points at once)
     points    number of contact points
     mass      of Eq. 43 [kg]; constant: c of F = c n^1.5 at one point [N/m^1.5]
@@ -101,10 +106,11 @@ def peak(samples):
 
 
 def dashpot_restitution(power, points=1, ratio=1.0):
-    """Restitution of m n'' = -points max(0, e_n + C n'), e_n ~ n^power, C = 2 ratio sqrt(m K_n), K_n = de_n/dn (Eqs. 23, 37-41).
+    """Restitution of m n'' = -points max(0, e_n + C n'), e_n ~ n^power, C = 2 ratio sqrt(m K_n), K_n = de_n/dn (Eqs.
+    23, 37-41).
 
-    Units in which m, v and the factor of the spring are 1; the coefficient does not depend on them (power = 1.5: Hertz). When the sum of
-    spring and dashpot becomes tensile, the force is zero and the velocity constant.
+    Units in which m, v and the factor of the spring are 1; the coefficient does not depend on them (power = 1.5:
+    Hertz). When the sum of spring and dashpot becomes tensile, the force is zero and the velocity constant.
     """
 
     def total(n, speed):
@@ -123,7 +129,9 @@ def dashpot_restitution(power, points=1, ratio=1.0):
 
 @case
 def hertz_three_decades():
-    """Undamped, 200 steps per contact: the leapfrog error is (1/200)^2 / 2 = 1.3e-5 at any speed. Observed: 1.3e-5 to 1.6e-5."""
+    """Undamped, 200 steps per contact: the leapfrog error is (1/200)^2 / 2 = 1.3e-5 at any speed. Observed: 1.3e-5 to
+    1.6e-5.
+    """
     rows = []
     for kind in ("plate", "block", "edges", "flat"):
         impact = Impact(kind)
@@ -172,10 +180,11 @@ def hertz_closed_form_converges():
 
 @case
 def hertz_increment_form_converges():
-    """First order: each step uses the stiffness at its end, too large in loading and too small in unloading, which adds energy.
+    """First order: each step uses the stiffness at its end, too large in loading and too small in unloading, which adds
+    energy.
 
-    Observed at 1.25e-5 s: 8e-3, 1e-2, 1e-2, some 300 times the error of the closed form. At 1e-4 s the energy of the separating point bounds the
-    error of the restitution.
+    Observed at 1.25e-5 s: 8e-3, 1e-2, 1e-2, some 300 times the error of the closed form. At 1e-4 s the energy of the
+    separating point bounds the error of the restitution.
     """
     bounds = {"duration": 0.012, "overlap": 0.015, "restitution": 0.015}
     return convergence(
@@ -198,8 +207,9 @@ def worst_phase(impact, v, dt, span, expected, **options):
 def restitution_with_the_papers_dashpot():
     """Critical dashpot: 0.1196 for one point and 0.0410 for four at any speed.
 
-    The dashpot force begins with infinite slope (C ~ n^(1/4)), so that the error depends on the fraction of a step at which the contact
-    begins: order 1.25, largest error 3e-4 (one point) and 7e-4 (four) with 1600 steps per undamped contact.
+    The dashpot force begins with infinite slope (C ~ n^(1/4)), so that the error depends on the fraction of a step at
+    which the contact begins: order 1.25, largest error 3e-4 (one point) and 7e-4 (four) with 1600 steps per undamped
+    contact.
     """
     rows = []
     for kind in ("plate", "flat"):
@@ -223,7 +233,9 @@ def restitution_with_the_papers_dashpot():
 
 @case
 def restitution_converges():
-    """One point at 1 m/s, undamped contact of 1.49 ms; explicit dashpots as in the paper (sweeps = 0), and implicit ones."""
+    """One point at 1 m/s, undamped contact of 1.49 ms; explicit dashpots as in the paper (sweeps = 0), and implicit
+    ones.
+    """
     impact = Impact("plate")
     span, expected, dts = impact.closed_form(1.0)["duration"], dashpot_restitution(1.5), (2e-5, 1e-5, 5e-6, 2.5e-6, 1.25e-6)
     rows = []
@@ -251,8 +263,9 @@ def rebound(impact, v, dt, phase, **options):
 
 @case
 def restitution_of_short_contacts():
-    """One point at 1 m/s, of which the undamped contact lasts 19 steps down to a fifth of one: the solver takes the velocity of separation
-    from the closed form. Observed, for the worst of 8 phases: 8e-12, the tolerance of the independent solution.
+    """One point at 1 m/s, of which the undamped contact lasts 19 steps down to a fifth of one: the solver takes the
+    velocity of separation from the closed form. Observed, for the worst of 8 phases: 8e-12, the tolerance of the
+    independent solution.
     """
     impact, rows = Impact("plate"), []
     span = impact.closed_form(1.0)["duration"]
@@ -268,11 +281,11 @@ def restitution_of_short_contacts():
 
 @case
 def snow_impact():
-    """Linear law: half a period pi sqrt(m/K) and depth v sqrt(m/K) undamped; with the critical dashpot exp(-2), when spring and
-    dashpot cancel at t = 2 sqrt(m/K).
+    """Linear law: half a period pi sqrt(m/K) and depth v sqrt(m/K) undamped; with the critical dashpot exp(-2), when
+    spring and dashpot cancel at t = 2 sqrt(m/K).
 
-    Undamped with 400 steps: leapfrog shortens the period by (w dt)^2 / 24 = 2.6e-6. Damped: C does not vanish at n = 0, so that the
-    order is 1. Observed: 5e-4 for the worst phase.
+    Undamped with 400 steps: leapfrog shortens the period by (w dt)^2 / 24 = 2.6e-6. Damped: C does not vanish at n = 0,
+    so that the order is 1. Observed: 5e-4 for the worst phase.
     """
     impact, rate = Impact("plate"), np.sqrt(3.948e4)
     span, snow = np.pi / rate, yt.snow(friction=0)

@@ -33,9 +33,9 @@ def pose_of_the_scene():
     """A rotated, mirrored or shifted scene ends in the rotated, mirrored or shifted final state."""
     quarter = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]])
     general = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
-    # Rounding, amplified by an impact: 1e-16 m at the start became 1e-12 m. A quarter rotation is not exact to the bit either: the
-    # quaternion of the bodies' frames contains sqrt(1/2). At 1 km positions are rounded to 1e-13 m, static overlaps of 5 um
-    # to a relative 2e-8. Observed: 5e-10 m.
+    # Rounding, amplified by an impact: 1e-16 m at the start became 1e-12 m. A quarter rotation is not exact to the bit
+    # either: the quaternion of the bodies' frames contains sqrt(1/2). At 1 km positions are rounded to 1e-13 m, static
+    # overlaps of 5 um to a relative 2e-8. Observed: 5e-10 m.
     changes = [
         ("rotated by 90 degrees", {"rotation": quarter}, 1e-9),
         ("mirrored", {"rotation": np.diag([-1.0, 1, 1])}, 1e-9),
@@ -56,8 +56,9 @@ def pose_of_the_scene():
 def order_of_bodies():
     """Ids reversed: the bodies of each pair are exchanged, and the sweeps visit the contacts in another order."""
     rows = []
-    # Explicit: rounding. Implicit: Gauss-Seidel sweeps end at a relative change of the impulses of 1e-3. Observed: 2.3e-6 m after a
-    # displacement of 0.3 m, 4e-7 m with a tolerance of 1e-4; 1.1e-4 m with at most 4 sweeps (default 50).
+    # Explicit: rounding. Implicit: Gauss-Seidel sweeps end at a relative change of the impulses of 1e-3. Observed:
+    # 2.3e-6 m after a displacement of 0.3 m, 4e-7 m with a tolerance of 1e-4; 1.1e-4 m with at most 4 sweeps (default
+    # 50).
     for scheme, bound in (("explicit", 1e-10), ("implicit", 2e-5)):
         options = SCHEMES[scheme]
         off = abs(final_positions(NAMES[::-1], **options) - final_positions(**options)).max()
@@ -99,7 +100,9 @@ def in_other_process(threads, duration=DURATION, *words):
 
 @case
 def one_thread_or_two(duration=DURATION):
-    """Sums are made island by island in the order of ids: no bit depends on the number of threads. (test_run.py compares a whole house.)"""
+    """Sums are made island by island in the order of ids: no bit depends on the number of threads. (test_run.py
+    compares a whole house.)
+    """
     (few, one), (many, two) = in_other_process(1, duration), in_other_process(2, duration)
     return [
         Row("8", "threads of the second run [-]", 2 * few, many, bound=0),
@@ -109,7 +112,9 @@ def one_thread_or_two(duration=DURATION):
 
 @case
 def yielding_joints():
-    """Their histories turn with the bodies and do not depend on threads. Rotation: rounding amplified by an impact, as in pose_of_the_scene."""
+    """Their histories turn with the bodies and do not depend on threads. Rotation: rounding amplified by an impact, as
+    in pose_of_the_scene.
+    """
     rotation = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
     off = abs(final_positions(rotation=rotation, **small_scene.YIELDING) - final_positions(**small_scene.YIELDING)).max()
     (_, one), (_, two) = in_other_process(1, DURATION, "yielding"), in_other_process(2, DURATION, "yielding")

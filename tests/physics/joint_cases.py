@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 4: joints of four springs: frequencies, failure, energy. Without contact and gravity.
 
-Stretch of a spring: u = end on body 2 - end on body 1; force on body 1: kn u_n + ks u_s. With values per joint, each of the n
-springs has 1/n of the stiffness.
+Stretch of a spring: u = end on body 2 - end on body 1; force on body 1: kn u_n + ks u_s. With values per joint, each of
+the n springs has 1/n of the stiffness.
 """
 import numpy as np
 import yade.wrapper as yw
@@ -40,7 +40,8 @@ def cross_matrix(p):
 
 
 def linear_modes(stiffness, share):
-    """Angular frequencies [rad/s] and modes of the two free bodies, coordinates (u, phi) of the beam and (u, phi) of the column:
+    """Angular frequencies [rad/s] and modes of the two free bodies, coordinates (u, phi) of the beam and (u, phi) of
+    the column:
     M x'' = -K x.
     """
     mass, rigidity = np.zeros((12, 12)), np.zeros((12, 12))
@@ -76,8 +77,8 @@ def mode_frequency(mode, mass, guess, dt, **options):
 
 @case
 def frequencies():
-    """All six modes (shear with rocking in two directions, torsion, axial; 22 to 500 rad/s) with values per spring and per joint, and with
-    unequal stiffnesses.
+    """All six modes (shear with rocking in two directions, torsion, axial; 22 to 500 rad/s) with values per spring and
+    per joint, and with unequal stiffnesses.
 
     Leapfrog increases a frequency by (w dt)^2 / 24: by 1.04e-4 at 1e-4 s and 500 rad/s, as observed.
     """
@@ -109,7 +110,9 @@ def highest_frequency_converges():
 
 
 def decay(dt, mode, mass, rate, ratio):
-    """Damping ratio of a mode from its logarithmic decrement over about ten periods; rate: angular frequency [rad/s]. Free bodies."""
+    """Damping ratio of a mode from its logarithmic decrement over about ten periods; rate: angular frequency [rad/s].
+    Free bodies.
+    """
     damped = rate * np.sqrt(1 - ratio**2)
     periods = 10 if ratio < 0.1 else 2
     beam, column, _ = joined(dt)
@@ -135,8 +138,8 @@ def decay(dt, mode, mass, rate, ratio):
 def damping_ratio_of_each_mode():
     """A column on a beam, both free: all six vibration modes decay with the damping ratio of the joint.
 
-    The step multiplies a mode by sqrt((1 - x) / (1 + x)), x = zeta w dt, in place of exp(-x): an error of x^2 / 3. The frequency's error
-    of (w dt)^2 / 24, as a phase that the decrement is free of to first order.
+    The step multiplies a mode by sqrt((1 - x) / (1 + x)), x = zeta w dt, in place of exp(-x): an error of x^2 / 3. The
+    frequency's error of (w dt)^2 / 24, as a phase that the decrement is free of to first order.
     """
     dt, rows = 1e-4, []
     rates, modes, mass = linear_modes((STIFFNESS, STIFFNESS), 1.0)
@@ -152,8 +155,8 @@ PULLS = {"tension": (0, 0, 1), "compression": (0, 0, -1), "shear": (0.6, 0.8, 0)
 
 
 def break_joint(cause, per, dt=1e-4, speed=0.1):
-    """The column moves away from the fixed beam at `speed` [m/s] until the joint breaks: (stretch [m], force of the joint [N], energy
-    released [J], causes).
+    """The column moves away from the fixed beam at `speed` [m/s] until the joint breaks: (stretch [m], force of the
+    joint [N], energy released [J], causes).
     """
     _, column, joint = joined(dt, per=per, density=HEAVY, fixed=True)
     start, column.state.vel = column.state.pos, speed * Vector3(*PULLS[cause])
@@ -166,11 +169,11 @@ def break_joint(cause, per, dt=1e-4, speed=0.1):
 
 @case
 def breaks_at_the_strength():
-    """Tension, compression and shear to P_max. With values per spring each of the four breaks at P_max and 10 cm and releases
-    P_max^2 / 2K; with values per joint their sum does.
+    """Tension, compression and shear to P_max. With values per spring each of the four breaks at P_max and 10 cm and
+    releases P_max^2 / 2K; with values per joint their sum does.
 
-    A spring breaks in the first step in which its force exceeds P_max: the stretch is too large by at most one step (1e-5 m of 0.1 m),
-    the relative error of the energy is twice as large.
+    A spring breaks in the first step in which its force exceeds P_max: the stretch is too large by at most one step
+    (1e-5 m of 0.1 m), the relative error of the energy is twice as large.
     """
     rows = []
     for per, count in (("spring", 4), ("joint", 1)):
@@ -206,7 +209,8 @@ def breaks_at_the_strength():
 
 @case
 def broken_joints_stay_broken():
-    """After the break the column moves back through the joint to the other side: no force, no energy, no second break."""
+    """After the break the column moves back through the joint to the other side: no force, no energy, no second break.
+    """
     _, column, joint = joined(1e-3, density=HEAVY, fixed=True)
     column.state.vel = Vector3(0, 0, 0.1)
     while not joint.isBroken:
@@ -227,7 +231,9 @@ OFF_AXIS = np.array([(x, y, (COLUMN[2] + SPACE) / 2) for y in (0.08, 0.2) for x 
 
 
 def tilts_at_failure(per, dt=1e-4, rate=0.1):
-    """The column rotates about x through its centre at `rate` [rad/s]: tilts at which springs of a tenth of P_max break. [rad]"""
+    """The column rotates about x through its centre at `rate` [rad/s]: tilts at which springs of a tenth of P_max
+    break. [rad]
+    """
     column = joined(dt, strength=STRENGTH / 10, per=per, points=OFF_AXIS, density=HEAVY, fixed=True)[1]
     spin(column, (rate, 0, 0))
     engine = O.engines[1]
@@ -238,8 +244,8 @@ def tilts_at_failure(per, dt=1e-4, rate=0.1):
 
 @case
 def springs_break_one_by_one():
-    """In a tilting column the far springs break first: the stretch of a spring at y is 2 y sin(tilt/2). With values per joint all break
-    when the sum of the four forces reaches P_max.
+    """In a tilting column the far springs break first: the stretch of a spring at y is 2 y sin(tilt/2). With values per
+    joint all break when the sum of the four forces reaches P_max.
 
     The tilt is too large by at most one step, 1e-5 rad of 0.05 to 0.13 rad.
     """
@@ -261,8 +267,8 @@ def springs_break_one_by_one():
 
 
 def swing(dt, count, ks=1.0):
-    """Two free bodies in rotation with an unbroken joint for `count` steps: relative changes in 1000 samples of energy (band about its
-    mean; mean of the last minus mean of the first tenth), linear and angular momentum.
+    """Two free bodies in rotation with an unbroken joint for `count` steps: relative changes in 1000 samples of energy
+    (band about its mean; mean of the last minus mean of the first tenth), linear and angular momentum.
     """
     beam, column, joint = joined(dt, stiffness=(STIFFNESS, ks * STIFFNESS))
     for body, velocity, omega in ((beam, (0.3, -0.2, -0.4), (0.5, 0.2, 1.0)), (column, (-0.1, 0.3, 0.6), (1.0, -1.5, -2.0))):
@@ -290,8 +296,8 @@ def swing(dt, count, ks=1.0):
 
 @case
 def a_million_steps_unbroken():
-    """Free beam and column, stretches up to 4 mm, 1e6 steps: the energy oscillates in a band of width (w dt)^2 without drift; momenta are
-    constant to rounding.
+    """Free beam and column, stretches up to 4 mm, 1e6 steps: the energy oscillates in a band of width (w dt)^2 without
+    drift; momenta are constant to rounding.
 
     Observed: band 3.7e-6, drift 1.6e-7 (remainder of the band in means of 100 samples), momenta 1e-13 and 1e-12.
     """
@@ -305,8 +311,8 @@ def a_million_steps_unbroken():
 
 @case
 def energy_band_converges():
-    """Second order, for equal and unequal stiffnesses. The angular momentum is constant with unequal stiffnesses as well, whose force is
-    not parallel to the spring.
+    """Second order, for equal and unequal stiffnesses. The angular momentum is constant with unequal stiffnesses as
+    well, whose force is not parallel to the spring.
     """
     rows, dts = [], (2e-4, 1e-4, 5e-5)
     for ks in (1.0, 0.5):

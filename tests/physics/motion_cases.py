@@ -60,7 +60,8 @@ JACOBI = Jacobi(MOMENTS, START)
 
 
 def attitude(time):
-    """Rotation matrix from the body frame of t = 0 to that of `time` [s], by scipy: R' = R [omega], Euler's equations for omega.
+    """Rotation matrix from the body frame of t = 0 to that of `time` [s], by scipy: R' = R [omega], Euler's equations
+    for omega.
     """
 
     def rates(t, y):
@@ -89,8 +90,8 @@ def tumbling(integrator, dt):
 
 
 def tumble(integrator, dt):
-    """Three flips: dictionary of the time of the third flip [s], largest change of energy and momentum [-], angle between the final
-    attitude and that of scipy [rad].
+    """Three flips: dictionary of the time of the third flip [s], largest change of energy and momentum [-], angle
+    between the final attitude and that of scipy [rad].
     """
     body, probe = tumbling(integrator, dt)
     start = body.state.ori
@@ -107,7 +108,9 @@ def tumble(integrator, dt):
 
 
 def table(integrator, dts, quantities, momentum_bound=1e-13):
-    """Series of rows; quantities: name -> (key of tumble(), expected, bound, least order); bound of the change of |L|: rounding in 1e4 steps."""
+    """Series of rows; quantities: name -> (key of tumble(), expected, bound, least order); bound of the change of |L|:
+    rounding in 1e4 steps.
+    """
     runs = [tumble(integrator, dt) for dt in dts]
     note = "Jacobi's elliptic functions; scipy DOP853 for the attitude"
     rows = []
@@ -155,8 +158,9 @@ def symplectic_integrator_does_not_drift():
 
 @case
 def newton_integrator_flips():
-    """The rotation of YADE's integrator gains energy (order 1.3), so that flips come earlier by a third at 2.5e-4 s. This is the reason
-    for the SymplecticIntegrator. For information only: |L| changes by rounding in YADE 2023.02a, by 1.3e-8 in 2025.2.0.
+    """The rotation of YADE's integrator gains energy (order 1.3), so that flips come earlier by a third at 2.5e-4 s.
+    This is the reason for the SymplecticIntegrator. For information only: |L| changes by rounding in YADE 2023.02a, by
+    1.3e-8 in 2025.2.0.
     """
     flip = JACOBI.flips(FLIPS)[-1]
     quantities = {
@@ -166,7 +170,9 @@ def newton_integrator_flips():
 
 
 def fall(dt, speed, time=1.0):
-    """Height after `time` [s] of free fall from height zero; speed: velocity half a step before the start, upward [m/s]."""
+    """Height after `time` [s] of free fall from height zero; speed: velocity half a step before the start, upward
+    [m/s].
+    """
     body = yt.box(EDGES, (0, 0, 0))
     scene([body], dt)
     body.state.vel = Vector3(0, 0, speed)
@@ -176,8 +182,8 @@ def fall(dt, speed, time=1.0):
 
 @case
 def free_fall():
-    """Exact to rounding if the initial velocity is that of half a step before, g dt / 2 upward (leapfrog). A body at rest at t = 0 is
-    late by dt / 2: order 1.
+    """Exact to rounding if the initial velocity is that of half a step before, g dt / 2 upward (leapfrog). A body at
+    rest at t = 0 is late by dt / 2: order 1.
     """
     expected, dts = -G / 2, (4e-4, 2e-4, 1e-4)
     rows = series(

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 2, friction: the tangential spring on prescribed paths.
 
-The bodies are so heavy that contact forces do not change their prescribed velocities (the elastic law does not depend on mass).
+The bodies are so heavy that contact forces do not change their prescribed velocities (the elastic law does not depend
+on mass).
 Without dashpots and gravity the forces follow from the path alone.
 """
 import dataclasses
@@ -26,7 +27,9 @@ STIFFNESS = POINTS * shear_stiffness(CONSTANT, OVERLAP)
 
 
 def pair(dt=1e-4, friction=MU, offset=0.0):
-    """Base and a block on it with OVERLAP; `offset`: distance of their centres along x, which lengthens the base by twice as much [m]."""
+    """Base and a block on it with OVERLAP; `offset`: distance of their centres along x, which lengthens the base by
+    twice as much [m].
+    """
     heavy = yt.timber(density=HEAVY, friction=friction)
     base, block = np.array(SIZES)
     low = yt.box(base + (2 * offset, 0, 0), (0, 0, -base[2] / 2), None, heavy)
@@ -55,7 +58,9 @@ def move(block, displacement, count):
 
 
 def by_count(quantity, expected, work, counts, bound, least_order, note):
-    """Rows for paths in several numbers of steps. These scenes have no time scale: the order is that in the length of a step."""
+    """Rows for paths in several numbers of steps. These scenes have no time scale: the order is that in the length of a
+    step.
+    """
     rows = series(
         "2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound, least_order, note=note
     )
@@ -71,7 +76,8 @@ def deeper(overlap):
 
 @case
 def elastic_cycle():
-    """A cycle below the friction limit does no work. Rounding of coordinates against a path of 1e-7 m; observed 3e-15."""
+    """A cycle below the friction limit does no work. Rounding of coordinates against a path of 1e-7 m; observed 3e-15.
+    """
     block = pair()[1]
     reach = 0.5 * MU * FORCE / STIFFNESS
     work = sum(move(block, (d, 0, 0), 50) for d in (reach, -2 * reach, reach))
@@ -91,8 +97,8 @@ def elastic_cycle():
 def slip_cycle():
     """Hysteresis of spring and slider: work 4 mu N (S - mu N / K_s) per cycle, after the first quarter.
 
-    The corners of the loop are inside a step, where the trapezoidal rule errs by up to K_s ds^2 / 2: order 2. Observed: 1.6e-6 with
-    1600 steps.
+    The corners of the loop are inside a step, where the trapezoidal rule errs by up to K_s ds^2 / 2: order 2. Observed:
+    1.6e-6 with 1600 steps.
     """
     limit = MU * FORCE / STIFFNESS
     reach = 3 * limit
@@ -115,8 +121,8 @@ def slip_cycle():
 
 @case
 def slip_circle():
-    """Block on a circle of radius R: the sliders move on a circle of radius sqrt(R^2 - l^2), l = mu N / K_s, and dissipate
-    mu N 2 pi sqrt(R^2 - l^2) per revolution.
+    """Block on a circle of radius R: the sliders move on a circle of radius sqrt(R^2 - l^2), l = mu N / K_s, and
+    dissipate mu N 2 pi sqrt(R^2 - l^2) per revolution.
 
     Radial return at the end of each step is of first order in the angle of a step. Observed: 9e-4 with 2000 steps.
     """
@@ -142,10 +148,11 @@ def slip_circle():
 
 @case
 def squeeze_and_shear_cycle():
-    """Shear by s at n1, compress to n2, shear back, release, and the reverse order: both need the work (K_s2 - K_s1) s^2 / 2.
+    """Shear by s at n1, compress to n2, shear back, release, and the reverse order: both need the work (K_s2 - K_s1)
+    s^2 / 2.
 
-    A spring with constant length instead of constant force while n grows, or constant force while n shrinks, would create energy in
-    one of the two orders. The trapezoidal rule is exact on straight parts; rounding remains.
+    A spring with constant length instead of constant force while n grows, or constant force while n shrinks, would
+    create energy in one of the two orders. The trapezoidal rule is exact on straight parts; rounding remains.
     """
     squeezed, shift = 1.5 * OVERLAP, 0.3 * MU * FORCE / STIFFNESS
     expected = POINTS * (shear_stiffness(CONSTANT, squeezed) - shear_stiffness(CONSTANT, OVERLAP)) * shift**2 / 2
@@ -169,8 +176,8 @@ def squeeze_and_shear_cycle():
 
 @case
 def closed_paths_create_no_energy():
-    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring: the smallest
-    work is not negative.
+    """40 random closed polygons in (x, y, n), below and above the friction limit, from an unloaded tangential spring:
+    the smallest work is not negative.
     """
     random, limit = np.random.default_rng(1), MU * FORCE / STIFFNESS
     least = np.inf
@@ -194,8 +201,8 @@ def closed_paths_create_no_energy():
 
 
 def force_change(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
-    """Sheared pair that rotates as a whole by `angle` [rad] in `time` [s]: relative change of the tangential force in the frame of the
-    pair.
+    """Sheared pair that rotates as a whole by `angle` [rad] in `time` [s]: relative change of the tangential force in
+    the frame of the pair.
     """
     bodies = pair(dt, friction=1e6, offset=offset)
     move(bodies[1], (1e-6, 2e-6, 0), 50)
@@ -211,12 +218,13 @@ def force_change(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
 
 
 def rotates_with_the_pair():
-    """Not in the default set: its shear is set by hand, without work of the bodies, and rule (5) of the solver admits no such force.
+    """Not in the default set: its shear is set by hand, without work of the bodies, and rule (5) of the solver admits
+    no such force.
 
     A quarter rotation in 1 s about x, y and z does not change the tangential force in the frame of the pair.
 
-    With the centres in line, and 1 m apart along the face (a column at the end of a beam). The errors are of second order: in a step
-    a point moves along the chord instead of the arc. Observed: 1.1e-3 and 2.9e-3 at 1e-4 s.
+    With the centres in line, and 1 m apart along the face (a column at the end of a beam). The errors are of second
+    order: in a step a point moves along the chord instead of the arc. Observed: 1.1e-3 and 2.9e-3 at 1e-4 s.
     """
     rows, dts = [], (4e-4, 2e-4, 1e-4)
     for name, offset, bound in (("centres in line", 0.0, 2e-3), ("centres 1 m apart", 1.0, 5e-3)):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A plane frame of rounded prisms with contacts and joints, written from the equations of the paper alone.
 
-Pure numpy, without YADE and the package. The frame lies in the plane of x (right) and z (up); angles are positive from x to z.
+Pure numpy, without YADE and the package. The frame lies in the plane of x (right) and z (up); angles are positive from
+x to z.
 Corners of parts are (n, 2) arrays; other vectors in the plane are complex, x + i z, so that a rotation is a product.
-Every body is a prism, symmetric about the plane, and no two neighbours have the same width: each contact of a corner with a side
-then represents two contact points in space, one on each side of the plane (`SIDES`).
+Every body is a prism, symmetric about the plane, and no two neighbours have the same width: each contact of a corner
+with a side then represents two contact points in space, one on each side of the plane (`SIDES`).
 """
 import dataclasses
 
@@ -27,7 +28,9 @@ class Part:
 
 @dataclasses.dataclass
 class Tie:
-    """A joint: its spring points (n, 2) in the plane [m], each of which represents two springs of `stiffness` [N/m] in space."""
+    """A joint: its spring points (n, 2) in the plane [m], each of which represents two springs of `stiffness` [N/m] in
+    space.
+    """
 
     first: str
     second: str
@@ -97,10 +100,11 @@ def flat(points):
 
 
 class Frame:
-    """Masses, contact candidates and springs of a frame as arrays; positions (n,) complex and angles (n,) are those of its parts.
+    """Masses, contact candidates and springs of a frame as arrays; positions (n,) complex and angles (n,) are those of
+    its parts.
 
-    parts: list of Part, ties: list of Tie, pairs: names of parts that may touch, reach: largest initial distance of a corner
-    from a side that makes them a candidate [m].
+    parts: list of Part, ties: list of Tie, pairs: names of parts that may touch, reach: largest initial distance of a
+    corner from a side that makes them a candidate [m].
     """
 
     def __init__(self, parts, ties, pairs, timber=Timber(), reach=0.05):
@@ -187,7 +191,9 @@ class Frame:
 
 
 class LinearFrame:
-    """Small motions of a frame about its equilibrium under gravity, with sticking contacts; coordinates (x, z, angle) of each free part."""
+    """Small motions of a frame about its equilibrium under gravity, with sticking contacts; coordinates (x, z, angle)
+    of each free part.
+    """
 
     def __init__(self, frame):
         self.frame = frame

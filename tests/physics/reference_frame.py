@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Item 9: a braced portal frame under ground motion, solved without YADE and without the package.
 
-The scheme is the paper's own: Eqs. 1-9 with explicit dashpots and a small step, in the plane (planar_frame.py). Run as a
-script it prints the history of the frame.
+The scheme is the paper's own: Eqs. 1-9 with explicit dashpots and a small step, in the plane (planar_frame.py). Run as
+a script it prints the history of the frame.
 """
 import numpy as np
 from planar_frame import GRAVITY, Frame, Part, Tie, rectangle
@@ -14,15 +14,15 @@ SAMPLE, START, LENGTH = 0.01, 0.3, 0.6
 
 
 def cut_brace(foot, head, run, rise):
-    """Corners (6, 2) of a brace from the corner `foot` (lower left) to `head` (upper right); each end is cut by a horizontal face
-    of length `run` and a vertical face of height `rise`. [m]"""
+    """Corners (6, 2) of a brace from the corner `foot` (lower left) to `head` (upper right); each end is cut by a
+    horizontal face of length `run` and a vertical face of height `rise`. [m]"""
     (x0, z0), (x1, z1) = foot, head
     return np.array([[x0, z0], [x0 + run, z0], [x1, z1 - rise], [x1, z1], [x1 - run, z1], [x0, z0 + rise]])
 
 
 def portal(beam=0.3):
-    """Frame of a fixed plate, two columns, a beam (its depth and width [m]) and a brace supported by column and plate, and by
-    beam and column."""
+    """Frame of a fixed plate, two columns, a beam (its depth and width [m]) and a brace supported by column and plate,
+    and by beam and column."""
     half = COLUMN / 2
     run, rise = 0.08, 0.11
     brace = cut_brace((half, 0), (SPAN - half, HEIGHT), run, rise)
@@ -68,8 +68,8 @@ class FrameMotion:
         return (1 - (t - k)) * self.samples[k] + (t - k) * self.samples[k + 1]
 
     def velocity_at(self, at, part, back=0.0):
-        """Velocity of a part's material point that is at `at` now, with its arm of `back` steps ago. Velocities are those of half
-        a step ago; a displacement is exact with the arm of the same time. [m/s]"""
+        """Velocity of a part's material point that is at `at` now, with its arm of `back` steps ago. Velocities are
+        those of half a step ago; a displacement is exact with the arm of the same time. [m/s]"""
         arm = at - self.position[part]
         return self.velocity[part] + 1j * self.spin[part] * arm * (1 - 1j * back * self.dt * self.spin[part])
 

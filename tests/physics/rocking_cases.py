@@ -53,7 +53,9 @@ def tilt_of(block, start):
 
 
 def quarter_period(tilt):
-    """From rest at `tilt` to upright, by energy: integral of sqrt(J / (2 m g (Y(tilt) - Y))) with theta = tilt - u^2. [s]"""
+    """From rest at `tilt` to upright, by energy: integral of sqrt(J / (2 m g (Y(tilt) - Y))) with theta = tilt - u^2.
+    [s]
+    """
 
     def integrand(u):
         theta = tilt - u * u
@@ -71,7 +73,9 @@ def housner(tilt):
 
 
 def rocking_time(tilt, dt):
-    """Time from rest at `tilt` to upright [s]; at rest half a step before the start (leapfrog), interpolated at the end."""
+    """Time from rest at `tilt` to upright [s]; at rest half a step before the start (leapfrog), interpolated at the
+    end.
+    """
     block, start = tilted_block(tilt, dt)
     last = [tilt, tilt]
 
@@ -85,8 +89,8 @@ def rocking_time(tilt, dt):
 
 @case
 def quarter_period_of_rocking():
-    """Against the quadrature of the rolling block (observed 2e-5 for any dt: compression of the points, 1.4e-5 m against a = 8 cm) and
-    Housner's formula for small angles, which errs by 2e-4 to 8e-3.
+    """Against the quadrature of the rolling block (observed 2e-5 for any dt: compression of the points, 1.4e-5 m
+    against a = 8 cm) and Housner's formula for small angles, which errs by 2e-4 to 8e-3.
     """
     rows = []
     for share in (0.3, 0.6, 0.9):
@@ -138,7 +142,9 @@ def topple_angle():
 
 
 def standing_block(acceleration, dt=1e-4):
-    """Upright block at rest; its base is then accelerated along x, smoothly within 1 s to a constant acceleration [m/s2]."""
+    """Upright block at rest; its base is then accelerated along x, smoothly within 1 s to a constant acceleration
+    [m/s2].
+    """
     rise = (1 - np.cos(np.linspace(0, np.pi, 21))) / 2
     levels = [Vector3(acceleration * f, 0, 0) for f in np.concatenate([rise, np.ones(100)])]
     block, start = tilted_block(0.0, dt, ground_motion=yt.GroundMotionEngine(step=0.05, acceleration=levels, start=0.1))
@@ -158,9 +164,11 @@ def uplifts(acceleration, dt=2e-4):
 
 @case
 def uplift():
-    """g a / (h/2), by bisection between 0.98 and 1.02 of it; and the load on the side that lifts at half of this acceleration, m g / 4.
+    """g a / (h/2), by bisection between 0.98 and 1.02 of it; and the load on the side that lifts at half of this
+    acceleration, m g / 4.
 
-    The block tilts by 9e-5 rad on its springs before uplift, which reduces X by 9e-4. Observed: 8e-4 with a last interval of 3e-4.
+    The block tilts by 9e-5 rad on its springs before uplift, which reduces X by 9e-4. Observed: 8e-4 with a last
+    interval of 3e-4.
     """
     expected = G * A / (HEIGHT / 2)
     low, high = 0.98 * expected, 1.02 * expected

@@ -18,7 +18,9 @@ import math
 
 @dataclasses.dataclass
 class Row:
-    """One line of the table. `error` is |got - expected| / |expected|, or |got - expected| where expected = 0 or `absolute`."""
+    """One line of the table. `error` is |got - expected| / |expected|, or |got - expected| where expected = 0 or
+    `absolute`.
+    """
 
     item: str  # section of the accuracy page, "1" ... "9"
     quantity: str  # with its unit: "peak overlap, 1 m/s [m]"
@@ -81,7 +83,8 @@ def observed_order(steps, errors):
 def series(item, quantity, expected, gots, dts, bound, least_order=None, **row):
     """Rows of one quantity at several time steps, for the plot of error against dt.
 
-    `bound` and `least_order` apply to the row of the smallest step, which also states the observed order; the others show the convergence.
+    `bound` and `least_order` apply to the row of the smallest step, which also states the observed order; the others
+    show the convergence.
     """
     rows = [Row(item, quantity, expected, got, dt=dt, **row) for got, dt in zip(gots, dts)]
     finest = min(rows, key=lambda r: r.dt)

@@ -20,7 +20,9 @@ END = 0.4
 
 
 def load(strength=60.0, slip=None):
-    """The small scene under ground motion, with joints that break when the block hits the column, or yield with a SlipLaw."""
+    """The small scene under ground motion, with joints that break when the block hits the column, or yield with a
+    SlipLaw.
+    """
     shake = yw.GroundMotionEngine(step=0.01, acceleration=[Vector3(0.8 * (k % 7 - 3), 0.3 * (k % 5 - 2), 0) for k in range(30)], start=0.02)
     small_scene.load(strength=strength, slip=slip, ground_motion=shake)
 

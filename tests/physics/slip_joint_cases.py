@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Item 4: yielding joints (law slip): loops, pinching, energy to failure, an oscillator that yields. Without contact and gravity.
+"""Item 4: yielding joints (law slip): loops, pinching, energy to failure, an oscillator that yields. Without contact
+and gravity.
 
-A spring yields at F = 3 kN and y = F / k = 3 mm; its strength falls from 8 mm to zero at 20 mm. With values per joint, each of
-the n springs has 1/n of stiffness and strength: the joint as a whole follows the same curve.
+A spring yields at F = 3 kN and y = F / k = 3 mm; its strength falls from 8 mm to zero at 20 mm. With values per joint,
+each of the n springs has 1/n of stiffness and strength: the joint as a whole follows the same curve.
 """
 import numpy as np
 import yade_timber as yt
@@ -35,8 +36,8 @@ def backbone(stretch):
 
 
 def cycle(turns, per="spring", dt=1e-4, share=SHARE, direction=(0, 0, 1)):
-    """A fixed beam and a column led to these stretches one after the other [m]: (m, 3) stretch along the direction [m], force of the
-    joint [N] and dissipated energy [J] of each step."""
+    """A fixed beam and a column led to these stretches one after the other [m]: (m, 3) stretch along the direction [m],
+    force of the joint [N] and dissipated energy [J] of each step."""
     _, column, joint = yielding(dt, per, share, density=HEAVY, fixed=True)
     engine, along = O.engines[1], Vector3(*direction)
 
@@ -58,7 +59,8 @@ def work(rows):
 
 @case
 def loop_area():
-    """Steady cycles of amplitude a, on the plateau and softened: area of the loop 4 phi F g (a - F g / k), from the friction part alone.
+    """Steady cycles of amplitude a, on the plateau and softened: area of the loop 4 phi F g (a - F g / k), from the
+    friction part alone.
 
     Turning points and kinks lie on steps. What remains is the recoil of the column of 1.6e10 kg: 1e-8 m in the cycle.
     """
@@ -78,8 +80,10 @@ def loop_area():
 
 @case
 def pinching():
-    """From a = 14 mm back through the slack to -a and to a again. Slip part: k (|d| - s) beyond the slack s = a - F g / k, else 0. Friction part:
-    a parallelogram. Largest difference of the joint's force from their sum, over F: the recoil of the column, 1e-8 m of 3 mm.
+    """From a = 14 mm back through the slack to -a and to a again. Slip part: k (|d| - s) beyond the slack s = a - F g /
+    k, else 0. Friction part:
+    a parallelogram. Largest difference of the joint's force from their sum, over F: the recoil of the column, 1e-8 m of
+    3 mm.
     """
     a, dt = 0.014, 1e-4
     force, rows = backbone(a), []
@@ -99,10 +103,11 @@ def pinching():
 
 @case
 def energy_to_failure():
-    """Tension, compression and shear to the ultimate stretch: F (d_c + d_u) / 2 - F^2 / 2k for each spring, no energy left to release.
+    """Tension, compression and shear to the ultimate stretch: F (d_c + d_u) / 2 - F^2 / 2k for each spring, no energy
+    left to release.
 
-    The springs break in the first step beyond d_u: the stretch is too large by at most 10 um of 20 mm. The dissipated energy is exact for
-    steps of any length; the trapezoidal work is off by k step^2 / 8 = 1e-5 J at each of two kinks.
+    The springs break in the first step beyond d_u: the stretch is too large by at most 10 um of 20 mm. The dissipated
+    energy is exact for steps of any length; the trapezoidal work is off by k step^2 / 8 = 1e-5 J at each of two kinks.
     """
     rows, dt = [], 1e-4
     area = STRENGTH * (SOFTENING + ULTIMATE) / 2 - STRENGTH**2 / (2 * STIFFNESS)
@@ -128,8 +133,8 @@ def energy_to_failure():
 
 
 def oscillate(dt, speed, duration=0.5):
-    """A column above a fixed beam starts at `speed` [m/s] with unstretched springs: (largest stretch [m], largest residual over the
-    energy [-], share of the energy that is dissipated [-])."""
+    """A column above a fixed beam starts at `speed` [m/s] with unstretched springs: (largest stretch [m], largest
+    residual over the energy [-], share of the energy that is dissipated [-])."""
     _, column, joint = yielding(dt, fixed=True)
     yt.set_velocity(column, (0, 0, speed))
     start = column.state.mass * speed**2 / 2
@@ -139,8 +144,9 @@ def oscillate(dt, speed, duration=0.5):
 
 @case
 def oscillator_that_yields():
-    """Largest stretch: m v^2 / 2 = 4 (F y / 2 + F (R - y)), before the strength falls. The energy balance closes with the second order of the
-    trapezoidal rule; kinks lie at any fraction of a step, so that single residuals scatter about the order.
+    """Largest stretch: m v^2 / 2 = 4 (F y / 2 + F (R - y)), before the strength falls. The energy balance closes with
+    the second order of the trapezoidal rule; kinks lie at any fraction of a step, so that single residuals scatter
+    about the order.
     """
     dts, rows, speed = (2e-4, 1e-4, 5e-5, 2.5e-5), [], 4.5
     runs = [oscillate(dt, speed) for dt in dts]

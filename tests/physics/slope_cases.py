@@ -12,11 +12,15 @@ O = yw.Omega()
 DT = 1e-11
 """Time step in which a body is moved by a prescribed velocity; too short for forces to change it noticeably. [s]"""
 DIFFERENCE = 1e-8
-"""Displacement or rotation of the differences h [m, rad]: F'' h^2 / 6 is 1e-6 F for overlaps of 5 um; rounding of the energies, 1e-16 J / h, is less."""
+"""Displacement or rotation of the differences h [m, rad]: F'' h^2 / 6 is 1e-6 F for overlaps of 5 um; rounding of the
+energies, 1e-16 J / h, is less.
+"""
 
 
 def load(bodies):
-    """Two bodies, no gravity, no dashpots; the integrator is first, so that the forces of a step are those after its displacement."""
+    """Two bodies, no gravity, no dashpots; the integrator is first, so that the forces of a step are those after its
+    displacement.
+    """
     O.reset()
     O.bodies.append(bodies)
     chain = yt.engines(gravity=(0, 0, 0), damping_ratio=0, sweeps=0, health_check=0)
@@ -25,7 +29,9 @@ def load(bodies):
 
 
 def move(displacement, angle=(0, 0, 0)):
-    """Move body 1 by displacement (3,) [m] and rotate it by angle (3,) [rad] within a step; returns its force and torque (6,) afterwards."""
+    """Move body 1 by displacement (3,) [m] and rotate it by angle (3,) [rad] within a step; returns its force and
+    torque (6,) afterwards.
+    """
     body = O.bodies[1]
     body.state.vel = Vector3(*displacement) / DT
     body.state.angMom = body.state.ori * Vector3(*[w * i for w, i in zip(body.state.ori.conjugate() * Vector3(*angle) / DT, body.state.inertia)])
@@ -36,7 +42,9 @@ def move(displacement, angle=(0, 0, 0)):
 
 
 def slope(energy, direction):
-    """Force or torque along a direction (6,) and minus the derivative of energy() along it; body 1 ends at its initial position."""
+    """Force or torque along a direction (6,) and minus the derivative of energy() along it; body 1 ends at its initial
+    position.
+    """
     displacement, angle = np.array(direction[:3]) * DIFFERENCE, np.array(direction[3:]) * DIFFERENCE
     move(-displacement, -angle)
     low = energy()
@@ -110,7 +118,8 @@ def joints():
         engine = find_engine(yw.JointEngine)
         scale = np.linalg.norm(move((0, 0, 0)))
         directions = {f"axis {k}": row for k, row in enumerate(np.eye(6))}
-        # Springs are linear, rotations are not: h^2 = 1e-16; the rest is rounding, 1e-14 J / h over 1e4 N. Observed: 6e-9.
+        # Springs are linear, rotations are not: h^2 = 1e-16; the rest is rounding, 1e-14 J / h over 1e4 N. Observed:
+        # 6e-9.
         rows += compared(f"joint, {name} stiffnesses, body 2", lambda: engine.elastic, directions, scale, 1e-7)
         rows += first_body(name, engine, scale)
     return rows

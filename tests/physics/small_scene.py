@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A small scene with all mechanisms: a column and beam with damped joints, a block that slides into the column, friction, gravity.
+"""A small scene with all mechanisms: a column and beam with damped joints, a block that slides into the column,
+friction, gravity.
 
-No faces are parallel, flush or symmetric, so that no comparison depends on ties. As a script it runs the scene and prints
-the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS [yielding]`.
+No faces are parallel, flush or symmetric, so that no comparison depends on ties. As a script it runs the scene and
+prints the final state as hexadecimal numbers: `yade -j2 -n -x small_scene.py SECONDS [yielding]`.
 """
 import numpy as np
 import yade.wrapper as yw

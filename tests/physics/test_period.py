@@ -36,8 +36,9 @@ def period(samples, step):
 
 @pytest.mark.parametrize("direction", AXES)
 def test_tiled_house(direction):
-    """Ambient vibration of two dwellings of 1963 and 1983 in Murakami: 3.8 to 5.7 Hz (Sato, Nagaoka University of Technology, 2020), which is
-    0.18 to 0.26 s; periods grow with the drift, as the stiffness in the model is that at 1/150. 0.2 to 0.5 s is the range of both."""
+    """Ambient vibration of two dwellings of 1963 and 1983 in Murakami: 3.8 to 5.7 Hz (Sato, Nagaoka University of
+    Technology, 2020), which is 0.18 to 0.26 s; periods grow with the drift, as the stiffness in the model is that at
+    1/150. 0.2 to 0.5 s is the range of both."""
     model = scenario.build(scenario.Scenario("period", "tiled_house", options={"skip_rest": 0}))
     samples = roof_motion(model, AXES[direction])
     assert 0.5e-3 < samples.max() < 5e-3  # drifts of about 1/3000

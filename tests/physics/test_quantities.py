@@ -37,7 +37,8 @@ def frame(stiffness=(KN, KS), density=0.01):
 
 
 def test_period_of_a_one_mass_frame():
-    """Each column is a rigid bar with a rotation spring kn a^2 at both ends and two shear springs 4 ks in series: 1 / k = h^2 / (2 kn a^2) + 1 / (2 ks).
+    """Each column is a rigid bar with a rotation spring kn a^2 at both ends and two shear springs 4 ks in series: 1 / k
+    = h^2 / (2 kn a^2) + 1 / (2 ks).
 
     The slab's rocking on the columns' axial springs changes omega^2 by some 1e-4; the columns have 1e-6 of the mass.
     """
@@ -65,7 +66,8 @@ def test_free_motions_are_no_modes():
 
 
 def test_equal_modes_have_one_set_of_shapes():
-    """The two sways of a square frame are along the axes and the same in every call; ARPACK alone gives others in each."""
+    """The two sways of a square frame are along the axes and the same in every call; ARPACK alone gives others in each.
+    """
     frame()
     one, other = ([(mode.omega2, mode.shape.tolist()) for mode in natural_modes()] for _ in range(2))
     assert one == other
@@ -75,7 +77,9 @@ def test_equal_modes_have_one_set_of_shapes():
 
 
 def pendulum(mass_density):
-    """A tall block on four springs at its foot, compressed by its weight; forces are those of this state. Returns (block's body, height of its centre)."""
+    """A tall block on four springs at its foot, compressed by its weight; forces are those of this state. Returns
+    (block's body, height of its centre).
+    """
     O.reset()
     base = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
     block = O.bodies.append(yt.box((0.3, 0.3, HEIGHT), (0, 0, HEIGHT / 2), None, yt.timber(density=mass_density)))
@@ -89,9 +93,11 @@ def pendulum(mass_density):
 
 @pytest.mark.parametrize("density", [20.0, 340.0])
 def test_weight_softens_and_overturns(density):
-    """Sway u and rotation phi of the block's centre at height h: K = [[4 ks, -4 ks h], [-4 ks h, 4 ks h^2 + kn a^2 - W h]], here solved by hand.
+    """Sway u and rotation phi of the block's centre at height h: K = [[4 ks, -4 ks h], [-4 ks h, 4 ks h^2 + kn a^2 - W
+    h]], here solved by hand.
 
-    The heavier block overturns: W h > kn a^2. Tolerance: its omega^2 is a small difference, in which errors of 1e-4 count tenfold.
+    The heavier block overturns: W h > kn a^2. Tolerance: its omega^2 is a small difference, in which errors of 1e-4
+    count tenfold.
     """
     body, h = pendulum(density)
     m, inertia = body.state.mass, body.state.inertia[0]
@@ -104,9 +110,11 @@ def test_weight_softens_and_overturns(density):
 
 
 def test_shear_is_the_force_of_the_columns():
-    """Shear from momenta = minus the forces of contacts and joints in the cut, in every step of a shaken frame with contacts.
+    """Shear from momenta = minus the forces of contacts and joints in the cut, in every step of a shaken frame with
+    contacts.
 
-    The acceleration of the ground is constant, so that its mean over a step is its value; the remaining difference is rounding.
+    The acceleration of the ground is constant, so that its mean over a step is its value; the remaining difference is
+    rounding.
     """
     O.reset()
     base = O.bodies.append(yt.box((3, 3, 0.2), (0, 0, -0.1), fixed=True))
@@ -141,8 +149,9 @@ def cut_force(base, columns, slab, joints, at_base):
 def test_uplift_and_pull_under_a_static_push():
     """A column on a base, pushed by gravity aslant, rocks onto an edge and is held by the springs of its foot.
 
-    Moments about the edge, d from the springs: m gx h - m g b = theta (sum k d^2 - m g h - m gx b). The contact point lies the rounding
-    radius (10 % of the side) within the face. Opening and pull follow from theta; the small rotation (0.02) leaves errors below 1 %.
+    Moments about the edge, d from the springs: m gx h - m g b = theta (sum k d^2 - m g h - m gx b). The contact point
+    lies the rounding radius (10 % of the side) within the face. Opening and pull follow from theta; the small rotation
+    (0.02) leaves errors below 1 %.
     """
     push, b, h = 2.0, 0.4 * SIDE, HEIGHT / 2
     O.reset()

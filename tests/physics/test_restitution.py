@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies that fall on a plate at the default step: points, edges, faces and the foot of a column, in every phase of the step.
+"""Bodies that fall on a plate at the default step: points, edges, faces and the foot of a column, in every phase of the
+step.
 
-The restitution of one point with Hertz's spring and a critical dashpot is 0.1196 (docs/theory.md). Points of a face share the impulse with a softness of
-0.02: up to 0.02 more. Several dashpots of a face dissipate more, so that faces may leave slower.
+The restitution of one point with Hertz's spring and a critical dashpot is 0.1196 (docs/theory.md). Points of a face
+share the impulse with a softness of 0.02: up to 0.02 more. Several dashpots of a face dissipate more, so that faces may
+leave slower.
 """
 import itertools
 
@@ -42,7 +44,9 @@ PHASES = np.arange(8) / 8 + 0.01
 
 
 def bounce(extents, orientation, speed, phase, step=STEP):
-    """(restitution, energy after over energy before, least dissipation of a step over it, unconverged steps) of a fall without gravity."""
+    """(restitution, energy after over energy before, least dissipation of a step over it, unconverged steps) of a fall
+    without gravity.
+    """
     O.reset()
     O.bodies.append(yt.box((6, 6, 0.4), (0, 0, -0.2), fixed=True))
     body = yt.box(extents, (0, 0, 0), orientation)
@@ -81,7 +85,9 @@ def test_one_point_has_the_exact_restitution():
 
 @pytest.mark.parametrize("size", [0.005, 0.02, 0.1])
 def test_no_step_lets_a_cube_gain_energy(size):
-    """Cubes that turn, at steps in which they move by up to their size. The energy after the impact is at most that before; 1e-6: the sweeps' tolerance."""
+    """Cubes that turn, at steps in which they move by up to their size. The energy after the impact is at most that
+    before; 1e-6: the sweeps' tolerance.
+    """
     for step in (1e-4, 5e-4, 2e-3, 5e-3):
         for speed in (0.05, 1.0, 4.0):
             if speed * step > size:

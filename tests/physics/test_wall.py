@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A bay with sheathing under imposed drifts, against the backbone and the loops by which the Japanese code rates walls.
 
-The storey is moved as a mechanism: columns turn about their feet by the angle theta, everything above them moves along a circle. The wall's
-shear is the force between the beams plus the force between the columns times L / h.
+The storey is moved as a mechanism: columns turn about their feet by the angle theta, everything above them moves along
+a circle. The wall's shear is the force between the beams plus the force between the columns times L / h.
 """
 import math
 import sys
@@ -37,7 +37,9 @@ def backbone(theta):
 
 
 def test_shear_follows_the_backbone(tmp_path):
-    """To 0.5 %: the mechanism's stretches are theta to within theta^2 / 6 in the columns' half and 1 in 1000 in the beams' at 1/10."""
+    """To 0.5 %: the mechanism's stretches are theta to within theta^2 / 6 in the columns' half and 1 in 1000 in the
+    beams' at 1/10.
+    """
     bay = bay_of(tmp_path)
     rows = bay.path(0, 0.102)
     assert max(abs(shear - backbone(theta)) for theta, shear in rows) < 5e-3 * STRENGTH
@@ -71,8 +73,8 @@ def test_energy_of_the_first_loading(tmp_path):
 
 
 def test_code_criteria_of_the_multiplier():
-    """A wall of multiplier 2.5 has 4.9 kN/m, by the four criteria of its test: two thirds of the largest load, the load at 1/150,
-    ductility 0.2 sqrt(2 mu - 1) times the plateau with mu to the drift at 80 % of the load, and yielding."""
+    """A wall of multiplier 2.5 has 4.9 kN/m, by the four criteria of its test: two thirds of the largest load, the load
+    at 1/150, ductility 0.2 sqrt(2 mu - 1) times the plateau with mu to the drift at 80 % of the load, and yielding."""
     allowable = 4900 * LENGTH
     at_80 = ULTIMATE - 0.8 * (ULTIMATE - SOFTENING)
     ductility = 0.2 * math.sqrt(2 * at_80 / YIELD - 1) * STRENGTH
@@ -82,8 +84,9 @@ def test_code_criteria_of_the_multiplier():
 
 @pytest.mark.parametrize("amplitude", [1 / 60, 1 / 45, 1 / 30])
 def test_damping_of_the_loops(tmp_path, amplitude):
-    """Second cycle: the friction part alone dissipates, 4 phi F (a - y), which is (2 / pi) phi (1 - y / a) of equivalent damping. Published for
-    timber structures with slip: 0.2 (1 - 1 / sqrt(mu)) (Notification 1457 of 2000), mu = a / y; they agree within 0.01."""
+    """Second cycle: the friction part alone dissipates, 4 phi F (a - y), which is (2 / pi) phi (1 - y / a) of
+    equivalent damping. Published for timber structures with slip: 0.2 (1 - 1 / sqrt(mu)) (Notification 1457 of 2000),
+    mu = a / y; they agree within 0.01."""
     bay = bay_of(tmp_path)
     bay.path(0, amplitude, -amplitude, amplitude)
     before = queries.energy()["joint_yield"]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The wall rack of scripts/validation: monotonic push and a few cycles of walls of tests, beside the tests' loads; the usual evaluation."""
+"""The wall rack of scripts/validation: monotonic push and a few cycles of walls of tests, beside the tests' loads; the
+usual evaluation.
+"""
 import sys
 from pathlib import Path
 
@@ -32,8 +34,8 @@ def test_points_of_measured_walls(tmp_path, wall):
 
 @pytest.mark.parametrize("wall", BOARDS, ids=lambda wall: wall.name)
 def test_mean_level_beside_the_boards(tmp_path, wall):
-    """Three cycles at 1/120, 1/50 and 1/20, then a push: with the mean of the tests' multipliers alone, each load lies within the three tests, or
-    within 15 % of their mean; the design level has less than 60 % of the largest load."""
+    """Three cycles at 1/120, 1/50 and 1/20, then a push: with the mean of the tests' multipliers alone, each load lies
+    within the three tests, or within 15 % of their mean; the design level has less than 60 % of the largest load."""
     design = Rack(tmp_path, f"{{multiplier: {wall.mean('multiplier'):.4f}}}", length=wall.length, level="design")
     assert envelope(design.test(drifts=(), step=1e-3))[:, 1].max() < 0.6e3 * wall.mean("largest")
     rack = Rack(tmp_path, f"{{multiplier: {wall.mean('multiplier'):.4f}}}", length=wall.length)
@@ -44,7 +46,9 @@ def test_mean_level_beside_the_boards(tmp_path, wall):
 
 
 def test_pinching(tmp_path):
-    """Third cycle at 1/30 of the level mean: from the unloaded state there is 20 % of the peak's load within the slack, then the way back to the peak."""
+    """Third cycle at 1/30 of the level mean: from the unloaded state there is 20 % of the peak's load within the slack,
+    then the way back to the peak.
+    """
     rack = Rack(tmp_path, "{multiplier: 2.5}")
     peak = rack.path(0, 1 / 30, -1 / 30, 1 / 30, -1 / 30, 1 / 30)[-1][1]
     assert peak == pytest.approx(2.8 * 4900 * 0.91, rel=0.01)
@@ -55,7 +59,9 @@ def test_pinching(tmp_path):
 
 
 def test_evaluation_of_a_bilinear_wall():
-    """Elastic to 10 kN at 1/100, constant to 1/20, linear to zero at 1/10: its own bilinear curve, less the triangle behind 1/20."""
+    """Elastic to 10 kN at 1/100, constant to 1/20, linear to zero at 1/10: its own bilinear curve, less the triangle
+    behind 1/20.
+    """
     curve = [(0, 0), (0.01, 10.0), (0.05, 10.0), (0.1, 0)]
     found = evaluate([(drift, np.interp(drift, *np.transpose(curve))) for drift in np.linspace(0, 0.1, 10001)])
     assert (found.yield_load, found.largest_load, found.ultimate_drift) == pytest.approx((10, 10, 0.06), rel=1e-3)
@@ -66,7 +72,9 @@ def test_evaluation_of_a_bilinear_wall():
 
 
 def test_evaluation_of_a_curved_wall():
-    """Two lines, 0 to 4 and to 10 kN, of slopes 800 and 300 kN/rad, to 1/40; the lines through 0.1 and 0.4, 0.4 and 0.9 are the curve's own: Py = 4."""
+    """Two lines, 0 to 4 and to 10 kN, of slopes 800 and 300 kN/rad, to 1/40; the lines through 0.1 and 0.4, 0.4 and 0.9
+    are the curve's own: Py = 4.
+    """
     found = evaluate([(0, 0), (0.005, 4), (0.025, 10), (0.05, 5), (0.1, 0)])
     assert found.yield_load == pytest.approx(4, rel=1e-9)
     assert found.ultimate_drift == pytest.approx(0.035)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every attribute of every class of ours says its unit: the doc ends with [m], [-] ... and, maybe, a source in parentheses."""
+"""Every attribute of every class of ours says its unit: the doc ends with [m], [-] ... and, maybe, a source in
+parentheses.
+"""
 import re
 
 import pytest

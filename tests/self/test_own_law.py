@@ -45,7 +45,9 @@ def test_all_steps_are_there(patched):
 
 
 def test_law(patched):
-    """Force and energy at closed forms, F = k n (1 + n/d) and U = k n^2 (1/2 + n/(3 d)), and the inverse; a few roundings."""
+    """Force and energy at closed forms, F = k n (1 + n/d) and U = k n^2 (1/2 + n/(3 d)), and the inverse; a few
+    roundings.
+    """
     (patched / "check.cpp").write_text(CHECK)
     subprocess.run(["c++", "-std=c++17", "-Ipkg", "check.cpp", "-o", "check"], cwd=patched, check=True)
     rows = [list(map(float, line.split())) for line in subprocess.run([patched / "check"], capture_output=True, text=True).stdout.splitlines()]

@@ -1,8 +1,10 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> text -> pictures; study starts runs and reads recordings; api over all.
+"""Imports between the rooms of the package: house + motion -> scene -> run -> recording -> text -> pictures; study
+starts runs and reads recordings; api over all.
 
-Inside study: driver -> batch -> retrofit; driver -> ensemble. The package, its scripts and their tests never import the research beside it.
+Inside study: driver -> batch -> retrofit; driver -> ensemble. The package, its scripts and their tests never import the
+research beside it.
 """
 import ast
 from pathlib import Path

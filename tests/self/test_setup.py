@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""scripts/setup with stand-ins for apt, dpkg, cmake and yade: what it does, and the one line for each way it can fail."""
+"""scripts/setup with stand-ins for apt, dpkg, cmake and yade: what it does, and the one line for each way it can fail.
+"""
 import hashlib
 import io
 import os

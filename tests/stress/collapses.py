@@ -174,7 +174,8 @@ class Watch:
 
 
 def outcome(case):
-    """Build and run a Case or Heap -> Outcome. Errors of the health check end it; those of the house file are raised."""
+    """Build and run a Case or Heap -> Outcome. Errors of the health check end it; those of the house file are raised.
+    """
     case.build()
     watch, since, error = Watch(), time.perf_counter(), ""
     try:
@@ -213,7 +214,8 @@ def scenes():
 
 
 def frames(count=20, seed=49):
-    """Random plausible plain frames under the default motion; every second one has half the size, DAMPINGS take turns."""
+    """Random plausible plain frames under the default motion; every second one has half the size, DAMPINGS take turns.
+    """
     random = np.random.default_rng(seed)
     return [plain_frame(k, random) for k in range(count)]
 

@@ -13,7 +13,8 @@ O = yw.Omega()
 GAIN = 1e-3
 """Largest energy gain over the input [-]. Observed: 0.04 %, in six seconds of strong shaking under snow at 5e-4 s."""
 LOSS = 0.01
-"""Largest energy loss in the balance over the input [-]. Impacts above some 10 m/s of one or two steps lose up to a tenth of their energy;
+"""Largest energy loss in the balance over the input [-]. Impacts above some 10 m/s of one or two steps lose up to a
+tenth of their energy;
 observed in complete runs: at most 0.13 % (A, earthquake)."""
 SPIKE = 100.0
 """10 g in one sample of 10 ms. [m/s2]"""
@@ -22,7 +23,9 @@ STEP = 8.0
 
 
 def rough_record(duration):
-    """GroundMotion in samples of 10 ms: steps of STEP that change direction every 0.2 s, and a spike in a new direction every 0.1 s."""
+    """GroundMotion in samples of 10 ms: steps of STEP that change direction every 0.2 s, and a spike in a new direction
+    every 0.1 s.
+    """
     count = round(duration / 0.01)
     acceleration = np.zeros((count, 3))
     for k in range(count):
@@ -40,7 +43,9 @@ def strong_part(duration):
 
 
 def shaken(house, motion, duration, scale=1.0, snow_depth=0.0, dt=DEFAULT_DT):
-    """Run a house; returns (largest ratio of a body's speed to its bound, sampled every 0.05 s [-], energy gained over the input [-])."""
+    """Run a house; returns (largest ratio of a body's speed to its bound, sampled every 0.05 s [-], energy gained over
+    the input [-]).
+    """
     scenario.build(scenario.Scenario("extreme", house, motion, snow_depth, scale=scale, dt=dt))
     bounds = speed_bounds(motion, duration, scale)
     fastest = 0.0
@@ -61,7 +66,9 @@ def expect_sound(found):
 
 
 def speed_bounds(motion, duration, scale=1.0):
-    """Bound of each body's velocity: ground velocity, free fall over the height of the house, all springs of its joints at their strength [m/s]."""
+    """Bound of each body's velocity: ground velocity, free fall over the height of the house, all springs of its joints
+    at their strength [m/s].
+    """
     ground = scale * np.linalg.norm(np.cumsum(motion.acceleration, axis=0) * motion.dt, axis=1).max()
     stored = np.zeros(len(O.bodies))  # [J]
     for joint in engines.find_engine(yw.JointEngine).joints:
@@ -72,7 +79,8 @@ def speed_bounds(motion, duration, scale=1.0):
 
 
 def single_precision(house, snow_depth):
-    """Names of the elements that vertices in single precision change: refused, another number of faces, another volume."""
+    """Names of the elements that vertices in single precision change: refused, another number of faces, another volume.
+    """
     model = build_house(load_house(house), snow_depth=snow_depth)
     changed = []
     for element in model.elements:

@@ -16,10 +16,12 @@ LARGEST_SPEED = 50.0
 LARGEST_MASS_RATIO = 1e6
 """[-]"""
 STEP_SHARE = 0.1
-"""Time step of a pair times the angular frequency of one contact point on the lighter body [-]. Eight points whose arms quarter the
-effective mass have sqrt(32) = 5.7 times this frequency: omega dt < 0.6 (stable: 2)."""
+"""Time step of a pair times the angular frequency of one contact point on the lighter body [-]. Eight points whose arms
+quarter the effective mass have sqrt(32) = 5.7 times this frequency: omega dt < 0.6 (stable: 2)."""
 TRAVEL_SHARE = 0.1
-"""Displacement of the fastest point in a time step over the sum of rounding radii [-]: no body passes through a thin one in a step."""
+"""Displacement of the fastest point in a time step over the sum of rounding radii [-]: no body passes through a thin
+one in a step.
+"""
 ROTATION = 0.02
 """Rotation of the lighter body in a time step [rad]."""
 TRAVEL = 15
@@ -40,7 +42,8 @@ class Pair:
     kind: str
 
 
-# --- shapes ------------------------------------------------------------------------------------------------------------
+# --- shapes
+# ------------------------------------------------------------------------------------------------------------
 def direction(random):
     v = random.normal(size=3)
     return v / np.linalg.norm(v)
@@ -77,7 +80,8 @@ def shape(random, size):
             continue
 
 
-# --- one pair ----------------------------------------------------------------------------------------------------------
+# --- one pair
+# ----------------------------------------------------------------------------------------------------------
 def outward_normals(body):
     """Unit normals (n, 3) of the faces, and the faces as sets of corners."""
     corners = np.array(body.shape.vertices)
@@ -116,8 +120,8 @@ def rotation_between(random, a, b):
 
 
 def make_pair(random, overlap):
-    """Two bodies, a random feature of one approaching one of the other. overlap: initial overlap over that of one contact point at their
-    speed [-]."""
+    """Two bodies, a random feature of one approaching one of the other. overlap: initial overlap over that of one
+    contact point at their speed [-]."""
     sizes = SIZES[0] * (SIZES[1] / SIZES[0]) ** random.random(2)
     (first, kind1), (second, kind2) = shape(random, sizes[0]), shape(random, sizes[1])
     snow, fixed = random.random() < 0.2, random.random() < 0.2
@@ -163,13 +167,16 @@ def shift(body, displacement):
 
 
 def mobility(bodies, overlap):
-    """Largest 1/m + a^2/I of the free bodies [1/kg], with their smallest moment of inertia I and half the overlap as arm a. A contact point
-    is at the centre of the overlap, which may be far outside a needle in the rounding of a large body."""
+    """Largest 1/m + a^2/I of the free bodies [1/kg], with their smallest moment of inertia I and half the overlap as
+    arm a. A contact point is at the centre of the overlap, which may be far outside a needle in the rounding of a large
+    body."""
     return max(1 / b.state.mass + (overlap / 2) ** 2 / min(b.state.inertia) for b in bodies if b.dynamic)
 
 
 def impact_scale(bodies, speed, snow):
-    """(overlap [m], stiffness [N/m]) at the peak of an impact of the lighter body at that speed [m/s] with one contact point."""
+    """(overlap [m], stiffness [N/m]) at the peak of an impact of the lighter body at that speed [m/s] with one contact
+    point.
+    """
     mass = min(b.state.mass for b in bodies if b.dynamic)
     if snow:
         stiffness = bodies[1].material.stiffnessPerMass * bodies[1].state.mass
@@ -180,7 +187,8 @@ def impact_scale(bodies, speed, snow):
     return overlap, 2 * modulus * np.sqrt(radius * overlap)
 
 
-# --- a scene of pairs --------------------------------------------------------------------------------------------------
+# --- a scene of pairs
+# --------------------------------------------------------------------------------------------------
 def steps_for(pairs, dt):
     """Number of steps for the impact of the slowest pair."""
     durations = [TRAVEL * sum(b.shape.radius for b in pair.bodies) / pair.speed for pair in pairs]
@@ -222,8 +230,9 @@ def elastic(first, second):
 
 
 def point_energy(phys, point, force):
-    """W = F n / 2 of a linear and 2/5 F n of a Hertz spring, n from F (the force of a contact with initial overlap belongs to a smaller
-    overlap); beyond the limit of F, F times the additional overlap; and the energy of the tangential spring [J]."""
+    """W = F n / 2 of a linear and 2/5 F n of a Hertz spring, n from F (the force of a contact with initial overlap
+    belongs to a smaller overlap); beyond the limit of F, F times the additional overlap; and the energy of the
+    tangential spring [J]."""
     normal, shear = force[1], force[2]
     if normal <= 0:
         return 0.0
@@ -245,7 +254,9 @@ def momenta(bodies):
 
 @dataclass
 class Outcome:
-    """Outcome of an impact. gain: energy after over energy before; momentum: change over the largest possible exchange [-]."""
+    """Outcome of an impact. gain: energy after over energy before; momentum: change over the largest possible exchange
+    [-].
+    """
 
     kind: str
     energy: float  # before [J]
@@ -298,15 +309,21 @@ def impacts(count, seed, batch=100, **options):
     return [found for k in range(0, count, batch) for found in outcomes(pairs[k : k + batch], **options)]
 
 
-# --- bounds ------------------------------------------------------------------------------------------------------------
+# --- bounds
+# ------------------------------------------------------------------------------------------------------------
 ENERGY_BOUND = 1e-3
-"""Gain of energy over the initial energy [-]. Dashpots and friction dissipate; the splitting of the free rotation has an oscillating error
-of the order of ROTATION^2 = 4e-4. Observed: 2e-5, for needles without contact. One of 30 000 impacts (seed 2) exceeds the bound: a needle
-with moments of inertia of 5000:1, without contact, that rotates about its axis much faster than assumed: 1 %, 5e-5 at half the step."""
+"""Gain of energy over the initial energy [-]. Dashpots and friction dissipate; the splitting of the free rotation has
+an oscillating error of the order of ROTATION^2 = 4e-4. Observed: 2e-5, for needles without contact. One of 30 000
+impacts (seed 2) exceeds the bound: a needle with moments of inertia of 5000:1, without contact, that rotates about its
+axis much faster than assumed: 1 %, 5e-5 at half the step."""
 MOMENTUM_BOUND = 1e-11
-"""Change of momentum over that of the lighter body with the total energy [-]: rounding in 1500 steps, mass ratio 1e6. Observed: 1e-12."""
+"""Change of momentum over that of the lighter body with the total energy [-]: rounding in 1500 steps, mass ratio 1e6.
+Observed: 1e-12.
+"""
 ANGULAR_BOUND = 1e-5
-"""The same for angular momentum, with the reach as arm [-]: differences of orbital momenta at distances of up to 1e4 reaches. Observed: 1e-7."""
+"""The same for angular momentum, with the reach as arm [-]: differences of orbital momenta at distances of up to 1e4
+reaches. Observed: 1e-7.
+"""
 
 
 def expect_sound(found):

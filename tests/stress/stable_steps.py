@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Measured stability limits of the time step: slightly disturbed scenes, at time steps below and above the prediction of `yt.stable_dt`."""
+"""Measured stability limits of the time step: slightly disturbed scenes, at time steps below and above the prediction
+of `yt.stable_dt`.
+"""
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
@@ -44,7 +46,8 @@ def house(dt):
 
 
 def stiff_house(dt):
-    """House B with the paper's joints JOINT_FACTOR times as stiff and strong; those of floors and roof are unchanged."""
+    """House B with the paper's joints JOINT_FACTOR times as stiff and strong; those of floors and roof are unchanged.
+    """
     house(dt)
     for joint in engines.find_engine(yw.JointEngine).joints:
         if joint.kind in ("column_beam", "brace_beam"):
@@ -69,8 +72,8 @@ def disturb(seed=0):
 
 
 def is_stable(build, dt, damped=True):
-    """Whether the energy of the disturbed scene stays bounded for STEPS steps of dt [s]; damped=False: explicit springs without dashpots,
-    whose limit `yt.stable_dt` predicts."""
+    """Whether the energy of the disturbed scene stays bounded for STEPS steps of dt [s]; damped=False: explicit springs
+    without dashpots, whose limit `yt.stable_dt` predicts."""
     settled(build)
     if not damped:
         undamp()

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Collapses whose numbers hold: tiled houses, plain frames, members of 0.1 to 10 000 kg.
 
-YADE_TIMBER_HOUSES=N runs the first N runs of shipped houses at 1, 1.5 and 2 times the motion with seeds 1 to 4 (default:
+YADE_TIMBER_HOUSES=N runs the first N runs of shipped houses at 1, 1.5 and 2 times the motion with seeds 1 to 4
+(default:
 none; up to a minute each). Short forms: tests/physics/test_collapses_short.py.
 """
 import os

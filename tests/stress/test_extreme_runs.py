@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time steps around the stability limit, spikes and steps, stiff joints, single precision, ten minutes of shaking. Short forms:
+"""Time steps around the stability limit, spikes and steps, stiff joints, single precision, ten minutes of shaking.
+Short forms:
 tests/physics/test_stress_short.py."""
 import extreme_runs
 import pytest
@@ -22,8 +23,8 @@ def test_stable_below_the_predicted_limit(build):
 
 @pytest.mark.parametrize("build, share, damped", [(stable_steps.suspended_block, 1.1, False), (stable_steps.stack, 1.1, False), (stable_steps.stack, 6, True), (stable_steps.house, 16, True), (stable_steps.stiff_house, 8, True)])
 def test_unstable_above_the_predicted_limit(build, share, damped):
-    """Slightly above the limit of explicit springs. Implicit contacts and joints are stable above it: suspended_block at 20 times the prediction, house
-    at 8, stack at 4, stiff_house at 5."""
+    """Slightly above the limit of explicit springs. Implicit contacts and joints are stable above it: suspended_block
+    at 20 times the prediction, house at 8, stack at 4, stiff_house at 5."""
     assert not stable_steps.is_stable(build, share * stable_steps.settled(build), damped)
 
 
@@ -39,7 +40,8 @@ def test_spikes_and_steps(house):
 
 
 def test_ten_minutes_of_shaking():
-    """House C in sixty repetitions of the strong part of the motion, at half its amplitude: no creep, no energy gain."""
+    """House C in sixty repetitions of the strong part of the motion, at half its amplitude: no creep, no energy gain.
+    """
     expect_sound(shaken("C", strong_part(600.0), 600.0, scale=0.5))
 
 

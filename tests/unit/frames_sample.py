@@ -98,7 +98,8 @@ def write(path, **options):
 
 
 def write_tables(folder):
-    """Write joints.csv and columns.csv beside the frames: joint k is pulled by 1.25 k kN; the south-west column falls."""
+    """Write joints.csv and columns.csv beside the frames: joint k is pulled by 1.25 k kN; the south-west column falls.
+    """
     joints = [f"joint{k},{1250 * k},{800 - 100 * k},{'before' if k == 0 else 'broken'}" for k in range(8)]
     columns = [f"column.{side},{uplift},{state}" for side, uplift, state in
                (("SW", 2.5, "fallen"), ("SE", 0.0029, "standing"), ("NW", 0.0, "standing"), ("NE", 0.0314, "standing"))]
@@ -107,7 +108,9 @@ def write_tables(folder):
 
 
 def walled_run():
-    """The same with three wall sheets instead of the first six joints; joint k loses all its springs at FALL + 0.1 k [s]."""
+    """The same with three wall sheets instead of the first six joints; joint k loses all its springs at FALL + 0.1 k
+    [s].
+    """
     made = run()
     joints, order = made.joints, np.arange(8)
     joints.kind[:6] = ["wall_beam", "wall_column"] * 3

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`yt.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an object."""
+"""`yt.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an
+object.
+"""
 import signal
 import subprocess
 import sys

@@ -107,7 +107,9 @@ def unfinished(folder):
 
 
 def test_frames_of_an_unfinished_run(tmp_path):
-    """Read from the log to the last bit and as far as it is complete; frames of an ended run are those of the file alone."""
+    """Read from the log to the last bit and as far as it is complete; frames of an ended run are those of the file
+    alone.
+    """
     unfinished(tmp_path)
     made, read = frames(ended=False), files.load(tmp_path / files.NAME)
     for name in ("time", "position", "orientation", "load", "broken"):

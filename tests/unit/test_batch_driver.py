@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""scripts/study/batch.py with real runs: stopped, killed, resumed; tables and options with errors are refused before the first run."""
+"""scripts/study/batch.py with real runs: stopped, killed, resumed; tables and options with errors are refused before
+the first run.
+"""
 
 import csv
 import os

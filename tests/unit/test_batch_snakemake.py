@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Parameter tables with Snakemake, on the cores of this machine and on a real Slurm whose daemons the test starts and stops."""
+"""Parameter tables with Snakemake, on the cores of this machine and on a real Slurm whose daemons the test starts and
+stops.
+"""
 
 import csv
 import os
@@ -110,7 +112,9 @@ PartitionName=test Nodes={host} Default=YES State=UP
 
 @pytest.fixture
 def slurm(tmp_path_factory):
-    """Path of the slurm.conf of a cluster whose one node is this machine. Its three daemons run in the foreground and end with the test."""
+    """Path of the slurm.conf of a cluster whose one node is this machine. Its three daemons run in the foreground and
+    end with the test.
+    """
     if missing:
         pytest.skip(f"{', '.join(missing)} not installed (scripts/setup --with-cluster)")
     folder = tmp_path_factory.mktemp("slurm")

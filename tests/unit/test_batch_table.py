@@ -107,7 +107,9 @@ def test_refused_values(table):
 
 
 def test_comma_separated_values(table):
-    """CSV as a spreadsheet writes it: byte order mark, quotes, blanks in a value, empty cells for defaults, no line end."""
+    """CSV as a spreadsheet writes it: byte order mark, quotes, blanks in a value, empty cells for defaults, no line
+    end.
+    """
     (first, second) = table('\ufeffhouse,description,scale,set,snow\nB,"calm, long",0.5,,\n=,strong,2,a=1;b=2,1')
     assert (first.cells, first.description) == ({"house": "B", "scale": "0.5"}, "calm, long")
     assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"} and first.name.startswith("calm_long-")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Identity of a run: everything that decides its results and nothing else. Damaged checkpoints: test_cli_errors; whole runs: test_run."""
+"""Identity of a run: everything that decides its results and nothing else. Damaged checkpoints: test_cli_errors; whole
+runs: test_run.
+"""
 import shutil
 from dataclasses import replace
 from pathlib import Path

@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Constant parts of records: a warning that names mean and remedy, from every reader; none for motions as recorded, nor after processing."""
+"""Constant parts of records: a warning that names mean and remedy, from every reader; none for motions as recorded, nor
+after processing.
+"""
 
 import subprocess
 import sys
@@ -96,7 +98,9 @@ def test_no_warning_for_motions_as_recorded(tmp_path):
 
 @pytest.mark.filterwarnings("error")
 def test_noise_of_a_component_without_motion(tmp_path):
-    """A vertical of the last digit is none of the house's concern; neither is a motion of zeros, nor a constant one once it is removed."""
+    """A vertical of the last digit is none of the house's concern; neither is a motion of zeros, nor a constant one
+    once it is removed.
+    """
     read_motion(plain(tmp_path, WAVES * (1, 1, 0) + (0, 0, 0.01)))
     read_motion(plain(tmp_path, 0 * WAVES))
     MotionRequest(record=plain(tmp_path, 0 * WAVES + (0, 0, -1177)), detrend=0).motion(0.01)

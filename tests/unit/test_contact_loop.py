@@ -79,7 +79,9 @@ def test_bodies_moved_by_hand_or_erased():
 
 
 def test_bounding_boxes_of_fast_bodies():
-    """A block flies half a metre at 40 m/s, 1 cm per step, against a wall. The contact is detected, and the rebound is not faster."""
+    """A block flies half a metre at 40 m/s, 1 cm per step, against a wall. The contact is detected, and the rebound is
+    not faster.
+    """
     O.reset()
     O.bodies.append(yt.box((0.1, 2, 2), (0, 0, 0), fixed=True))
     flying = O.bodies.append(yt.box((0.2, 0.1, 0.1), (0.65, 0, 0)))
@@ -119,7 +121,9 @@ def test_interaction_erased_by_hand():
 
 
 def test_other_shapes():
-    """Two small spheres, whose boxes have no margin, collide beside a box on the ground: same result as with YADE's engines alone."""
+    """Two small spheres, whose boxes have no margin, collide beside a box on the ground: same result as with YADE's
+    engines alone.
+    """
 
     def run(wrapped):
         O.reset()

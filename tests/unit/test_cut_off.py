@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs whose numbers fail: results until then are kept and named as cut off; energy from nothing is refused; convergence is counted."""
+"""Runs whose numbers fail: results until then are kept and named as cut off; energy from nothing is refused;
+convergence is counted.
+"""
 import json
 import math
 

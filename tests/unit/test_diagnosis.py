@@ -26,7 +26,9 @@ def side(name, group, storey, direction, snow=None):
 
 
 def test_braced_house():
-    """B, storey 1: 4 braces of 45 x 90 in bays of 0.91 m: 7.28 m; floor 8.19 x 7.28 m; light roof: 0.29 m and 0.83 kN per m2."""
+    """B, storey 1: 4 braces of 45 x 90 in bays of 0.91 m: 7.28 m; floor 8.19 x 7.28 m; light roof: 0.29 m and 0.83 kN
+    per m2.
+    """
     area = 8.19 * 7.28
     one = side("B", "main", "1", "ew")
     assert one["wall_quantity_m"] == pytest.approx(4 * 2 * 0.91, abs=1e-3)
@@ -47,8 +49,9 @@ def test_house_that_is_not_symmetric():
     """Side wing: both N-S braces on its east line, 2.275 m from its middle; four E-W ones on lines 3.64 m apart.
 
     Torsion: E-W 3.64 m x 1.82^2 m2; radius^2 = torsion / 3.64 m of N-S quantity = 1.82^2.
-    Mass: floor, beams, roof and columns lie symmetric to the middle; the four braces of storey 2, 45 x 90 x 2878 mm, lie 2.275 m (two) and
-    1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter than the diagonal, 2e-4 of Re, and Re is rounded to 5e-4.
+    Mass: floor, beams, roof and columns lie symmetric to the middle; the four braces of storey 2, 45 x 90 x 2878 mm,
+    lie 2.275 m (two) and 1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter than the diagonal, 2e-4 of
+    Re, and Re is rounded to 5e-4.
     """
     one = side("l_house", "side", "1", "ns")
     assert one["wall_quantity_m"] == pytest.approx(2 * 2 * 0.91, abs=1e-3)
@@ -69,7 +72,9 @@ def test_snow_adds_to_the_required_strength():
 
 
 def test_uplift():
-    """B, corner column, storey 1: N = 0.8 x 2 + 0.8 x 2 - 1.0 = 2.2, two fittings of 5.88 kN; C2's broken ones hold nothing."""
+    """B, corner column, storey 1: N = 0.8 x 2 + 0.8 x 2 - 1.0 = 2.2, two fittings of 5.88 kN; C2's broken ones hold
+    nothing.
+    """
     known = diagnosis("B")["structures"]["main"]["uplift"]
     assert (known["largest_kn"], known["fitting_kn"], known["too_weak"]) == (pytest.approx(2.2 * 5.3), pytest.approx(11.76), 0)
     assert diagnosis("C2")["structures"]["main"]["uplift"]["too_weak"] > 0

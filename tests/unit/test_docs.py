@@ -1,11 +1,13 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands in README.md and docs/ run, links resolve, pages keep their limits of length, each key of summary.json is defined.
+"""Commands in README.md and docs/ run, links resolve, pages keep their limits of length, each key of summary.json is
+defined.
 
-A fenced block of language `sh` is a list of commands; each must exit with status 0. A comment above the block changes this:
+A fenced block of language `sh` is a list of commands; each must exit with status 0. A comment above the block changes
+this:
 `<!-- test: --duration 0.02 -->` adds these options to each command, `<!-- test: fails -->` requires status 1,
-`<!-- test: skip, REASON -->` skips the block. Two comments apply to other blocks: `<!-- file: NAME -->` writes the block to that
-file, `<!-- test: printed -->` requires each of its lines in the output of the last commands.
+`<!-- test: skip, REASON -->` skips the block. Two comments apply to other blocks: `<!-- file: NAME -->` writes the
+block to that file, `<!-- test: printed -->` requires each of its lines in the output of the last commands.
 The blocks of a page run in order, in a temporary folder that links to the repository's files.
 """
 import json
@@ -213,7 +215,9 @@ def leaves(value, path=""):
 
 
 def differences(defined, found):
-    """(keys of a summary without a definition, definitions without a key). A key without parts, as `record`, may be defined beside its parts."""
+    """(keys of a summary without a definition, definitions without a key). A key without parts, as `record`, may be
+    defined beside its parts.
+    """
     undefined = [key for key in found if not any(fnmatchcase(key, pattern) for pattern in defined)]
     unused = [pattern for pattern in defined if not any(fnmatchcase(key, pattern) or key.startswith(pattern + ".") for key in found)]
     return undefined, unused

@@ -28,7 +28,9 @@ Summary.sample(scenario=' '.join(sys.argv), made_from=identity.made_from(options
 
 
 def test_only_missing_runs_are_done(tmp_path, monkeypatch):
-    """Options reach the script; a run with a summary of the same options is kept; a failed run records its error and does not stop the others."""
+    """Options reach the script; a run with a summary of the same options is kept; a failed run records its error and
+    does not stop the others.
+    """
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, "import sys\nif '--seed=7' in sys.argv: sys.exit('error: no')\n" + WRITES)
     tasks = [Task("run", tmp_path / name, RunOptions(house="A", **given)) for name, given in (("a", {"dt": 2e-4}), ("b", {"seed": 7}), ("c", {}))]
@@ -43,7 +45,8 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
 
 
 def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
-    """Other options, another house file, another file that it extends, another record, another version of the package."""
+    """Other options, another house file, another file that it extends, another record, another version of the package.
+    """
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts, said = fake_script(tmp_path, WRITES), []
     house, beside, record = tmp_path / "own.yaml", tmp_path / "beside.yaml", tmp_path / "own.csv"

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Names in any encoding and cells that a spreadsheet would evaluate: a run ends with its results, a table is text, no file is quoted."""
+"""Names in any encoding and cells that a spreadsheet would evaluate: a run ends with its results, a table is text, no
+file is quoted.
+"""
 import csv
 import io
 import json

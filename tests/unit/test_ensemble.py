@@ -38,7 +38,8 @@ def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):
     return Summary.sample(**{**values, "broken": {"total": 1, "springs": springs}, **more})
 
 
-# --- disturbance --------------------------------------------------------------------------------------------------------
+# --- disturbance
+# --------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,9 @@ def shifts(model, plain):
 
 
 def test_free_elements_are_disturbed_by_at_most_the_limit(houses):
-    """The vectors fill the cube: the largest is within 2 % of the limit (1400 vertices), the mean component is 0 within five standard errors."""
+    """The vectors fill the cube: the largest is within 2 % of the limit (1400 vertices), the mean component is 0 within
+    five standard errors.
+    """
     moved = np.vstack(list(shifts(houses[1], houses[0]).values()))
     sizes = np.linalg.norm(moved, axis=1)
     # an addition rounds a coordinate of up to 8 m to 1e-15 m
@@ -81,7 +84,8 @@ def test_joints_and_shapes_stay(houses):
         assert len(a.solid.faces) == len(b.solid.faces)
 
 
-# --- statistics ---------------------------------------------------------------------------------------------------------
+# --- statistics
+# ---------------------------------------------------------------------------------------------------------
 
 
 def test_spread_by_hand():
@@ -128,7 +132,8 @@ def test_the_run_that_is_shown(found, number):
     assert statistics.representative(dict(enumerate(found, 1))) == number
 
 
-# --- files --------------------------------------------------------------------------------------------------------------
+# --- files
+# --------------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -190,7 +195,7 @@ def test_files_of_an_ensemble(finished, monkeypatch):
     assert found["outcomes"]["unsafe"]["runs"] == 2 and found["outcomes"]["collapsed"]["share"] == pytest.approx(1 / 3)
     rows = list(csv.DictReader(io.StringIO((options.folder / "ensemble.csv").read_text())))
     assert [(row["run"], row["folder"], row["verdict"], row["collapse_time_s"]) for row in rows] == [
-        ("1", "runs/001", "unsafe", ""), ("2", "runs/002", "unsafe", ""), ("3", "runs/003", "collapsed", "2.9")]  # fmt: skip
+        ("1", "runs/001", "unsafe", ""), ("2", "runs/002", "unsafe", ""), ("3", "runs/003", "collapsed", "2.9")]
     shown = Summary.read(options.folder)
     assert shown.ensemble == Ensemble(1, 3, {"unsafe": 2, "collapsed": 1}, [0.1, 0.12])
     assert frames.load(options.folder / frames.NAME).summary == shown
@@ -236,7 +241,8 @@ def test_a_damaged_file_is_refused(tmp_path, content):
         ensemble.read(tmp_path)
 
 
-# --- sentences and picture ----------------------------------------------------------------------------------------------
+# --- sentences and picture
+# ----------------------------------------------------------------------------------------------
 
 
 def place(**more):

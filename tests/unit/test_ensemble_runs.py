@@ -38,7 +38,9 @@ def run(folder, *options, **script):
 
 
 def test_an_ensemble_is_extended_and_replaced(tmp_path):
-    """The first run is the run without --ensemble, bit for bit; the others differ from it by little: after 0.1 s by less than 1e-6 of drift."""
+    """The first run is the run without --ensemble, bit for bit; the others differ from it by little: after 0.1 s by
+    less than 1e-6 of drift.
+    """
     said = run(tmp_path, *SHORT, "--ensemble", "2", "--no-views")
     assert "2 of 2 runs to do" in said and "2 runs of house C2" in said and not (tmp_path / "ensemble.png").exists()
     kept = {path: path.stat().st_mtime_ns for path in tmp_path.glob("runs/*/summary.json")}
@@ -57,7 +59,9 @@ def test_an_ensemble_is_extended_and_replaced(tmp_path):
 
 
 def test_ctrl_c_and_faults(tmp_path):
-    """The runs save their checkpoints and end with the ensemble; the same command continues from these. A fault of the house is reported once."""
+    """The runs save their checkpoints and end with the ensemble; the same command continues from these. A fault of the
+    house is reported once.
+    """
     process = start(tmp_path, "C2", "--dt", "4e-4", "--every-step", "--ensemble", "2", "--jobs", "1", script="house")
     deadline = time.monotonic() + 60
     while not is_locked(tmp_path / "runs" / "001"):

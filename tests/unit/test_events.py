@@ -35,7 +35,9 @@ def events(run, log=None):
 
 
 def test_a_fall():
-    """With all joints intact: the columns pass 45 degrees at 2.79 s, the roof is down by half a storey at 60 degrees, 2.91 s."""
+    """With all joints intact: the columns pass 45 degrees at 2.79 s, the roof is down by half a storey at 60 degrees,
+    2.91 s.
+    """
     run = frames_sample.run()
     run.broken[:] = 0
     found = events(run)
@@ -70,7 +72,9 @@ def test_a_column_loose_from_the_start_may_fall():
 
 
 def test_drift_of_a_structure_is_the_larger_component():
-    """All levels of the main structure moved by 3 cm to the east and 4 cm to the north: 4 cm over the height of its lowest storey, not 5."""
+    """All levels of the main structure moved by 3 cm to the east and 4 cm to the north: 4 cm over the height of its
+    lowest storey, not 5.
+    """
     run = frames_sample.run(until=1.0)
     known, state = survey(run), states(run)[0][1]
     name = known.structures[0]
@@ -91,7 +95,9 @@ def test_a_resumed_log_repeats_nothing():
 
 
 def snowy_house(drop, slide, tilt=0.0):
-    """(survey, state) of a roof that leans by `tilt` [rad] about the east axis, with snow 0.6 m above its centre that has moved north and down in the roof's frame. [m]"""
+    """(survey, state) of a roof that leans by `tilt` [rad] about the east axis, with snow 0.6 m above its centre that
+    has moved north and down in the roof's frame. [m]
+    """
     run = frames_sample.run(until=0.0)
     e = run.elements
     for values, value in ((e.name, "snow"), (e.kind, "snow"), (e.group, "main"), (e.material, "snow")):
@@ -108,8 +114,8 @@ def snowy_house(drop, slide, tilt=0.0):
 @pytest.mark.parametrize("drop, slide, tilt, fallen", [
     (0, 0, 0, []), (0.9, 4.0, 0, []), (1.1, 3.0, 0, []), (1.1, 4.0, 0, [ROOF]), (3.4, 3.0, 0, []), (3.5, 3.0, 0, [ROOF]), (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
 def test_fallen_snow(drop, slide, tilt, fallen):
-    """Snow that a leaning roof carries along, or that hovers above the eaves (3.1 m north of the middle), has not fallen; it touches the ground
-    from a drop of 3.1 + 0.6 - 0.2 - 0.05 = 3.45 m on."""
+    """Snow that a leaning roof carries along, or that hovers above the eaves (3.1 m north of the middle), has not
+    fallen; it touches the ground from a drop of 3.1 + 0.6 - 0.2 - 0.05 = 3.45 m on."""
     found, state = snowy_house(drop, slide, tilt)
     assert found.fallen_snow(state) == fallen
 
@@ -144,7 +150,8 @@ def test_removed_elements_are_no_damage():
     assert found.count_columns(state) == Columns(3, 0, 0) and found.fallen_structures(state) == []
 
 
-# --- sentences ----------------------------------------------------------------------------------------------------------
+# --- sentences
+# ----------------------------------------------------------------------------------------------------------
 
 STANDING = {
     "model": "B", "earthquake": True, "joints": {"total": 206}, "columns": {"total": 90},
@@ -235,7 +242,9 @@ def test_damage_by_structure():
 
 
 def test_a_summary_is_the_same_after_a_file(tmp_path):
-    """All kinds of values: events, structures, counts of other kinds, sheets, which a house without walls does not have."""
+    """All kinds of values: events, structures, counts of other kinds, sheets, which a house without walls does not
+    have.
+    """
     event = Event(0.9, OwnWeight(True, {"main": Structure(peak_drift=0.01, broken=3)}))
     found = frames_sample.summary("A").changed(events=[event], joints={"roof_beam": 5, "wall_sheets": 2}, record=None)
     found.write(tmp_path)
@@ -247,7 +256,9 @@ def test_a_summary_is_the_same_after_a_file(tmp_path):
 
 
 def test_start_of_shaking():
-    """The sample's ground has 4 pi^2 0.2 sin(2 pi t) m/s2 after 1 s: 0.5 m/s2 at the second sample after it. Weak shaking does not count."""
+    """The sample's ground has 4 pi^2 0.2 sin(2 pi t) m/s2 after 1 s: 0.5 m/s2 at the second sample after it. Weak
+    shaking does not count.
+    """
     motion = frames_sample.motion()
     assert start_of_shaking(motion) == pytest.approx(1.02, abs=1e-6)
     motion.acceleration[:] *= 0.05
@@ -257,7 +268,7 @@ def test_start_of_shaking():
 @pytest.mark.parametrize("main, text", [
     ({"peak_drift": 1 / 45, "broken": 12}, "12 joints broken, peak drift 1/45"), ({"collapsed": True}, "collapsed"),
     ({"partly_broken": 1, "columns_lost": 2}, "1 joint partly broken, 2 columns lost, peak drift below 1/1000"),
-])  # fmt: skip
+])
 def test_damage_before_the_shaking(main, text):
     structures = {"main": Structure(**{"peak_drift": 1e-4, **main}), "shed": Structure(peak_drift=1e-4)}
     assert own_weight(OwnWeight(False, structures)) == f"damaged before the shaking, by its own weight: {text}"

@@ -64,7 +64,9 @@ def written(folder):
 
 @pytest.fixture
 def scene(tmp_path):
-    """A fixed plate of oak and a post of cedar with two joints, one of them unbreakable and of the whole; the post has moved since."""
+    """A fixed plate of oak and a post of cedar with two joints, one of them unbreakable and of the whole; the post has
+    moved since.
+    """
     O.reset()
     plate = body("plate", timber(OAK, "oak"), fixed=True, kind="floor")
     post = body("post", timber(CEDAR, "cedar"), radius=0.015, kind="column")
@@ -147,7 +149,8 @@ def test_yielding_joint(tmp_path):
 
 
 def test_names_of_materials(tmp_path):
-    """Equal values share a name, others with the same label get one of their own; without a label the law is the name."""
+    """Equal values share a name, others with the same label get one of their own; without a label the law is the name.
+    """
     O.reset()
     waxed = {**OAK, "friction": 0.25}
     for k, material in enumerate([timber(OAK, "wood"), timber(OAK, "beam"), timber(waxed, "wood"), yt.timber(), yt.snow(80.0, 3e4, 0.2)]):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Films: the right picture at the right time, shadows, captions, both formats; and the script's messages. Needs no YADE."""
+"""Films: the right picture at the right time, shadows, captions, both formats; and the script's messages. Needs no
+YADE.
+"""
 import shutil
 import subprocess
 import sys
@@ -22,7 +24,9 @@ SMALL = film.Format(width=320, height=180, rate=10)
 
 
 def test_slerp_is_the_shorter_arc():
-    """A third of the way between turns of 0.2 and 1.1 rad about z is 0.5 rad, whatever the sign of the second quaternion."""
+    """A third of the way between turns of 0.2 and 1.1 rad about z is 0.5 rad, whatever the sign of the second
+    quaternion.
+    """
     def turned(angle):
         return np.array([[np.cos(angle / 2), 0, 0, np.sin(angle / 2)]])
 
@@ -211,7 +215,8 @@ def test_a_letter_without_a_font_gives_one_notice(capsys, monkeypatch):
 
 @pytest.mark.skipif(not fonts.east_asian(), reason=f"no Japanese font is installed (package {fonts.PACKAGE})")
 def test_japanese_names_are_drawn(tmp_path):
-    """Ink where a missing letter would leave an empty box, of which matplotlib warns; the PDF embeds TrueType outlines."""
+    """Ink where a missing letter would leave an empty box, of which matplotlib warns; the PDF embeds TrueType outlines.
+    """
     from yade_timber.pictures import figures, report
 
     def sheet():

@@ -108,7 +108,9 @@ def test_module_of_another_yade_is_not_even_loaded(tmp_path, facts):
 
 @pytest.fixture
 def attempts(tmp_path, monkeypatch):
-    """Names of the modules that host.import_module tries; the first one fails with the complaint `attempts.complaint`, if there is one."""
+    """Names of the modules that host.import_module tries; the first one fails with the complaint `attempts.complaint`,
+    if there is one.
+    """
 
     class Attempts(list):
         complaint = None

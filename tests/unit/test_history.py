@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""History of a run: columns of history.csv, residual drift, amplitude at the end, beginning of a lean. Needs no YADE."""
+"""History of a run: columns of history.csv, residual drift, amplitude at the end, beginning of a lean. Needs no YADE.
+"""
 import math
 import os
 
@@ -64,7 +65,8 @@ def test_no_regular_file(tmp_path):
             History.read(path)
 
 
-# --- drift --------------------------------------------------------------------------------------------------------------
+# --- drift
+# --------------------------------------------------------------------------------------------------------------
 
 
 def of_drift(values, step=0.01):
@@ -75,7 +77,9 @@ def of_drift(values, step=0.01):
 @pytest.mark.parametrize("phase", np.linspace(0, 2 * np.pi, 9))
 @pytest.mark.parametrize("period", [0.3, 0.9, 1.7, 5.2])
 def test_residual_drift_does_not_depend_on_the_phase(phase, period):
-    """A drift of 0.02 with an oscillation of 0.01. Observed error: below 1e-4, from periods cut at whole samples; the mean of the last second is off by up to 0.01."""
+    """A drift of 0.02 with an oscillation of 0.01. Observed error: below 1e-4, from periods cut at whole samples; the
+    mean of the last second is off by up to 0.01.
+    """
     time = np.arange(0, 20, 0.01)
     residual, amplitude = drift.residual(of_drift(0.02 + 0.01 * np.sin(2 * np.pi * time / period + phase)))
     assert residual == pytest.approx([0.02, 0.0], abs=2e-4) and amplitude == pytest.approx([0.01, 0.0], rel=1e-2)
@@ -105,8 +109,8 @@ def test_residual_drift_without_a_period():
 
 
 def test_amplitude_is_that_of_the_last_swing():
-    """A wreck with a period of 5.2 s and 5 % of critical damping. The swing's range is the sum of a maximum and of the minimum before it; the mean
-    over a decaying swing is off by a twentieth of its amplitude."""
+    """A wreck with a period of 5.2 s and 5 % of critical damping. The swing's range is the sum of a maximum and of the
+    minimum before it; the mean over a decaying swing is off by a twentieth of its amplitude."""
     time = np.arange(0, 40, 0.01)
     swing = np.exp(-0.05 * 2 * np.pi * time / 5.2) * np.sin(2 * np.pi * time / 5.2)
     residual, amplitude = drift.residual(of_drift(0.3 + 0.7 * swing))

@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""House files with common mistakes and hostile content: file, line and member of the message; limits; a small house of its own."""
+"""House files with common mistakes and hostile content: file, line and member of the message; limits; a small house of
+its own.
+"""
 
 import os
 import sys

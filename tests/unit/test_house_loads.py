@@ -62,7 +62,9 @@ def test_weight_without_loads(tmp_path):
 
 
 def test_loads_replace_slabs_and_are_added_to_columns(tmp_path):
-    """Slabs weigh load times area, timber included; walls weigh load times length and storey height, half on the column at either end."""
+    """Slabs weigh load times area, timber included; walls weigh load times length and storey height, half on the column
+    at either end.
+    """
     bare, loaded = box(tmp_path), box(tmp_path, "loads: {roof: 0.9, floor: 1.5, wall: 0.64}\n")
     assert sum(e.mass for e in loaded.of_kind("roof")) == pytest.approx(0.9 * 4.12 * 3.12 * 1.25**0.5 * 1000 / G, rel=1e-9)
     assert sum(e.mass for e in loaded.of_kind("floor")) == pytest.approx(1.5 * 4.12 * 3.12 * 1000 / G, rel=1e-9)

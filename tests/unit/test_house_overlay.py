@@ -94,7 +94,9 @@ def test_refusals_name_row_and_column(changes, said):
 
 
 def test_free_bays_of_house_b():
-    """Free bays: 7 of 9 and 6 of 8 in walls with two braces, 7 and 4 on the inner lines, 37 a storey; all 4 of the entrance."""
+    """Free bays: 7 of 9 and 6 of 8 in walls with two braces, 7 and 4 on the inner lines, 37 a storey; all 4 of the
+    entrance.
+    """
     bays = free_bays(load_house("B"))
     assert len(bays) == len(set(bays)) == 2 * 37 + 4
     walls = {wall: sum(f"main.brace1.{wall}." in name for name in bays) for wall in ("NS.x0", "NS.x4", "NS.x8", "EW.y0", "EW.y4", "EW.y9")}
@@ -103,7 +105,9 @@ def test_free_bays_of_house_b():
 
 
 def test_free_bays_between_half_nodes(tmp_path):
-    """Columns at nodes 0, 0.5, 1.5, 2 of two walls: a bay that begins at a fraction is read back as itself, not as a bay on the line 2.1."""
+    """Columns at nodes 0, 0.5, 1.5, 2 of two walls: a bay that begins at a fraction is read back as itself, not as a
+    bay on the line 2.1.
+    """
     lines = [{"along": "y", "at": [0, 2], "from": 0, "to": 2}, {"along": "x", "at": [0, 2], "from": 0, "to": 2, "cut": True}]
     stack = [{"layer": "sill", "height": 0.12, "width": 0.12}, {"layer": "columns", "height": 2.2}, {"layer": "beams", "height": 0.12, "width": 0.12},
              {"layer": "roof", "type": "flat", "thickness": 0.1}]
@@ -119,7 +123,9 @@ def test_free_bays_between_half_nodes(tmp_path):
 
 
 def test_a_brace_in_a_free_bay_fits(tmp_path):
-    """No overlap and joints at both ends, in the bays nearest to B's own braces and in one of two modules on an inner line."""
+    """No overlap and joints at both ends, in the bays nearest to B's own braces and in one of two modules on an inner
+    line.
+    """
     names = ["main.brace1.NS.x0.1-2", "main.brace1.NS.x4.1-3", "main.brace2.EW.y9.7-6"]
     assert set(names) <= set(free_bays(load_house("B")))
     path = tmp_path / "house.yaml"

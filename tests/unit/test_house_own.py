@@ -60,7 +60,9 @@ def test_a_lean_keeps_all_joints(tmp_path):
 
 
 def test_a_brace_needs_a_joint_on_the_level_member(tmp_path):
-    """A brace of 15 mm touches sill and beam with less than joint_search.min_area; its joint with the column is not enough."""
+    """A brace of 15 mm touches sill and beam with less than joint_search.min_area; its joint with the column is not
+    enough.
+    """
     thin = "extends: storehouse\nname: own\nstructures: {store: {braces: {thickness: 0.015}}}\n"
     with pytest.raises(HouseError, match="has no joint at its bottom, where a contact area .*min_area"):
         check_house(house(tmp_path, thin))
@@ -104,7 +106,9 @@ def test_ridge_height_and_pitch_are_equivalent(tmp_path):
 
 @pytest.mark.parametrize("kind", ["gable", "hip"])
 def test_boxed_eaves(tmp_path, kind):
-    """Parallel slabs have soffits of 0.12 sqrt(1 + 0.16) / 0.4 = 0.323 m, enough for eaves of 0.2 m; wider ones are boxed, 0.11 m beyond them."""
+    """Parallel slabs have soffits of 0.12 sqrt(1 + 0.16) / 0.4 = 0.323 m, enough for eaves of 0.2 m; wider ones are
+    boxed, 0.11 m beyond them.
+    """
     slope, thickness, width = np.hypot(1, 0.4), 0.12, {"gable": 2, "hip": 4}[kind]
     for eaves in (0.2, 0.45, 0.9):
         model = shed(tmp_path, f"type: {kind}, pitch: 0.4, eaves: {eaves}, thickness: {thickness}", snow=0.5, nx=width, ny=width + 1)
@@ -123,7 +127,9 @@ def test_boxed_eaves(tmp_path, kind):
 
 @pytest.mark.parametrize("side, axis, sign", [("west", 0, -1), ("east", 0, 1), ("south", 1, -1), ("north", 1, 1)])
 def test_mono_pitch_roof(tmp_path, side, axis, sign):
-    """It falls to its side; joints hold it on the plates of both walls across the slope, those of the high wall with a fitting for each post."""
+    """It falls to its side; joints hold it on the plates of both walls across the slope, those of the high wall with a
+    fitting for each post.
+    """
     model = shed(tmp_path, f"type: mono, falls: {side}, pitch: 0.3, thickness: 0.12", snow=0.5, nx=3, ny=3)
     (slab,), (snow,) = model.of_kind("roof"), model.of_kind("snow")
     assert slab.name == f"shed.roof.{side}" and slab.vertices[:, 2].min() == pytest.approx(2.24)
@@ -170,7 +176,9 @@ def test_areas_meet_on_the_grid_line(tmp_path):
 
 
 def test_wings_of_the_l_house_are_joined():
-    """13 joints between the wings: 2 floors, 2 beams in 2 storeys, and the columns of the double wall; ends flush in the south."""
+    """13 joints between the wings: 2 floors, 2 beams in 2 storeys, and the columns of the double wall; ends flush in
+    the south.
+    """
     model = build_house(load_house("l_house"), 1.0)
     between = [j for j in model.joints if model.element(j.a).group != model.element(j.b).group]
     assert {j.kind for j in between} == {"wing_wing"}

@@ -20,7 +20,9 @@ ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
 
 
 def tables(field, path=""):
-    """(path, Record) of every table of the schema; `[]` list, `*` a name chosen by the user, `{key: x}` one of several forms."""
+    """(path, Record) of every table of the schema; `[]` list, `*` a name chosen by the user, `{key: x}` one of several
+    forms.
+    """
     if isinstance(field, ListOf):
         yield from tables(field.item, path + "[]")
     elif isinstance(field, MapOf):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Own houses in YADE: the worked examples stand still; snow stays or slides as friction says; small and pyramidal roofs hold."""
+"""Own houses in YADE: the worked examples stand still; snow stays or slides as friction says; small and pyramidal roofs
+hold.
+"""
 import math
 
 import numpy as np
@@ -87,7 +89,9 @@ def test_the_papers_houses_take_the_largest_step(house):
 
 
 def test_drift_refers_to_the_height_of_its_own_storey():
-    """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; a level that comes down by half its storey has collapsed."""
+    """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; a level that comes down by half its storey has
+    collapsed.
+    """
     O.reset()
     ids = [O.bodies.append(yt.box((1, 1, 1), (0, 0, 5 * k), fixed=True)) for k in (1, 2)]
     monitor = yt.HouseMonitor(bodies=ids, levels=[1, 2], heights=[2.0, 4.0])
@@ -174,11 +178,13 @@ structures:
     (7, 8, "type: hip, pitch: 0.45, eaves: 0.75", 0.85, 0.5), (10, 14, "type: hip, pitch: 0.25, eaves: 0.6", 0.85, 0.0),
     (7, 8, "type: mono, falls: west, pitch: 0.2, eaves: 0.6", 0.85, 0.5), (10, 4, "type: mono, falls: south, pitch: 0.4", 0.85, 1.0),
     (4, 6, "type: mono, falls: north, pitch: 0.05, eaves: 0.3", 1.5, 0.0), (10, 10, "type: mono, falls: east, pitch: 0.3, eaves: 0.9", 0.85, 0.0),
-])  # fmt: skip
+])
 def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, load, snow):
-    """Wall plates move by 0.65 mm and joints have 0.29 of their strength at most under gables, 1.2 mm and 0.50 under the wide hip roof.
+    """Wall plates move by 0.65 mm and joints have 0.29 of their strength at most under gables, 1.2 mm and 0.50 under
+    the wide hip roof.
 
-    Mono-pitch roofs, which are not symmetric, sway by a drift of 1.4e-4 at most; their plates move by 0.22 mm, their joints have 0.05 of their strength.
+    Mono-pitch roofs, which are not symmetric, sway by a drift of 1.4e-4 at most; their plates move by 0.22 mm, their
+    joints have 0.05 of their strength.
     Without tie beams three of the gables break joints, and their plates move by more than 0.2 m.
     """
     path = tmp_path / "wide.yaml"
@@ -191,7 +197,9 @@ def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, l
 
 
 def test_damage_before_the_shaking_is_an_event():
-    """The ground shakes from 0.5 s on; the entrance leans by 1/14 before. A house without that damage, and damage that comes later, have no event."""
+    """The ground shakes from 0.5 s on; the entrance leans by 1/14 before. A house without that damage, and damage that
+    comes later, have no event.
+    """
     shaking = np.zeros((100, 3))
     shaking[50:, 0] = 1.0
     for lean, time, events in ((0.0, 0.5, 0), (0.2, 0.3, 0), (0.2, 0.48, 1), (0.2, 0.6, 0)):
@@ -204,7 +212,9 @@ def test_damage_before_the_shaking_is_an_event():
 
 
 def test_peaks_of_joints_end_with_the_fall():
-    """Of a house that collapses they are those of the last frame before a storey drift of 1/10, of one that stands those of the whole run."""
+    """Of a house that collapses they are those of the last frame before a storey drift of 1/10, of one that stands
+    those of the whole run.
+    """
     stand("A", 0.02)
     observed = Observer(scenario.Scenario("stand", "A").build_model())
     monitor = engines.find_engine(yt.HouseMonitor)

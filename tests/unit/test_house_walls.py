@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Walls in house files: bays, openings, values of their springs, mistakes. Their mechanics: tests/physics/test_wall.py."""
+"""Walls in house files: bays, openings, values of their springs, mistakes. Their mechanics: tests/physics/test_wall.py.
+"""
 
 import sys
 from pathlib import Path
@@ -27,7 +28,9 @@ def sheets(model, kind="wall_beam"):
 
 
 def test_bays_storeys_and_names(tmp_path):
-    """Three bays in two storeys; bays with braces may have a wall, too; members and their joints are those of the bare house."""
+    """Three bays in two storeys; bays with braces may have a wall, too; members and their joints are those of the bare
+    house.
+    """
     model, bare = house(tmp_path, "{along: y, at: 8, from: 0, to: 3, type: plywood}"), build_house(load_house("C"))
     assert [joint.name for joint in sheets(model)][:2] == ["main.wall1.NS.x8.0-1.plywood.beams", "main.wall1.NS.x8.1-2.plywood.beams"]
     assert len(sheets(model)) == len(sheets(model, "wall_column")) == 6 == model.counts()["walls"]
@@ -40,7 +43,9 @@ def test_bays_storeys_and_names(tmp_path):
 
 @pytest.mark.parametrize("opening, wide, ratio", [("none", False, 1), ("window", False, 0.4), ("window", True, 0.3), ("door", False, 0.2), ("door", True, 0.15)])
 def test_values_of_the_springs(tmp_path, opening, wide, ratio):
-    """Level design: half of 1.5 times and of 150 / rad times the allowable 1.96 kN/m, over the bay's length; stretches are drifts times height or length."""
+    """Level design: half of 1.5 times and of 150 / rad times the allowable 1.96 kN/m, over the bay's length; stretches
+    are drifts times height or length.
+    """
     ends, length = ("{along: x, at: 4, from: 4, to: 7", 3 * 0.91) if wide else ("{along: x, at: 4, from: 0, to: 1", 0.91)
     ratio = {("window", True): 0.2, ("door", True): 0.1}.get((opening, wide), ratio)  # longer than 2 m
     model = house(tmp_path, ends + f", type: plywood, opening: {opening}, storeys: 1}}", level="design")
@@ -62,7 +67,9 @@ MEAN = [(1 / 120, 1.4), (1 / 80, 1.8), (1 / 30, 2.8), (0.115, 0.0)]
 
 
 def test_levels_of_a_multiplier(tmp_path):
-    """mean is the default; the house file and the caller may ask for design; a type that is stronger early is straight up to its peak."""
+    """mean is the default; the house file and the caller may ask for design; a type that is stronger early is straight
+    up to its peak.
+    """
     line, allowable = "{along: x, at: 0, from: 0, to: 1, type: %s, storeys: 1}", 2.5 * 1960
     joint, = sheets(house(tmp_path, line % "plywood"))
     assert np.ravel(drifts_and_shears(joint)) == pytest.approx(np.ravel([(d, r * allowable) for d, r in MEAN]))
@@ -94,8 +101,8 @@ def test_envelope_of_a_test(tmp_path):
 
 NAILS = ("{k: 4.83e5, Pv: 1130, dv: 2.3e-3, du: 0.017, spacing: 0.075, height: 3.0, "
          "board: {width: 0.91, heights: [1.82, 0.91], thickness: 0.012, shear_modulus: 3.92e8}}")
-"""Printed example of the book named in house/nails.py. Not printed there: boards of 3 x 6 and 3 x 3 shaku, nails 10 mm from their edges, plywood of
-12 mm and 392 N/mm2. Its results follow from them."""
+"""Printed example of the book named in house/nails.py. Not printed there: boards of 3 x 6 and 3 x 3 shaku, nails 10 mm
+from their edges, plywood of 12 mm and 392 N/mm2. Its results follow from them."""
 
 
 def test_printed_example_of_nails(tmp_path):
@@ -162,7 +169,9 @@ def test_the_tiled_house():
 
 
 def test_walls_are_added_by_name(tmp_path):
-    """In a bay without walls of house C, and in all of them; a second one of the type is refused by the name of its bay."""
+    """In a bay without walls of house C, and in all of them; a second one of the type is refused by the name of its
+    bay.
+    """
     names = free_wall_bays(load_house("C"), "plywood")
     assert "main.wall1.EW.y0.3-4.plywood" in names and len(names) == len(set(names)) > 80
     path = tmp_path / "walled.yaml"

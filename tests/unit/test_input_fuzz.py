@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damaged house files, records and motion options: each is used or refused in one line, within limits of time and memory.
+"""Damaged house files, records and motion options: each is used or refused in one line, within limits of time and
+memory.
 
 Few examples; the long run is in tests/stress.
 """

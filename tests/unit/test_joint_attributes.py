@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Attributes of a joint: the engine computes with packed copies. What is read is always of the last step, and what is set counts in the next one."""
+"""Attributes of a joint: the engine computes with packed copies. What is read is always of the last step, and what is
+set counts in the next one.
+"""
 import os
 import tempfile
 
@@ -12,7 +14,9 @@ from yade_timber.scene.engines import find_engine
 
 
 def hung(**options):
-    """A column that is joined to a plate and moves away from it: its state and the joint, with a stretch of each spring."""
+    """A column that is joined to a plate and moves away from it: its state and the joint, with a stretch of each
+    spring.
+    """
     column = column_on_plate(gravity=(0, 0, 0), **options)[1]
     yt.set_velocity(O.bodies[column], (0.01, 0.02, 0.5))
     O.run(20, True)
@@ -75,7 +79,9 @@ def test_law_and_body_set_between_steps():
 
 
 def test_envelope_set_between_steps():
-    """Points in place of the straight lines; with perJoint each of the four springs has a quarter of their forces. They are saved."""
+    """Points in place of the straight lines; with perJoint each of the four springs has a quarter of their forces. They
+    are saved.
+    """
     state, joint = hung()
     O.run(10, True)
     stretch = max(s.norm() for s in joint.stretches)

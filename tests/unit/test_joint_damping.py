@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joint dashpots in a session: energy, contacts, broken springs, bodies that are erased, fixed and freed, saved scenes, columns of the history."""
+"""Joint dashpots in a session: energy, contacts, broken springs, bodies that are erased, fixed and freed, saved scenes,
+columns of the history.
+"""
 import numpy as np
 import pytest
 import yade.wrapper as yw
@@ -48,7 +50,9 @@ def test_balance_of_a_rocking_column(sweeps):
 
 
 def test_without_contacts_the_column_swings_and_comes_to_rest():
-    """A member that hangs in one joint: 5 % of critical damping of a mode of 5 /s or more leaves exp(-0.05 * 5 * 40) = 5e-5 after 40 s."""
+    """A member that hangs in one joint: 5 % of critical damping of a mode of 5 /s or more leaves exp(-0.05 * 5 * 40) =
+    5e-5 after 40 s.
+    """
     post, joint = column(0.05)
     post.state.pos += (0, 0, 0.02)  # no contact; the springs pull it down and it swings about them
     joint.anchors2 = [(x, y, -0.52) for x, y, _ in CORNERS]

@@ -10,7 +10,9 @@ from yade_timber.recording.events import Event, StructureFallen
 
 
 def test_named_times():
-    """The box moves between 1 s and 2 s. The collapse at 2 s looks like the end; the strongest shaking at 1.2 s is CLOSE to a tilt at 1.6 s."""
+    """The box moves between 1 s and 2 s. The collapse at 2 s looks like the end; the strongest shaking at 1.2 s is
+    CLOSE to a tilt at 1.6 s.
+    """
     made = frames()
     made.summary = made.summary.changed(tilt_time_s=1.75)
     found = {chosen.reason: made.time[chosen.frame] for chosen in key_times.choose(made)}
@@ -36,7 +38,9 @@ def test_frames_chosen_by_their_motion():
 
 
 def test_each_panel_says_what_it_shows():
-    """Frames chosen by their motion have the state of the house: its drift, after a collapse that, without a history the number of broken joints."""
+    """Frames chosen by their motion have the state of the house: its drift, after a collapse that, without a history
+    the number of broken joints.
+    """
     made = frames()
     assert all(chosen.reason for chosen in key_times.choose(made))
     assert [key_times.state(made, frame) for frame in (10, 30, 40)] == ["drift below 1/1000", "drift 1/4", "after the collapse"]

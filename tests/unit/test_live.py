@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Changes to the scene of a live run: another scene or an earlier state loaded, members removed. At a terminal: test_run."""
+"""Changes to the scene of a live run: another scene or an earlier state loaded, members removed. At a terminal:
+test_run.
+"""
 import json
 import time
 from contextlib import ExitStack
@@ -60,7 +62,9 @@ def test_a_collapse_ends_the_run_on_request(tmp_path):
 
 @pytest.mark.parametrize("replace", [O.reset, O.resetThisScene, O.switchScene])
 def test_scene_replaced_within_a_step(replace):
-    """A step that runs Python code ends before its scene is replaced: YADE by itself would wait for ever, with the interpreter locked."""
+    """A step that runs Python code ends before its scene is replaced: YADE by itself would wait for ever, with the
+    interpreter locked.
+    """
     O.reset()
     O.engines = [PyRunner(command="import time; time.sleep(0.05)", iterPeriod=1)]
     O.dt = 1e-3

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wrong bodies and lists of engines: each is refused, is done right, or stops the run with a line that names the fault."""
+"""Wrong bodies and lists of engines: each is refused, is done right, or stops the run with a line that names the fault.
+"""
 import math
 
 import pytest
@@ -156,7 +157,8 @@ def test_joints_of_a_list():
 
 
 def test_material_in_contact():
-    """Stiffness and friction of the contacts follow; the geometry of a shape in the scene cannot be changed in place."""
+    """Stiffness and friction of the contacts follow; the geometry of a shape in the scene cannot be changed in place.
+    """
     plate, column = column_on_plate()
     assert O.interactions[plate, column].phys.friction == pytest.approx(0.5)
     O.bodies[column].material = yt.timber(friction=0.1)
@@ -208,7 +210,9 @@ def test_two_kinds_of_gravity():
 
 @pytest.mark.parametrize("first, last", [(i, k) for i in range(2, 8) for k in range(i + 1, 8)])
 def test_swapped_engines(first, last):
-    """Of HealthCheck, ForceResetter, collider, loop, joints, gravity, contact forces, integrator; joints and gravity may be swapped."""
+    """Of HealthCheck, ForceResetter, collider, loop, joints, gravity, contact forces, integrator; joints and gravity
+    may be swapped.
+    """
     column_on_plate()
     chain = list(O.engines)
     assert len(chain) == 8

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Guards before each step: engines by their role, the time step, parts of bodies and engines replaced by any door, absurd values."""
+"""Guards before each step: engines by their role, the time step, parts of bodies and engines replaced by any door,
+absurd values.
+"""
 import math
 
 import pytest
@@ -243,7 +245,9 @@ def parts_of_a_scene():
 
 
 def test_values_that_are_not_finite():
-    """Refused by each door; the process goes on, and the value stays. What a class itself leaves infinite (no strength limit) may be so."""
+    """Refused by each door; the process goes on, and the value stays. What a class itself leaves infinite (no strength
+    limit) may be so.
+    """
     count = 0
     for part in parts_of_a_scene():
         for name in dir(type(part)):

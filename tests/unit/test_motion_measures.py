@@ -52,7 +52,9 @@ def test_velocity_and_displacement_of_a_smooth_pulse():
 
 
 def test_fine_motions_have_displacements():
-    """20 s at 1e-5 s, too many samples for the high-pass: as at 1e-3 s, with the same straight lines, to the error of the trapezoids there."""
+    """20 s at 1e-5 s, too many samples for the high-pass: as at 1e-3 s, with the same straight lines, to the error of
+    the trapezoids there.
+    """
     t = np.arange(20001) * 1e-3
     values = np.sin(2 * np.pi * t) * np.sin(np.pi * t / 20) ** 2
     fine = one_component(np.interp(np.arange(2000001) * 1e-5, t, values), 1e-5)
@@ -63,7 +65,8 @@ def test_fine_motions_have_displacements():
 def test_motion_cut_within_its_shaking_does_not_drift():
     """A burst cut while it moves has a velocity at its first sample. The high-pass removes it, before that sample too.
 
-    The last 20 s are at rest to 2.2 mm, as observed; integrated from the first sample instead, the displacement runs away by 1.8 m.
+    The last 20 s are at rest to 2.2 mm, as observed; integrated from the first sample instead, the displacement runs
+    away by 1.8 m.
     """
     t = np.arange(6000) * 0.01 - 10.0
     burst = one_component(np.exp(-((t / 2.0) ** 2)) * np.cos(2 * np.pi * 1.0 * t + 0.5), 0.01)

@@ -178,7 +178,9 @@ KNET_CSVS = {
 @pytest.mark.parametrize("form", KNET_CSVS.values(), ids=KNET_CSVS.keys())
 @pytest.mark.parametrize("encoding, end", [("utf-8", ""), ("utf-8-sig", ",,")])
 def test_knet_csv(tmp_path, form, encoding, end):
-    """Offsets are removed as from K-NET's ASCII files; of two sensors that at the surface counts; a spreadsheet adds commas."""
+    """Offsets are removed as from K-NET's ASCII files; of two sensors that at the surface counts; a spreadsheet adds
+    commas.
+    """
     motion = read_motion(write(tmp_path, "a.csv", knet_csv_text(**form).replace("\n", f"{end}\r\n"), encoding))
     assert motion.dt == pytest.approx(0.1)
     same_waves(motion, 1e-3)

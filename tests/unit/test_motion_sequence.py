@@ -33,7 +33,9 @@ def test_motions_follow_each_other_after_the_gap():
 
 
 def test_parts_of_a_processed_sequence():
-    """Scaled by two: factors and peaks double. From 2 s on: times are earlier, the first motion is shorter. Turned by 90 degrees: N-S becomes E-W."""
+    """Scaled by two: factors and peaks double. From 2 s on: times are earlier, the first motion is shorter. Turned by
+    90 degrees: N-S becomes E-W.
+    """
     both = joined([motion(0.01, 300), motion(0.01, 200, "b", 1)], [1.0, 0.5], 5.0)
     double, cut, side = scaled(both, 2.0).parts, trim(both, 2.0).parts, turned(both, 90.0).parts
     assert [part.scale for part in double] == [2.0, 1.0] and double[1].pga_gal["ud"] == pytest.approx(2 * both.parts[1].pga_gal["ud"])
@@ -43,7 +45,9 @@ def test_parts_of_a_processed_sequence():
 
 
 def test_different_steps_keep_the_straight_lines_between_samples():
-    """0.01 and 0.004 s have the common step 0.002 s; at every old sample the value is the old one, between them it lies on the line."""
+    """0.01 and 0.004 s have the common step 0.002 s; at every old sample the value is the old one, between them it lies
+    on the line.
+    """
     first, second = motion(0.01, 101), motion(0.004, 51, "b", 1)
     both = joined([first, second], [1.0, 1.0], 2.0)
     assert both.dt == pytest.approx(0.002, rel=1e-12)
@@ -70,7 +74,7 @@ def test_records_with_their_factors(text, found):
 
 @pytest.mark.parametrize("words, found", [
     ("house.py C --record a then b@0.8 --snow 1", "house.py C --record a --snow 1 --then b@0.8"), ("--record a then b then c", "--record a --then b;c"),
-    ("--record a --then b", "--record a --then b"), ("C --quake then", "C --quake --then ")])  # fmt: skip
+    ("--record a --then b", "--record a --then b"), ("C --quake then", "C --quake --then ")])
 def test_then_as_a_word(words, found):
     assert " ".join(with_then(words.split())) == found
 

@@ -25,7 +25,9 @@ def column(y):
 
 
 def frames(*states):
-    """Two columns 2 m apart, the second one lifted by 0.1 m in frame 0, with one sheet for each two states: of its joints."""
+    """Two columns 2 m apart, the second one lifted by 0.1 m in frame 0, with one sheet for each two states: of its
+    joints.
+    """
     start = [column(0.0), column(2.0)]
     moved = [start[0], start[1] + [0, 0, 0.1]]
     count = len(states)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The player's file: what is packed comes out again, small enough, whole, and needs nothing else. Needs no YADE and no browser."""
+"""The player's file: what is packed comes out again, small enough, whole, and needs nothing else. Needs no YADE and no
+browser.
+"""
 import base64
 import json
 import re
@@ -191,7 +193,9 @@ def test_tables_with_other_content_are_refused(tmp_path, bad):
 
 
 def test_the_japanese_result_judges_all_structures():
-    """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged porch."""
+    """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged
+    porch.
+    """
     others = {"entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01), "porch": Structure(peak_drift=1e-3)}
     found = Summary.sample(
         joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.05, "ew": 0.01}},

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The player's bundle was built from its sources: checked by the hash in its header and, with node, by building it again."""
+"""The player's bundle was built from its sources: checked by the hash in its header and, with node, by building it
+again.
+"""
 import re
 import shutil
 import subprocess

@@ -188,7 +188,9 @@ def card_of(driver, place):
 
 
 def test_the_card_shows_largest_forces_and_uplift(driver, tmp_path):
-    """Of a joint at a foot and at a head, of a column, in both languages; of a roof no uplift; nothing for a run without these tables."""
+    """Of a joint at a foot and at a head, of a column, in both languages; of a roof no uplift; nothing for a run
+    without these tables.
+    """
     frames_sample.write_tables(tmp_path)
     for file in ("other.h5", "frames.h5"):
         page = player.make([(tmp_path / file, frames_sample.run())], tmp_path / "page.html")

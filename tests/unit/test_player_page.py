@@ -142,7 +142,8 @@ def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(driver, pages):
 
 
 def test_labels_of_the_drift_limits_are_in_order(driver, pages):
-    """From the top down 1/10, 1/30, 1/120, apart by the height of a letter; recorded while the curves are drawn again."""
+    """From the top down 1/10, 1/30, 1/120, apart by the height of a letter; recorded while the curves are drawn again.
+    """
     load(driver, pages[0] + "#t=1", motion=False)
     ask(driver, """(() => {
         window.labels = {};

@@ -39,7 +39,9 @@ def test_no_text_from_data_runs(driver, tmp_path, number):
 
 
 def test_the_policy_stops_foreign_code(driver, tmp_path):
-    """Were markup from data in the page, the browser would not run it: script, handler, style, picture and network are refused."""
+    """Were markup from data in the page, the browser would not run it: script, handler, style, picture and network are
+    refused.
+    """
     page = player.make([("x", frames_sample.run())], tmp_path / "page.html")
     foreign = "<script>document.title = 'RUN'</script><img src=x onerror=\"document.title = 'RUN'\"><style>h1 { display: none }</style>"
     page.write_text(page.read_text(encoding="utf-8").replace('<main id="runs">', foreign + '<main id="runs">'), encoding="utf-8")

@@ -97,7 +97,9 @@ def test_page_and_report(folder, tmp_path):
 
 
 def test_weight(folder):
-    """Total and weight per floor area without snow, which is stated apart; a house without a floor area has a weight only."""
+    """Total and weight per floor area without snow, which is stated apart; a house without a floor area has a weight
+    only.
+    """
     known = Weight(83.2, 0.0, 119.2, 0.698, {})
     assert report.weight(known) == "Weight 83 kN, 0.70 kN per m² of 119 m² of floor."
     assert report.weight(Weight(83.2, 59.4, 0.0, None, {})) == "Weight 83 kN; snow 59 kN."
@@ -188,7 +190,9 @@ def test_sustained_shear_of_an_impact():
 
 
 def test_accelerations_are_those_of_an_accelerometer():
-    """Slow motion passes, the limit of the band has 1/sqrt(2), an impact of one sample hardly counts; gaps and unequal steps stay."""
+    """Slow motion passes, the limit of the band has 1/sqrt(2), an impact of one sample hardly counts; gaps and unequal
+    steps stay.
+    """
     time = np.arange(0, 10, 0.01)
     middle = (time > 2) & (time < 8)
     for hertz, share in ((0.0, 1.0), (1.0, 1.0), (5.0, 0.992), (10.0, 0.7071), (30.0, 0.037)):
@@ -241,7 +245,8 @@ def test_the_cause_of_a_wall_is_shear():
 
 
 def test_report_of_a_collapse():
-    """A chain of the first failures instead of joints most loaded after their fall; how far the others were before it."""
+    """A chain of the first failures instead of joints most loaded after their fall; how far the others were before it.
+    """
     run = collapsed_run()
     rows = [{"joint": name, "utilisation [-]": f"{0.1 * k}", "pull [N]": "4600", "shear [N]": "1500", "strength [N]": "5880", "state": "whole"}
             for k, name in enumerate(run.joints.name)]

@@ -13,7 +13,8 @@ PULSE = 5.0  # [s] start of the shaking
 
 
 def block_on_plate(skip_rest, amplitude=3.0):
-    """A block that rests on a plate, and half a second of shaking from PULSE on, hard enough to make it slide (m/s2)."""
+    """A block that rests on a plate, and half a second of shaking from PULSE on, hard enough to make it slide (m/s2).
+    """
     O.reset()
     time = np.arange(0, 6.5, 0.01)
     shaking = np.where(time > PULSE, amplitude * np.sin(2 * np.pi * (time - PULSE)), 0) * (time < PULSE + 0.5)
@@ -59,7 +60,9 @@ def test_slow_growth_is_no_rest():
 
 
 def test_growing_displacements_are_no_rest():
-    """Gravity of 2e-6 m/s2: for three seconds speed and displacement are below the limits of rest, but the displacement grows."""
+    """Gravity of 2e-6 m/s2: for three seconds speed and displacement are below the limits of rest, but the displacement
+    grows.
+    """
     O.reset()
     O.bodies.append(yt.box((0.4, 0.3, 0.2), (0, 0, 0)))
     O.engines = yt.engines(gravity=(2e-6, 0, 0), skip_rest=STRIDE)

@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ranking of strengthening measures: candidates, motions, tests against known samples, rounds with stubbed runs, overview."""
+"""Ranking of strengthening measures: candidates, motions, tests against known samples, rounds with stubbed runs,
+overview.
+"""
 import math
 import sys
 from pathlib import Path
@@ -45,7 +47,9 @@ def test_bays_as_text(name, text):
 
 
 def test_measures_of_whole_walls():
-    """Braces in the 6 free bays of B's south wall (docs of free_bays) are one measure of each storey; both walls of A's entrance are, too."""
+    """Braces in the 6 free bays of B's south wall (docs of free_bays) are one measure of each storey; both walls of A's
+    entrance are, too.
+    """
     found = {one.name: one for one in measures.candidates("B", 0.0, ("brace", "wall"), group="wall")}
     south = found["main.brace1.EW.y0"]
     assert south.text == "braces in 6 bays: main, storey 1, south wall"
@@ -57,7 +61,9 @@ def test_measures_of_whole_walls():
 
 
 def test_no_measure_stands_in_a_window_or_a_door():
-    """South wall of tiled_house: nodes 0 1 2 4 5 7 8, windows and doors at 2-4 and 5-7. Its inner walls leave doors at 1-3 and 6-7."""
+    """South wall of tiled_house: nodes 0 1 2 4 5 7 8, windows and doors at 2-4 and 5-7. Its inner walls leave doors at
+    1-3 and 6-7.
+    """
     names = [one.name for one in measures.candidates("tiled_house", 0.0, ("brace", "wall"))]
     assert [name.rpartition(".")[2] for name in names if name.startswith("main.brace1.EW.y0.")] == ["0-1", "1-2", "5-4", "8-7"]
     assert not any(name.startswith("main.wall1.EW.y0.") for name in names) and "main.wall1.EW.y4.1-3.plywood" in names
@@ -112,7 +118,9 @@ def test_files_of_one_record_are_one_motion(tmp_path, monkeypatch):
 
 
 def test_signed_rank_of_a_published_sample():
-    """Nine pairs of Hollander and Wolfe, Nonparametric Statistical Methods, example 3.1 (depression scores): two-sided exact p = 0.0391."""
+    """Nine pairs of Hollander and Wolfe, Nonparametric Statistical Methods, example 3.1 (depression scores): two-sided
+    exact p = 0.0391.
+    """
     before = [1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30]
     after = [0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29]
     assert race.signed_rank(np.subtract(after, before)) == pytest.approx(0.0391, abs=5e-5)
@@ -121,14 +129,17 @@ def test_signed_rank_of_a_published_sample():
 
 
 def test_holm():
-    """Holm (1979): 0.01, 0.02, 0.04 become 0.03, 0.04, 0.04; with two further tests that are not shown 0.05, 0.08, 0.12."""
+    """Holm (1979): 0.01, 0.02, 0.04 become 0.03, 0.04, 0.04; with two further tests that are not shown 0.05, 0.08,
+    0.12.
+    """
     assert race.holm([0.02, 0.01, 0.04], 3) == pytest.approx([0.04, 0.03, 0.04])
     assert race.holm([0.02, 0.01, 0.04], 5) == pytest.approx([0.08, 0.05, 0.12])
 
 
 @pytest.mark.parametrize("count, needed, usual", [(1, 10, 16), (3, 10, 16), (4, 14, 20), (13, 14, 20), (81, 14, 24)])
 def test_needed_motions(count, needed, usual):
-    """Equal signs under the least number of motions are a difference for each of three finalists: 3 * 2 / 2^10 <= 0.05."""
+    """Equal signs under the least number of motions are a difference for each of three finalists: 3 * 2 / 2^10 <= 0.05.
+    """
     assert race.needed_motions(count) == needed and race.default_motions(count) == usual
     assert race.FINALISTS * 2 / 2**race.LEAST_TESTS <= race.SIGNIFICANCE
 
@@ -149,7 +160,9 @@ def test_a_collapse_counts_as_the_largest_drift():
 
 
 def entry(name, factors):
-    """An Entry whose drifts are those of the house times factors; the house drifts by 0.01 everywhere. A factor of infinity is a collapse."""
+    """An Entry whose drifts are those of the house times factors; the house drifts by 0.01 everywhere. A factor of
+    infinity is a collapse.
+    """
     return race.Entry(measures.Candidate(name, name), {f"seed{k}": run(0.01 * factor, math.isinf(factor)) for k, factor in enumerate(factors)})
 
 
@@ -162,13 +175,15 @@ LOWER = [0.5 + 0.01 * k for k in range(12)]
 
 
 def test_words_of_a_ranking():
-    """Equal signs under 12 motions are a difference, a scatter about 1 is none; a dropped measure costs the three that are tested nothing."""
+    """Equal signs under 12 motions are a difference, a scatter about 1 is none; a dropped measure costs the three that
+    are tested nothing.
+    """
     house, good, none = entry("house", [1.0] * 12), entry("good", LOWER), entry("none", SCATTER)
     bad, dropped = entry("bad", [1 / factor for factor in LOWER]), entry("dropped", LOWER[:4])
     dropped.dropped = 4
     results = race.ranking([none, dropped, bad, good], house, seeds(0, 12))
     assert [(result.entry.candidate.name, result.words) for result in results] == [
-        ("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"), ("dropped", "not tested: dropped after 4 motions")]  # fmt: skip
+        ("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"), ("dropped", "not tested: dropped after 4 motions")]
     assert results[0].ratio == pytest.approx(math.sqrt(0.55 * 0.56)) and results[0].motions == 12
     assert results[0].p == pytest.approx(3 * 2 / 2**12) and results[3].p is None
 
@@ -182,7 +197,7 @@ def test_the_motions_of_the_selection_do_not_test():
 
 
 @pytest.mark.parametrize("measure, house, p, words", [
-    (3, 10, 2 / 2**7, "better"), (10, 3, 2 / 2**7, "worse"), (5, 10, 2 / 2**5, race.NO_DIFFERENCE), (10, 10, 1.0, race.NO_DIFFERENCE)])  # fmt: skip
+    (3, 10, 2 / 2**7, "better"), (10, 3, 2 / 2**7, "worse"), (5, 10, 2 / 2**5, race.NO_DIFFERENCE), (10, 10, 1.0, race.NO_DIFFERENCE)])
 def test_collapses_are_compared_where_drifts_say_nothing(measure, house, p, words):
     """Collapses under so many of ten motions, of three measures with equal numbers: McNemar's exact test, by hand."""
     def fallen(number):
@@ -227,9 +242,11 @@ def test_the_summary_names_what_is_better_or_what_was_tested():
 
 @pytest.mark.parametrize("weak", [0.0, 0.5])
 def test_false_discoveries_are_rare(weak):
-    """200 rankings of 20 measures without any effect, lognormal scatter of a factor 1.5, collapses beyond a drift: at most 5 % find one.
+    """200 rankings of 20 measures without any effect, lognormal scatter of a factor 1.5, collapses beyond a drift: at
+    most 5 % find one.
 
-    10 expected at most, 19 at 99.8 %. weak: mean logarithm of the drift over that of a collapse; 0: every second motion is a collapse
+    10 expected at most, 19 at 99.8 %. weak: mean logarithm of the drift over that of a collapse; 0: every second motion
+    is a collapse
     """
     random, wrong = np.random.default_rng(5), 0
 
@@ -255,7 +272,8 @@ def test_false_discoveries_are_rare(weak):
 
 
 def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
-    """A Ranking of house B with braces, whose runs are replaced by drifts of 0.01 times an effect; returns it and the list of runs made.
+    """A Ranking of house B with braces, whose runs are replaced by drifts of 0.01 times an effect; returns it and the
+    list of runs made.
 
     strength: factor on the first motion that lets a house collapse; the k-th motion needs 1 + k / 10 times as much
     """
@@ -281,7 +299,9 @@ def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
 
 
 def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
-    """12 measures: 4 motions for all, 16 others for three; a measure with a failed run is named and left out of the test."""
+    """12 measures: 4 motions for all, 16 others for three; a measure with a failed run is named and left out of the
+    test.
+    """
     names = [candidate.name for candidate in measures.candidates("B", 0.0, ("brace",), ("brace1.EW",))[:12]]
     effects = {name: 0.5 + 0.1 * k for k, name in enumerate(names)}
     lines = []
@@ -300,7 +320,9 @@ def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("strength", [0.05, 0.3, 1.0, 3.0])
 def test_the_strength_brings_half_of_the_houses_down(tmp_path, monkeypatch, strength):
-    """Factors from `strength` to 1.5 times as much let the six pilots collapse: two to four do at the chosen one, of at most eight tried."""
+    """Factors from `strength` to 1.5 times as much let the six pilots collapse: two to four do at the chosen one, of at
+    most eight tried.
+    """
     lines = []
     race_of, made = ranking(tmp_path, monkeypatch, {}, strength=strength)
     text = race_of.choose_scale(lines.append)

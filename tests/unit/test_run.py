@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Whole runs of the scripts in separate YADE processes: results, resume after a kill, interruption, failure, live session."""
+"""Whole runs of the scripts in separate YADE processes: results, resume after a kill, interruption, failure, live
+session.
+"""
 import ast
 import csv
 import hashlib
@@ -306,7 +308,9 @@ def test_interrupted(tmp_path):
 
 
 def test_resume_without_the_frames_of_the_run(tmp_path, straight):
-    """Frames that are missing, of another run, of an earlier time, or a pipe: a line before the first step; without frames, or anew, the run goes on."""
+    """Frames that are missing, of another run, of an earlier time, or a pipe: a line before the first step; without
+    frames, or anew, the run goes on.
+    """
     longer = [*SHORT, "--duration", 0.1, "--out", tmp_path, "--resume"]
     recorded = tmp_path / frames.NAME
 
@@ -343,7 +347,9 @@ main("A", earthquake=True, argv=["modelA_quake.py", *{options}])
 
 @pytest.mark.parametrize("times", [(0.05,), (0.15,), (0.3,), (0.6,), (1.5,), (0.2, 0.21), (0.6, 0.7, 0.8), (2.0, 2.02, 2.3)])
 def test_interrupted_at_once_or_twice(tmp_path, times):
-    """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the start of `main` [s]."""
+    """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the
+    start of `main` [s].
+    """
     script = tmp_path / "script.py"
     script.write_text(INTERRUPTED.format(times=times, options=[*SHORT, "--out", str(tmp_path / "out")]))
     done = subprocess.run([*YADE, "-j1", str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
@@ -377,7 +383,9 @@ def test_parts_of_killed_processes_are_removed(tmp_path):
 
 
 def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
-    """The run ends with the frame that follows the collapse (every 0.05 s), in the state of a run that goes on; also when it is resumed."""
+    """The run ends with the frame that follows the collapse (every 0.05 s), in the state of a run that goes on; also
+    when it is resumed.
+    """
     options = ["A", "--record", shove, "--duration", 1, "--dt", "4e-4", "--no-views", "--quiet", "--checkpoint", 0.2]
     for name, more in (("whole", ()), ("ended", ("--until-collapse",))):
         done = run("house", *options, *more, "--out", tmp_path / name)
@@ -401,7 +409,9 @@ def test_one_process_a_folder(tmp_path):
 
 
 def test_nothing_simulated(tmp_path):
-    """A run of no time: pictures of the start, a summary with nothing in it, status 0. Which options it had is in the summary, those of the output are not."""
+    """A run of no time: pictures of the start, a summary with nothing in it, status 0. Which options it had is in the
+    summary, those of the output are not.
+    """
     done = run("modelA_snow", "--duration", 0, "--dt", "2e-4", "--out", tmp_path)
     assert done.returncode == 0 and (tmp_path / "front.png").exists() and not (tmp_path / "history.png").exists(), done.stderr
     found = summary(tmp_path)
@@ -415,7 +425,9 @@ def test_a_motion_without_shaking(tmp_path):
 
 
 def test_export_alone(tmp_path):
-    """With no time to simulate nothing else is written; what lies in the folder stays, also when the file cannot be written."""
+    """With no time to simulate nothing else is written; what lies in the folder stays, also when the file cannot be
+    written.
+    """
     assert run("modelA_snow", *SHORT, "--duration", 0.02, "--out", tmp_path).returncode == 0
     before = {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir() if path.name != lock.LOCK}
     assert run("modelA_snow", *SHORT, "--duration", 0, "--export", tmp_path.with_suffix(".json"), "--out", tmp_path).returncode == 0
@@ -425,7 +437,9 @@ def test_export_alone(tmp_path):
 
 
 def test_failed_run_is_named_as_cut_off(tmp_path):
-    """The largest ground motion that is read: the health check's line, status 1; the results until then say where they end."""
+    """The largest ground motion that is read: the health check's line, status 1; the results until then say where they
+    end.
+    """
     record = tmp_path / "wild.csv"
     write_csv(GroundMotion(0.01, np.full((20, 3), MAX_ACCELERATION)), record, ["test"])
     (tmp_path / "summary.json").write_text("{}")
@@ -438,7 +452,8 @@ def test_failed_run_is_named_as_cut_off(tmp_path):
 
 
 def test_messages_pictures_export(tmp_path):
-    """Without --quiet: bar, a sentence, the files written; all of them are there. Snow only, with the scene exported."""
+    """Without --quiet: bar, a sentence, the files written; all of them are there. Snow only, with the scene exported.
+    """
     done = run("modelA_snow", "--dt", "2e-4", "--duration", "0.02", "--out", tmp_path / "out", "--export", tmp_path / "scene.json")
     assert done.returncode == 0, done.stderr
     assert "House A is undamaged: peak storey drift" in done.stdout and re.search(r"snow 5\.6 t$", done.stdout, re.MULTILINE)
@@ -450,7 +465,9 @@ def test_messages_pictures_export(tmp_path):
 
 
 def test_live_session(tmp_path):
-    """Without -x, at a terminal: the scene runs, O, yt and run are there, the results follow at the end. Until then the session has the folder's lock."""
+    """Without -x, at a terminal: the scene runs, O, yt and run are there, the results follow at the end. Until then the
+    session has the folder's lock.
+    """
     try:
         ours, theirs = pty.openpty()
     except OSError:

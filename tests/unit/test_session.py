@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Changes to a scene during a session: bodies erased, added, released or moved, scenes saved and loaded, queries at any time."""
+"""Changes to a scene during a session: bodies erased, added, released or moved, scenes saved and loaded, queries at any
+time.
+"""
 
 import numpy as np
 import pytest
@@ -81,7 +83,9 @@ def test_fixed_body_released():
 
 @pytest.mark.parametrize("steps", [10, 40])
 def test_loaded_body_released(steps):
-    """A fixed body under a heavy one, released before or after the update of its contacts' effective masses, stays at rest."""
+    """A fixed body under a heavy one, released before or after the update of its contacts' effective masses, stays at
+    rest.
+    """
     O.reset()
     O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
     block = O.bodies.append(yt.box((0.1, 0.1, 0.1), (0, 0, 0.05), fixed=True))
@@ -96,7 +100,9 @@ def test_loaded_body_released(steps):
 
 @pytest.mark.parametrize("fixed_first", [True, False])
 def test_mass_of_a_pair_follows_its_bodies(fixed_first):
-    """The equivalent mass (Eq. 43) of a body that is fixed or released later: 0.34 kg under 340 kg. Dashpots depend on it."""
+    """The equivalent mass (Eq. 43) of a body that is fixed or released later: 0.34 kg under 340 kg. Dashpots depend on
+    it.
+    """
     O.reset()
     light = O.bodies.append(yt.box((0.1, 0.1, 0.1), (0, 0, 0.05), fixed=fixed_first))
     heavy = O.bodies.append(yt.box((1, 1, 1), (0, 0, 0.6)))
@@ -110,7 +116,9 @@ def test_mass_of_a_pair_follows_its_bodies(fixed_first):
 
 
 def test_fixed_bodies_move_with_their_velocities():
-    """A table rotates by 1 rad in 1 s and carries a block; a body that is fixed stops, and does not spin when it is released."""
+    """A table rotates by 1 rad in 1 s and carries a block; a body that is fixed stops, and does not spin when it is
+    released.
+    """
     O.reset()
     table = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
     block = O.bodies.append(yt.box((0.2, 0.2, 0.1), (0.3, 0, 0.05)))
@@ -234,7 +242,9 @@ def test_loaded_scene_answers_before_a_step(tmp_path):
 
 
 def test_stable_dt_of_one_block_is_the_closed_form():
-    """Horizontal motion and rocking of a column of length L on four springs at half-distance a, K_s across and K_n along."""
+    """Horizontal motion and rocking of a column of length L on four springs at half-distance a, K_s across and K_n
+    along.
+    """
     plate, column = column_on_plate(joined=False)
     state, point = O.bodies[column].state, yt.contacts(plate, column)[0]
     kn = 1.5 * point["normal_force"] / point["overlap"]  # Hertz: K = 3/2 F / n
@@ -246,9 +256,11 @@ def test_stable_dt_of_one_block_is_the_closed_form():
 
 
 def test_springs_along_the_normal_only():
-    """ks = 0 on a fixed block: along the normal u = v / w sin(w t) with w = sqrt(k / m), across it uniform motion, in 100 steps of w dt = 0.01.
+    """ks = 0 on a fixed block: along the normal u = v / w sin(w t) with w = sqrt(k / m), across it uniform motion, in
+    100 steps of w dt = 0.01.
 
-    Leapfrog from rest of the spring has the phase (w dt / 2): 5e-3 of the amplitude; allowed 1e-2. Across it no force acts: rounding.
+    Leapfrog from rest of the spring has the phase (w dt / 2): 5e-3 of the amplitude; allowed 1e-2. Across it no force
+    acts: rounding.
     """
     O.reset()
     O.bodies.append([yt.box((1, 1, 1), (0, 0, 0), fixed=True), yt.box((1, 1, 1), (0, 0, 2))])

@@ -1,6 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Evaluation of finished runs by the fragility study: intervals, fitted curves, bands, picture. The batch tests cover the runs."""
+"""Evaluation of finished runs by the fragility study: intervals, fitted curves, bands, picture. The batch tests cover
+the runs.
+"""
 
 import sys
 from pathlib import Path
@@ -32,7 +34,9 @@ def test_point_counts_and_interval():
 
 
 def test_fit_recovers_a_known_curve():
-    """Shares of a lognormal curve with median 0.9 and deviation 0.3, 10 000 runs per point: rounding of the counts changes them by 0.1 %."""
+    """Shares of a lognormal curve with median 0.9 and deviation 0.3, 10 000 runs per point: rounding of the counts
+    changes them by 0.1 %.
+    """
     scales = [0.4, 0.6, 0.8, 1.0, 1.3, 1.6]
     curve = [{"scale": s, "runs": 10000, "collapsed": round(10000 * stats.norm.cdf(np.log(s / 0.9) / 0.3))} for s in scales]
     assert fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
@@ -67,7 +71,9 @@ def test_no_curve_from_few_motions():
 
 
 def test_the_band_covers_the_true_median():
-    """Samples of a curve of median 0.9: the 95 % interval of the median holds it in 8 of 10 or more with a probability of 98.8 %."""
+    """Samples of a curve of median 0.9: the 95 % interval of the median holds it in 8 of 10 or more with a probability
+    of 98.8 %.
+    """
     random, scales = np.random.default_rng(3), np.array([0.5, 0.7, 0.9, 1.2, 1.5])
     held = 0
     for _ in range(10):

@@ -69,7 +69,8 @@ def lot(folder, name):
 
 
 def test_a_house_is_as_alone(tmp_path, shove, town):
-    """The lot that the wave reaches first, and a turned one with its motion turned by hand: the same to the last bit."""
+    """The lot that the wave reaches first, and a turned one with its motion turned by hand: the same to the last bit.
+    """
     turned = tmp_path / "turned.csv"
     write_csv(GroundMotion(0.01, np.tile([-20.0, -40.0, 15.0], (60, 1))), turned, ["test"])
     for name, house, record, snow in (("near", "B1", shove, 0), ("turned", "A", turned, 0.5)):

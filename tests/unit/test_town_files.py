@@ -51,7 +51,9 @@ def test_without_a_wave_all_houses_shake_at_once(town):
 
 
 def test_motion_in_the_axes_of_a_turned_house():
-    """A house turned by 90 degrees counter-clockwise: its x axis points north, so the town's north component acts along x."""
+    """A house turned by 90 degrees counter-clockwise: its x axis points north, so the town's north component acts along
+    x.
+    """
     motion = GroundMotion(0.01, [[1.0, 2.0, 3.0]] * 4)
     assert Lot("", "A", 0, 0, 0).motion(motion) is motion
     for rotation, expected in ((90, (2, -1, 3)), (180, (-1, -2, 3)), (-90, (-2, 1, 3)), (360, (1, 2, 3)), (-270, (2, -1, 3))):

@@ -42,7 +42,9 @@ def test_nearer_hides_farther_in_any_order(view):
 
 
 def test_place_and_size():
-    """A unit cube at y = 1, z = 2 seen from the east is at the upper right; a pixel is 5 cm. The lines along its edges may reach one pixel beyond it."""
+    """A unit cube at y = 1, z = 2 seen from the east is at the upper right; a pixel is 5 cm. The lines along its edges
+    may reach one pixel beyond it.
+    """
     _, depth = raster.shade([cube((0, 1, 2))], Window(FRONT, BOX, 20), 0.5)
     rows, columns = np.nonzero(np.isfinite(depth))
     assert np.allclose((rows.min(), rows.max(), columns.min(), columns.max()), (10, 29, 50, 69), atol=1)
@@ -76,7 +78,9 @@ def test_marks_sit_on_the_damaged_joints():
 
 
 def test_snow_neither_hazes_the_house_nor_belongs_to_its_outline():
-    """A block of snow 5 m in front of a wall: the wall keeps its colour where it shows, the silhouette ends at the wall's top."""
+    """A block of snow 5 m in front of a wall: the wall keeps its colour where it shows, the silhouette ends at the
+    wall's top.
+    """
     wall, snow = cube((0, 0, 0.5)), cube((5, 0, 1.0), kind="snow")
     window = Window(FRONT, BOX, 20)
     beside = raster.shade([wall], window, raster.front_of([wall], FRONT))[0][58, 32]
@@ -99,7 +103,8 @@ HOSTILE = ["A $\\frac{$ B", "$$$", "\\", "a\x00b\x1b[31m", "\ud800", "\u6728\u90
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_any_text_can_be_drawn(tmp_path, name, recwarn):
-    """Titles, headings, legends and tick labels draw as literal text, without mathtext and without a raster overflow."""
+    """Titles, headings, legends and tick labels draw as literal text, without mathtext and without a raster overflow.
+    """
     figure = figures.new_figure(4, 3, 50)
     figures.heading(figure, name, name)
     axes = figure.add_subplot()

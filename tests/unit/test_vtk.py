@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""The VTK export, read back with VTK: elements, joints and contact forces of an invented run are at their recorded positions. Needs no YADE."""
+"""The VTK export, read back with VTK: elements, joints and contact forces of an invented run are at their recorded
+positions. Needs no YADE.
+"""
 import subprocess
 import sys
 from pathlib import Path

@@ -19,7 +19,9 @@ def strongest(scenario):
 
 
 def test_option():
-    """The option has precedence over the house file; the two levels' strengths are 2.8 and 1.5 times the allowable shear."""
+    """The option has precedence over the house file; the two levels' strengths are 2.8 and 1.5 times the allowable
+    shear.
+    """
     found = {level: planned(cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))])) for level in (None, "mean", "design")}
     assert strongest(found[None]) == strongest(found["mean"]) == pytest.approx(2.8 / 1.5 * strongest(found["design"]))
     with pytest.raises(RunError, match="design"):
@@ -35,7 +37,9 @@ def test_sentence_names_the_other_verdict_where_they_differ():
 
 
 def test_report_runs_both_levels(tmp_path):
-    """A pulse for which the levels differ is not needed: the other run's verdict is in the summary. A house without rated walls has one run."""
+    """A pulse for which the levels differ is not needed: the other run's verdict is in the summary. A house without
+    rated walls has one run.
+    """
     for house, walls in (("tiled_house", "design"), ("storehouse", None)):
         out = tmp_path / house
         words = ["yade", "-n", "-x", ROOT / "scripts" / "house.py", house, "--duration", "0.01", "--report", "--no-views", "--quiet", "--out", out]

@@ -15,8 +15,8 @@ class House:
     Parameters
     ----------
     name : str or Path
-        Name of a shipped house (``"A"``, ``"B"``, ``"C"``, ``"B1"``, ``"B2"``, ``"C1"``, ``"C2"``, ``"l_house"``, ``"storehouse"``, ``"tiled_house"``),
-        or path of a YAML file.
+        Name of a shipped house (``"A"``, ``"B"``, ``"C"``, ``"B1"``, ``"B2"``, ``"C1"``, ``"C2"``, ``"l_house"``,
+        ``"storehouse"``, ``"tiled_house"``), or path of a YAML file.
 
     Raises
     ------
@@ -38,7 +38,10 @@ class House:
     def __repr__(self):
         model = self.model()
         mass = sum(element.mass for element in model.elements if not element.fixed and element.kind != "snow") / 1000
-        return f"<House {self.name}: {len(model.elements)} elements, {model.joints_text}, {mass:.1f} t of timber; {self.path.name}>"
+        return (
+            f"<House {self.name}: {len(model.elements)} elements, {model.joints_text}, {mass:.1f} t of timber;"
+            f" {self.path.name}>"
+        )
 
     @property
     def name(self):
@@ -57,7 +60,9 @@ class House:
 
     @cached_property
     def free_bays(self):
-        """Names of the braces that `variant` can add, one for each bay without a brace, a window or a door: ``"main.brace1.NS.x0.1-2"``."""
+        """Names of the braces that `variant` can add, one for each bay without a brace, a window or a door:
+        ``"main.brace1.NS.x0.1-2"``.
+        """
         return free_bays(self._description)
 
     def model(self, snow=None):

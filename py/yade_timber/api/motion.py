@@ -23,8 +23,9 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     dt : float
         Time step for ``resample=True``. [s]
     **processing
-        ``seed`` (another synthetic motion), ``component``, ``units``, ``azimuth`` [degrees], ``start`` and ``end`` [s], ``detrend`` (order),
-        ``highpass`` [Hz], and one of ``pga`` [gal], ``intensity`` (JMA) and ``scale`` [-], as in the options of the run scripts.
+        ``seed`` (another synthetic motion), ``component``, ``units``, ``azimuth`` [degrees], ``start`` and ``end`` [s],
+        ``detrend`` (order), ``highpass`` [Hz], and one of ``pga`` [gal], ``intensity`` (JMA) and ``scale`` [-], as in
+        the options of the run scripts.
 
     Returns
     -------
@@ -42,7 +43,12 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     >>> kobe = yt.motion("RSN1106_KOBE_KJM", pga=400)
     """
     record, given = source_of(source)
-    request = MotionRequest(**{**read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}), "record": record})
+    request = MotionRequest(
+        **{
+            **read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}),
+            "record": record,
+        }
+    )
     request.check("motion: {}".format)
     if given is not None and request.seed is not None:
         raise RecordError("motion: seed: a GroundMotion is given; leave one of them out")
@@ -60,5 +66,7 @@ def source_of(motion):
     try:
         find_files(motion)
     except RecordError as problem:
-        raise RecordError(f"{problem}; did you mean '{SHIPPED}'?" if close(motion, [SHIPPED]) else str(problem)) from None
+        raise RecordError(
+            f"{problem}; did you mean '{SHIPPED}'?" if close(motion, [SHIPPED]) else str(problem)
+        ) from None
     return str(motion), None

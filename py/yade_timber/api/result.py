@@ -88,12 +88,16 @@ class RunResult:
 
     @cached_property
     def history(self):
-        """Time histories (`History`): ``history.time`` (F,) [s], ``history.drift(1, "ns")`` (F,) [-], ``history.energy("kinetic")`` (F,) [J]."""
+        """Time histories (`History`): ``history.time`` (F,) [s], ``history.drift(1, "ns")`` (F,) [-],
+        ``history.energy("kinetic")`` (F,) [J].
+        """
         return History.read(self.folder / HISTORY)
 
     @cached_property
     def breaks(self):
-        """Each spring that broke, in order: dictionaries with the columns of ``breaks.csv`` as keys and texts as values."""
+        """Each spring that broke, in order: dictionaries with the columns of ``breaks.csv`` as keys and texts as
+        values.
+        """
         path = self.folder / BREAKS
         require_regular(path)
         with open(path, newline="", encoding="utf-8") as file:
@@ -101,12 +105,16 @@ class RunResult:
 
     @cached_property
     def frames(self):
-        """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20 times per simulated second."""
+        """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20
+        times per simulated second.
+        """
         return frames.load(self.folder / frames.NAME)
 
     @cached_property
     def ensemble(self):
-        """Medians, ranges and shares over the runs of an ensemble (content of ``ensemble.json``); None for a run on its own."""
+        """Medians, ranges and shares over the runs of an ensemble (content of ``ensemble.json``); None for a run on its
+        own.
+        """
         return ensemble.read(self.folder) if (self.folder / ensemble.NAME).exists() else None
 
     # --- pictures -----------------------------------------------------------------------------------------------------

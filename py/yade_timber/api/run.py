@@ -29,22 +29,26 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     house : House, str or Path
         A house, the name of a shipped house, or a house file.
     motion : None, str, Path or GroundMotion
-        Ground motion: none, ``"shipped"``, a record's file or the common prefix of its three files, or a motion from `motion`.
+        Ground motion: none, ``"shipped"``, a record's file or the common prefix of its three files, or a motion from
+        `motion`.
     snow : float, optional
         Depth of snow on the roofs [m]; by default the house file's.
     duration : float, optional
         Simulated time [s]; by default that of the motion, or 30 s without one.
     out : str or Path, optional
-        Folder of the results; by default ``results/NAME``, for further runs of a house in a session ``results/NAME_2`` and so on.
+        Folder of the results; by default ``results/NAME``, for further runs of a house in a session ``results/NAME_2``
+        and so on.
     **options
-        Further options of the run scripts, with ``_`` for ``-``. Of the run: ``dt`` [s], ``until_collapse``, ``joint_damping`` [-], ``walls``,
-        ``resume``, ``no_frames``, ``every_step``, ``quiet``. Of the motion: ``seed``, ``scale`` [-], ``azimuth`` [degrees], ``start``, ``end`` [s],
-        ``pga`` [gal], ``intensity``, ``detrend``, ``highpass`` [Hz], ``resample``, ``component``, ``units``.
+        Further options of the run scripts, with ``_`` for ``-``. Of the run: ``dt`` [s], ``until_collapse``,
+        ``joint_damping`` [-], ``walls``, ``resume``, ``no_frames``, ``every_step``, ``quiet``. Of the motion: ``seed``,
+        ``scale`` [-], ``azimuth`` [degrees], ``start``, ``end`` [s], ``pga`` [gal], ``intensity``, ``detrend``,
+        ``highpass`` [Hz], ``resample``, ``component``, ``units``.
 
     Returns
     -------
     RunResult
-        ``run.drift``, ``run.broken``, ``run.collapsed``, ``run.history``, ``run.player()``. No picture is made before it is asked for.
+        ``run.drift``, ``run.broken``, ``run.collapsed``, ``run.history``, ``run.player()``. No picture is made before
+        it is asked for.
 
     Raises
     ------
@@ -63,9 +67,15 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     if not host.running():
         raise RunError("yt.run needs YADE: start this script with `yade -n -x script.py`, or call it in a YADE session")
     house = house if isinstance(house, House) else House(house)
-    keywords = read_keywords(RunOptions, "run", {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD)
+    keywords = read_keywords(
+        RunOptions, "run", {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD
+    )
     record, ground_motion = (None, None) if motion is None else source_of(motion)
-    shaking = {"record": record, "ground_motion": ground_motion, "quake": motion is not None and record is ground_motion is None}
+    shaking = {
+        "record": record,
+        "ground_motion": ground_motion,
+        "quake": motion is not None and record is ground_motion is None,
+    }
     return _complete(RunOptions(house=house.given, door=DOOR, **{"out": _default_folder(house), **keywords, **shaking}))
 
 
@@ -84,13 +94,17 @@ def _complete(options):
     except Interrupted as stop:
         if stop.number == signal.SIGTERM:
             raise SystemExit(128 + stop.number) from None
-        raise KeyboardInterrupt(f"stopped at {stop.time:.2f} s; yt.run(..., out='{options.folder}', resume=True) continues") from None
+        raise KeyboardInterrupt(
+            f"stopped at {stop.time:.2f} s; yt.run(..., out='{options.folder}', resume=True) continues"
+        ) from None
     return RunResult(options.folder)
 
 
 @contextmanager
 def _restored_handlers():
-    """The session's own signal handlers again at the end: a run that is stopped keeps its handlers for the end of a script."""
+    """The session's own signal handlers again at the end: a run that is stopped keeps its handlers for the end of a
+    script.
+    """
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The run scripts: `main`, `main_house` and `main_town` turn the command line into a run in this process, or into an ensemble of processes of the
-same script."""
+"""The run scripts: `main`, `main_house` and `main_town` turn the command line into a run in this process, or into an
+ensemble of processes of the same script."""
 import signal
 import sys
 from pathlib import Path
@@ -28,11 +28,17 @@ def main_town(argv=None):
 
 def _launch(read, argv):
     script = Path((sys.argv if argv is None else argv)[0])
-    return launch(lambda cli, arguments: _planned(script, read(cli, arguments)), lambda scenario, options: _ensemble(script, scenario, options), argv)
+    return launch(
+        lambda cli, arguments: _planned(script, read(cli, arguments)),
+        lambda scenario, options: _ensemble(script, scenario, options),
+        argv,
+    )
 
 
 def _planned(script, options):
-    """(Scenario or TownPlan, options), for a report on a house with rated walls after a run with those of the other level. Raises InputError."""
+    """(Scenario or TownPlan, options), for a report on a house with rated walls after a run with those of the other
+    level. Raises InputError.
+    """
     from ..run.plan import planned
     from ..study import other_walls
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files that are either complete or absent: written under a temporary name, then renamed. Needs no YADE.
 
-Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a terminal, a pipe with a reader,
-a character device) gets the content of the complete file; folders, sockets and disks are refused.
+Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a
+terminal, a pipe with a reader, a character device) gets the content of the complete file; folders, sockets and disks
+are refused.
 """
 import errno
 import os
@@ -20,9 +21,11 @@ PART = ".part-"
 
 @contextmanager
 def written_whole(path):
-    """Give a temporary file with the suffixes of `path` to write to. At the end it becomes `path`; on an error it is removed.
+    """Give a temporary file with the suffixes of `path` to write to. At the end it becomes `path`; on an error it is
+    removed.
 
-    The file is created exclusively (no link of that name is followed), with the permissions of the user's umask. Raises OSError.
+    The file is created exclusively (no link of that name is followed), with the permissions of the user's umask. Raises
+    OSError.
     """
     path = Path(path)
     with _written_to(path) if _is_stream(path) else _replaced(Path(os.path.realpath(path))) as part:
@@ -31,7 +34,9 @@ def written_whole(path):
 
 @contextmanager
 def written_from_memory(path):
-    """`written_whole` for writers that end the process on a full disk (YADE, HDF5) or miss it (VTK): to a file in memory, which is copied to the disk."""
+    """`written_whole` for writers that end the process on a full disk (YADE, HDF5) or miss it (VTK): to a file in
+    memory, which is copied to the disk.
+    """
     descriptor = os.memfd_create(Path(path).name)
     with open(descriptor, "rb") as memory:
         yield Path(f"/proc/self/fd/{descriptor}")
@@ -40,7 +45,9 @@ def written_from_memory(path):
 
 
 def _is_stream(path):
-    """Whether content is written to what is at `path` instead of replacing it. Raises OSError for what can be neither written to nor replaced."""
+    """Whether content is written to what is at `path` instead of replacing it. Raises OSError for what can be neither
+    written to nor replaced.
+    """
     try:
         status = path.stat()
     except FileNotFoundError:
@@ -88,7 +95,9 @@ def _written_to(path):
 
 
 def _opened(path):
-    """Stream to what is at `path`, before anything is computed for it. A pipe without a reader is refused: it would wait for ever."""
+    """Stream to what is at `path`, before anything is computed for it. A pipe without a reader is refused: it would
+    wait for ever.
+    """
     output = _output_of(path.stat())
     if output is not None:
         (sys.stdout if output == 1 else sys.stderr).flush()
@@ -113,7 +122,9 @@ def _sync(path):
 
 
 def remove(path):
-    """Remove the regular file that a path or its links lead to, if there is one. Links and what can be written to stay. Raises OSError for all else."""
+    """Remove the regular file that a path or its links lead to, if there is one. Links and what can be written to stay.
+    Raises OSError for all else.
+    """
     if not _is_stream(Path(path)):
         Path(os.path.realpath(path)).unlink(missing_ok=True)
 
@@ -125,6 +136,8 @@ def remove_parts(folder):
 
 
 def write_text(path, text):
-    """Write a text file (UTF-8, line ends as given; halves of character pairs, as in undecodable names of files, as escapes). Raises OSError."""
+    """Write a text file (UTF-8, line ends as given; halves of character pairs, as in undecodable names of files, as
+    escapes). Raises OSError.
+    """
     with written_whole(path) as part:
         part.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")

@@ -8,7 +8,9 @@ from pathlib import Path
 
 @contextmanager
 def encodable(path):
-    """Path of the same file as a text that has an encoding, for YADE: through a descriptor of its folder if need be. The file's own name is ASCII."""
+    """Path of the same file as a text that has an encoding, for YADE: through a descriptor of its folder if need be.
+    The file's own name is ASCII.
+    """
     path = Path(path)
     if str(path).isprintable():  # lone surrogates, which stand for undecodable bytes, are not
         yield str(path)

@@ -7,7 +7,9 @@ from . import colors
 
 @dataclass(frozen=True)
 class Term:
-    """name: of the HouseMonitor; sign in the balance; label and color: of a dissipated term in pictures, with a line break."""
+    """name: of the HouseMonitor; sign in the balance; label and color: of a dissipated term in pictures, with a line
+    break.
+    """
 
     name: str
     sign: int = 1
@@ -25,5 +27,8 @@ DISSIPATED = (
     Term("joint_dashpot", 1, "joint dashpots", colors.GREEN),
     Term("joint_yield", 1, "yielding joints", colors.GREY),
 )
-SIGNS = {term.name: term.sign for term in (Term("ground_motion", -1), Term("gravity"), Term("kinetic"), *ELASTIC, *DISSIPATED)}
+SIGNS = {
+    term.name: term.sign
+    for term in (Term("ground_motion", -1), Term("gravity"), Term("kinetic"), *ELASTIC, *DISSIPATED)
+}
 """{name: sign}"""

@@ -46,7 +46,9 @@ def _is(kind, path):
 
 
 def read_bytes(path, limit):
-    """Content of a regular file of at most `limit` bytes. Raises OSError with strerror; never waits for a pipe or a device."""
+    """Content of a regular file of at most `limit` bytes. Raises OSError with strerror; never waits for a pipe or a
+    device.
+    """
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     except ValueError:
@@ -63,7 +65,8 @@ def read_bytes(path, limit):
 
 
 def require_regular(path, remedy=""):
-    """Raise RunError unless `path` is a regular file, or a link to one. remedy: end of the message for a missing file."""
+    """Raise RunError unless `path` is a regular file, or a link to one. remedy: end of the message for a missing file.
+    """
     try:
         mode = Path(path).stat().st_mode
     except FileNotFoundError:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Dataclasses <-> tables of JSON. Types of fields: str, bool, int, float, dict, list[X], dict[str, X], dataclasses, and X | None.
+"""Dataclasses <-> tables of JSON. Types of fields: str, bool, int, float, dict, list[X], dict[str, X], dataclasses, and
+X | None.
 
 A class with another form has a class method `decoded(value, path)`. Entries that no field has are left out.
 """
@@ -21,7 +22,9 @@ def others(kind):
 
 def table(name, **types):
     """A frozen dataclass. types: {field: type, or what `optional` and `others` return}"""
-    return make_dataclass(name, [(key, *kind) if isinstance(kind, tuple) else (key, kind) for key, kind in types.items()], frozen=True)
+    return make_dataclass(
+        name, [(key, *kind) if isinstance(kind, tuple) else (key, kind) for key, kind in types.items()], frozen=True
+    )
 
 
 def encode(value):
@@ -43,7 +46,9 @@ def encode(value):
 
 
 def decode(kind, value, path="content"):
-    """Value of a type from JSON. path: names the place in messages. Raises ValueError for a missing entry and for a value of another type."""
+    """Value of a type from JSON. path: names the place in messages. Raises ValueError for a missing entry and for a
+    value of another type.
+    """
     if hasattr(kind, "decoded"):
         return kind.decoded(value, path)
     if is_dataclass(kind):
@@ -77,7 +82,9 @@ def _arguments(kind, entries, path):
     names, arguments = {part.name for part in fields(kind)}, {}
     for part, hint in types(kind):
         if "others" in part.metadata:
-            arguments[part.name] = decode(hint, {key: entry for key, entry in entries.items() if key not in names}, path)
+            arguments[part.name] = decode(
+                hint, {key: entry for key, entry in entries.items() if key not in names}, path
+            )
         elif part.name in entries:
             arguments[part.name] = decode(hint, entries[part.name], f"{path}.{part.name}")
         elif part.default is MISSING:

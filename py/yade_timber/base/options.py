@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Options as fields of a dataclass. Readers of command lines, table cells and keywords follow from the fields. Needs no YADE."""
+"""Options as fields of a dataclass. Readers of command lines, table cells and keywords follow from the fields. Needs no
+YADE.
+"""
 from dataclasses import field, fields
 from numbers import Integral, Real
 from pathlib import Path
@@ -9,17 +11,30 @@ from .input_file import shown
 from .remedies import decimal_point, nearest
 
 FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
-KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool), str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
+KINDS = {
+    int: ("a whole number", Integral),
+    float: ("a number", Real),
+    bool: ("yes or no", bool),
+    str: ("a text", (str, Path)),
+    Path: ("a path", (str, Path)),
+}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
 BY_SCRIPT = ("house", "quake", "snow", "walls")
 """Options that a run script decides, unless it is house.py or town.py."""
 
 
 def option(kind, about, metavar=None, low=None, high=None, default=None, choices=(), group="motion", decides=True):
-    """Field of a dataclass that is an option. low, high: admissible range, both included; decides: whether it decides results."""
+    """Field of a dataclass that is an option. low, high: admissible range, both included; decides: whether it decides
+    results.
+    """
     default = False if kind is bool else default
-    return field(default=default, metadata={"kind": kind, "help": about, "metavar": metavar, "low": low, "high": high, "choices": choices,
-                                            "group": group, "decides": decides})
+    return field(
+        default=default,
+        metadata={
+            "kind": kind, "help": about, "metavar": metavar, "low": low, "high": high, "choices": choices,
+            "group": group, "decides": decides,
+        },
+    )
 
 
 def options(kind):
@@ -40,13 +55,19 @@ def is_given(values, name):
 def check_ranges(values, name, error):
     """Raise `error` for a value out of its range. name: function that names an option in messages"""
     for each in options(type(values)).values():
-        value, low, high, choices = getattr(values, each.name), *(each.metadata[key] for key in ("low", "high", "choices"))
+        value, low, high, choices = getattr(values, each.name), *(
+            each.metadata[key] for key in ("low", "high", "choices")
+        )
         if value is None:
             continue
         if choices and value not in choices:
-            raise error(f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)}; {each.metadata['help']}")
+            raise error(
+                f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)}; {each.metadata['help']}"
+            )
         if low is not None and not low <= value <= high:
-            raise error(f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)}; {each.metadata['help']}")
+            raise error(
+                f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)}; {each.metadata['help']}"
+            )
 
 
 def _number(value):
@@ -70,7 +91,9 @@ def read(each, text, name):
     try:
         return FLAGS[text.lower()] if kind is bool else kind(text)
     except (ValueError, KeyError):
-        raise RunError(f"{name} {shown(text)}: must be {KINDS[kind][0]}{decimal_point(text)}; {each.metadata['help']}") from None
+        raise RunError(
+            f"{name} {shown(text)}: must be {KINDS[kind][0]}{decimal_point(text)}; {each.metadata['help']}"
+        ) from None
 
 
 def add_options(parser, wanted):
@@ -83,25 +106,40 @@ def add_options(parser, wanted):
 def read_arguments(kind, arguments):
     """{option: value} of the options that a command line (argparse.Namespace) gives. Raises RunError."""
     texts = {name: getattr(arguments, name, None) for name in options(kind)}
-    return {name: text if text is True else read(options(kind)[name], text, command_option(name)) for name, text in texts.items() if text is not None}
+    return {
+        name: text if text is True else read(options(kind)[name], text, command_option(name))
+        for name, text in texts.items()
+        if text is not None
+    }
 
 
 def words(values, named):
-    """Arguments of a run script that give options {name: value}. named: whether the script gives BY_SCRIPT; otherwise its house is first"""
+    """Arguments of a run script that give options {name: value}. named: whether the script gives BY_SCRIPT; otherwise
+    its house is first
+    """
     given = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
-    return [*([] if named else [values["house"]]), *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items())]
+    return [
+        *([] if named else [values["house"]]),
+        *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items()),
+    ]
 
 
 # --- keywords ---------------------------------------------------------------------------------------------------------
 
 
 def read_keywords(kind, function, keywords, instead={}):
-    """{option: value} of the keywords of a function, without None. instead: {option that it does not have: remedy}. Raises TypeError, RunError."""
+    """{option: value} of the keywords of a function, without None. instead: {option that it does not have: remedy}.
+    Raises TypeError, RunError.
+    """
     names = [name for name in options(kind) if name not in instead]
     for name in keywords:
         if name not in names:
             raise TypeError(f"{function}() has no option '{name}'; {instead.get(name) or nearest(name, names)}")
-    return {name: _keyword(options(kind)[name], value, f"{function}: {name}") for name, value in keywords.items() if value is not None}
+    return {
+        name: _keyword(options(kind)[name], value, f"{function}: {name}")
+        for name, value in keywords.items()
+        if value is not None
+    }
 
 
 def _keyword(each, value, name):

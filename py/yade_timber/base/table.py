@@ -9,7 +9,9 @@ def csv_text(header, rows):
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
-    writer.writerows([f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row] for row in rows)
+    writer.writerows(
+        [f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row] for row in rows
+    )
     return text.getvalue()
 
 
@@ -18,7 +20,9 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def inert(value):
-    """A text that a spreadsheet would take for a formula, with an apostrophe before it; numbers, a lone dash and other values as they are."""
+    """A text that a spreadsheet would take for a formula, with an apostrophe before it; numbers, a lone dash and other
+    values as they are.
+    """
     if not isinstance(value, str) or not value.startswith(FORMULA) or len(value) == 1:
         return value
     try:

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bays that can take a brace or a wall: between neighbouring columns on a line of beams. Names are those that `changed_house` takes."""
+"""Bays that can take a brace or a wall: between neighbouring columns on a line of beams. Names are those that
+`changed_house` takes.
+"""
 
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
 
 
 def free_bays(description):
-    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each bay without brace, window or door.
+    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each bay
+    without brace, window or door.
 
-    The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of houses B and C.
+    The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of
+    houses B and C.
     """
     names = []
     for structure, storey in _storeys(description):
@@ -21,7 +25,9 @@ def free_bays(description):
 
 
 def free_wall_bays(description, kind):
-    """Names of the walls of a type that can be added with `changed_house`, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for each bay without walls."""
+    """Names of the walls of a type that can be added with `changed_house`, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for
+    each bay without walls.
+    """
     names = []
     for structure, storey in _storeys(description):
         walled = _walled(structure, storey)
@@ -45,13 +51,19 @@ def _bays(structure, storey):
     for line in structure.table["lines"]:
         along = line["along"]
         for at in line["at"]:
-            nodes = sorted(node[along == "y"] for node in plan if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"])
+            nodes = sorted(
+                node[along == "y"]
+                for node in plan
+                if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"]
+            )
             for low, high in zip(nodes, nodes[1:]):
                 yield line, at, low, high
 
 
 def _name(structure, kind, storey, bay):
-    """Name of a bay. A whole node before a fraction is written with its decimal: 'x4.0.1.5-3', as 'x4.1.5-3' is the bay 5-3 on the line 4.1."""
+    """Name of a bay. A whole node before a fraction is written with its decimal: 'x4.0.1.5-3', as 'x4.1.5-3' is the bay
+    5-3 on the line 4.1.
+    """
     along, at, start, end = bay
     line = f"{at:.1f}" if at == int(at) and start != int(start) else f"{at:g}"
     return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
@@ -68,8 +80,17 @@ def _braced(structure, storey):
 
 
 def _walled(structure, storey, only_open=False):
-    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey. only_open: those with a window or a door"""
-    walls = [line for line in _in_storey(structure.table["walls"], storey) if line["opening"] != "none" or not only_open]
+    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey. only_open: those with a
+    window or a door
+    """
+    walls = [
+        line for line in _in_storey(structure.table["walls"], storey) if line["opening"] != "none" or not only_open
+    ]
     lines = [(line["along"], at, line["from"], line["to"]) for line in walls for at in line["at"]]
     bays = {(line["along"], at, low, high) for line, at, low, high in _bays(structure, storey)}
-    return {bay for bay in bays for along, at, first, last in lines if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last}
+    return {
+        bay
+        for bay in bays
+        for along, at, first, last in lines
+        if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last
+    }

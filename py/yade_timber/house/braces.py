@@ -12,7 +12,9 @@ from .structure import ACROSS
 
 @dataclass(frozen=True)
 class Diagonal:
-    """One brace on the grid: on the line `along` x or y at node `at`, from the foot of the column at node `foot` to the head of that at `head`."""
+    """One brace on the grid: on the line `along` x or y at node `at`, from the foot of the column at node `foot` to the
+    head of that at `head`.
+    """
 
     along: str
     at: float
@@ -27,7 +29,9 @@ class Diagonal:
 
 
 def lay_braces(structure, layer):
-    """Braces of one storey. A run [foot, head] leans from the foot of the column at node `foot` to the head of the one at `head`."""
+    """Braces of one storey. A run [foot, head] leans from the foot of the column at node `foot` to the head of the one
+    at `head`.
+    """
     plan, elements = column_plan(structure, layer.storey), []
     for line in structure.table["braces"]["lines"]:
         _check_storeys(structure, line)
@@ -43,7 +47,9 @@ def lay_braces(structure, layer):
 def _check_storeys(structure, line):
     for number in line["storeys"]:
         if number not in structure.storeys:
-            raise HouseError(f"{line.at('storeys')}: {structure.name}: braces: no storey {number}; the stack has {structure.storeys}")
+            raise HouseError(
+                f"{line.at('storeys')}: {structure.name}: braces: no storey {number}; the stack has {structure.storeys}"
+            )
 
 
 def _brace(structure, layer, diagonal, plan):
@@ -51,19 +57,36 @@ def _brace(structure, layer, diagonal, plan):
     planes = brace_planes(_clear_bay(structure, diagonal, plan), (layer.z0, layer.z1), table["width"])
     planes = _extruded(planes, diagonal.along, structure.axes[across](diagonal.at), table["thickness"])
     vertices = structure.cut(diagonal.name, planes, diagonal.where)
-    return structure.element("brace", diagonal.name, vertices, table, diagonal.where, storey=layer.storey,
-                             side=structure.sides(**{across: diagonal.at}), section=(table["width"], table["thickness"]))
+    return structure.element(
+        "brace",
+        diagonal.name,
+        vertices,
+        table,
+        diagonal.where,
+        storey=layer.storey,
+        side=structure.sides(**{across: diagonal.at}),
+        section=(table["width"], table["thickness"]),
+    )
 
 
 def _clear_bay(structure, diagonal, plan):
     """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
     along, foot, head = diagonal.along, diagonal.foot, diagonal.head
-    on_line = {(x if along == "x" else y): section for (x, y), (section, _) in plan.items() if (y if along == "x" else x) == diagonal.at}
-    place = f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node {diagonal.at:g}, storey {diagonal.storey}"
+    on_line = {
+        (x if along == "x" else y): section
+        for (x, y), (section, _) in plan.items()
+        if (y if along == "x" else x) == diagonal.at
+    }
+    place = (
+        f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node"
+        f" {diagonal.at:g}, storey {diagonal.storey}"
+    )
     for node in (foot, head):
         if node not in on_line:
             known = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
-            raise HouseError(f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {known}")
+            raise HouseError(
+                f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {known}"
+            )
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:
         reason = f"a column stands between, at node {between[0]:g}" if between else "foot and head are the same column"
@@ -73,8 +96,8 @@ def _clear_bay(structure, diagonal, plan):
 
 
 def brace_planes(ends, levels, width):
-    """Planes ((2,) normal, offset [m]) in the wall's plane (u along the wall, z): a band of `width` about the diagonal from
-    (ends[0], levels[0]) to (ends[1], levels[1]), cut by the bay's horizontal and vertical planes."""
+    """Planes ((2,) normal, offset [m]) in the wall's plane (u along the wall, z): a band of `width` about the diagonal
+    from (ends[0], levels[0]) to (ends[1], levels[1]), cut by the bay's horizontal and vertical planes."""
     foot, head = np.array([ends[0], levels[0]]), np.array([ends[1], levels[1]])
     axis = (head - foot) / np.linalg.norm(head - foot)
     normal = np.array([-axis[1], axis[0]])

@@ -24,7 +24,8 @@ STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
 
 def build_house(description, snow_depth=None, check=True, wall_level=None):
-    """Build a described house. snow_depth [m], vertical; wall_level: of walls of a rated multiplier (None: the description's own).
+    """Build a described house. snow_depth [m], vertical; wall_level: of walls of a rated multiplier (None: the
+    description's own).
 
     Raises HouseError; see `check_house`.
     """
@@ -57,15 +58,21 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
 
 
 def _require_storeys(structures):
-    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a storey."""
+    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a
+    storey.
+    """
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
-            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; "
-                             "add one or remove the columns")
+            raise HouseError(
+                f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; "
+                "add one or remove the columns"
+            )
     name, main = next(iter(structures.items()))
     if not main.storeys:
-        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts are reported; "
-                         "put a structure with columns first")
+        raise HouseError(
+            f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts"
+            " are reported; put a structure with columns first"
+        )
 
 
 def _snow_depth(data, snow_depth):
@@ -91,7 +98,9 @@ def _number_repeats(elements):
 
 
 def _structure_elements(structure, depth, snow_material):
-    return [element for layer in structure.layers for element in _layer_elements(structure, layer, depth, snow_material)]
+    return [
+        element for layer in structure.layers for element in _layer_elements(structure, layer, depth, snow_material)
+    ]
 
 
 def _layer_elements(structure, layer, depth, snow_material):
@@ -105,11 +114,14 @@ def _layer_elements(structure, layer, depth, snow_material):
 
 
 def _lean(elements, structures, plumb):
-    """Construction tolerance: everything above the lowest columns' feet is sheared by `drift` (horizontal per vertical metre).
+    """Construction tolerance: everything above the lowest columns' feet is sheared by `drift` (horizontal per vertical
+    metre).
 
     A shear keeps bodies convex, faces flush and volumes; horizontal faces stay horizontal.
     """
-    foot = min((structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys), default=0.0)
+    foot = min(
+        (structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys), default=0.0
+    )
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
     for element in elements:
         rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
@@ -123,16 +135,34 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at least {2 * reach:.3g} m")
+        raise HouseError(
+            f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at least"
+            f" {2 * reach:.3g} m"
+        )
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
-    return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where)
+    return Element(
+        "ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where
+    )
 
 
 def _model(description, elements, joints, structures, depth):
     data = description.data
-    levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"} for s in structures.values()}
+    levels = {
+        s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"}
+        for s in structures.values()
+    }
     grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
-    return HouseModel(data["name"], data["description"], elements, joints, {k: dict(v) for k, v in data["materials"].items()},
-                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth, levels, grids,
-                      {name: multiplier(table) for name, table in data["wall_types"].items()})
+    return HouseModel(
+        data["name"],
+        data["description"],
+        elements,
+        joints,
+        {k: dict(v) for k, v in data["materials"].items()},
+        [(*pair["between"], pair["coefficient"]) for pair in data["friction"]],
+        dict(data["law"]),
+        depth,
+        levels,
+        grids,
+        {name: multiplier(table) for name, table in data["wall_types"].items()},
+    )

@@ -13,9 +13,11 @@ TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder 
 
 
 def check_house(model):
-    """Raises HouseError for the deepest overlap, an end of a column or brace without a joint, or an unsupported element.
+    """Raises HouseError for the deepest overlap, an end of a column or brace without a joint, or an unsupported
+    element.
 
-    Returns {'pairs': pairs of elements with touching bounding boxes, 'touching': pairs in contact, 'deepest': largest overlap [m], from rounding}.
+    Returns {'pairs': pairs of elements with touching bounding boxes, 'touching': pairs in contact, 'deepest': largest
+    overlap [m], from rounding}.
     """
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
@@ -24,11 +26,17 @@ def check_house(model):
     touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
     _check_ends(model, touching)
     _check_supports(model, touching)
-    return {"pairs": len(gaps), "touching": len(touching), "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0))}
+    return {
+        "pairs": len(gaps),
+        "touching": len(touching),
+        "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0)),
+    }
 
 
 def overlaps(model):
-    """[(element, element, gap [m])] of all pairs whose bounding boxes touch; a negative gap is an overlap (exact, convex bodies)."""
+    """[(element, element, gap [m])] of all pairs whose bounding boxes touch; a negative gap is an overlap (exact,
+    convex bodies).
+    """
     return [(a, b, separation(a.solid, b.solid)) for a, b in near_pairs(model.elements, TOUCH)]
 
 
@@ -55,8 +63,11 @@ def _report_loose_end(member, end, touching):
     z = member.solid.bounds[0 if end == "bottom" else 1][2]
     place, where = f"{member.source}: {member.kind} {member.name}", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
     for mate, area in _lying_at(member, end, touching):
-        raise HouseError(f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches {mate.kind} {mate.name} at {where}; add "
-                         f"a rule for {member.kind} and {mate.kind} to 'joints', or enlarge the contact area (joint_search.min_area)")
+        raise HouseError(
+            f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches"
+            f" {mate.kind} {mate.name} at {where}; add a rule for {member.kind} and {mate.kind} to 'joints', or enlarge"
+            " the contact area (joint_search.min_area)"
+        )
     verb = "stands on nothing" if end == "bottom" else "supports nothing"
     raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
 
@@ -65,7 +76,11 @@ def _lying_at(member, end, touching):
     """[(element, common area [m2])] that the level face at one end of a member lies on."""
     mates = [b if a is member else a for a, b in touching if member in (a, b)]
     contacts = [(mate, contact_polygon(member.solid, mate.solid, TOUCH)) for mate in mates]
-    return [(mate, contact[2]) for mate, contact in contacts if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)]
+    return [
+        (mate, contact[2])
+        for mate, contact in contacts
+        if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)
+    ]
 
 
 def _check_supports(model, touching):
@@ -99,5 +114,8 @@ def _add_support(supports, a, b):
 def _report_unsupported(element, others):
     x, y, _ = element.solid.centroid
     more = f" (and {others} more elements)" if others else ""
-    raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z {element.solid.bounds[0][2]:.3f} m: "
-                     f"it lies on no element and has no joint; support it, join it (a rule in 'joints') or remove it{more}")
+    raise HouseError(
+        f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
+        f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it (a rule in"
+        f" 'joints') or remove it{more}"
+    )

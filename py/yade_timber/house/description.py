@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""House files as checked descriptions: merged with the files they extend, in accordance with the schema, without unknown names."""
+"""House files as checked descriptions: merged with the files they extend, in accordance with the schema, without
+unknown names.
+"""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +31,9 @@ class Description:
 
 
 def load_house(name_or_path):
-    """Path of a YAML file or name of a shipped house (see shipped_houses) -> Description; raises HouseError (one line, file:line)."""
+    """Path of a YAML file or name of a shipped house (see shipped_houses) -> Description; raises HouseError (one line,
+    file:line).
+    """
     path = house_path(name_or_path)
     data = checked(load_table(path), path)
     return Description(data["name"], path, data)
@@ -60,8 +64,14 @@ def house_path(name):
         if is_file(path):
             return path
     if is_folder(own[0]):
-        raise HouseError(f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house ({', '.join(shipped_houses())})")
-    raise HouseError(f"unknown house {shown(str(name))}: no such regular file and no shipped house; {nearest(name, shipped_houses())}")
+        raise HouseError(
+            f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house"
+            f" ({', '.join(shipped_houses())})"
+        )
+    raise HouseError(
+        f"unknown house {shown(str(name))}: no such regular file and no shipped house;"
+        f" {nearest(name, shipped_houses())}"
+    )
 
 
 def _check_references(data):
@@ -76,14 +86,22 @@ def _check_references(data):
         for i, line in enumerate(structure["walls"]):
             for wall in line["type"]:
                 if wall not in data["wall_types"]:
-                    fail(line.at("type"), f"structures.{name}.walls[{i + 1}].type", f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}")
+                    fail(
+                        line.at("type"),
+                        f"structures.{name}.walls[{i + 1}].type",
+                        f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}",
+                    )
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
             _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
     for i, pair in enumerate(data["friction"]):
         for key in pair["between"]:
             if key not in data["materials"]:
-                fail(pair.at("between"), f"friction[{i + 1}]", f"unknown material '{key}', {nearest(key, data['materials'])}")
+                fail(
+                    pair.at("between"),
+                    f"friction[{i + 1}]",
+                    f"unknown material '{key}', {nearest(key, data['materials'])}",
+                )
 
 
 def _material_users(data):

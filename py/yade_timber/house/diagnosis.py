@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Diagnosis of a house by the published rules: wall quantity, its balance, uplift of columns, seismic index Iw = Qu eKfl dK / Qr.
+"""Diagnosis of a house by the published rules: wall quantity, its balance, uplift of columns, seismic index Iw = Qu
+eKfl dK / Qr.
 
-Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources: diagnosis_tables.py.
+Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources:
+diagnosis_tables.py.
 """
 
 from dataclasses import dataclass
@@ -47,22 +49,37 @@ class RatedBay:
 
 
 def diagnose(model):
-    """The part `diagnosis` of summaries: the least iw and wall quantity ratio of all structures, where they are, and the numbers of each one.
+    """The part `diagnosis` of summaries: the least iw and wall quantity ratio of all structures, where they are, and
+    the numbers of each one.
 
     None for numbers that the rules do not give: more than three storeys, a structure without floor area.
     """
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     iw, iw_at = _least(structures, "iw")
     ratio, ratio_at = _least(structures, "wall_quantity_ratio")
-    known = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio, "wall_quantity_at": ratio_at,
-             "broken_from_start": sum(joint.broken for joint in model.joints), "structures": structures}
+    known = {
+        "iw": iw,
+        "iw_at": iw_at,
+        "judgement": judgement(iw),
+        "wall_quantity_ratio": ratio,
+        "wall_quantity_at": ratio_at,
+        "broken_from_start": sum(joint.broken for joint in model.joints),
+        "structures": structures,
+    }
     return {**known, "sentence": sentence(known)}
 
 
 def _least(structures, key):
-    """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without any."""
-    values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}") for group, structure in structures.items()
-              for storey, known in structure["storeys"].items() for name, side in known["directions"].items() if side[key] is not None]
+    """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without
+    any.
+    """
+    values = [
+        (side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
+        for group, structure in structures.items()
+        for storey, known in structure["storeys"].items()
+        for name, side in known["directions"].items()
+        if side[key] is not None
+    ]
     return min(values, key=lambda value: value[0], default=(None, None))
 
 
@@ -72,15 +89,20 @@ def judgement(iw):
 
 
 def sentence(diagnosis):
-    """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...', for people."""
+    """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...', for people.
+    """
     if diagnosis["iw"] is None:
         return "no seismic index: the rules are for one to three storeys with a floor area"
-    return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare earthquake; "
-            f"least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one ({diagnosis['wall_quantity_at']})")
+    return (
+        f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
+        f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
+        f" ({diagnosis['wall_quantity_at']})"
+    )
 
 
 def comparison(summary):
-    """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run; '' if none does.
+    """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run;
+    '' if none does.
 
     summary: recording.summary.Summary. Without an earthquake a structure that stands agrees with every index.
     """
@@ -95,12 +117,17 @@ def comparison(summary):
 
 
 def _circumstances(summary):
-    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from the start'."""
+    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from
+    the start'.
+    """
     parts = ["no earthquake"]
     if summary.earthquake:
         peak = max(summary.record.pga_gal[axis] for axis in DIRECTIONS) / 100
         than = "stronger" if peak > rules.VERY_RARE_PEAK else "weaker"
-        parts = [f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's earthquake"]
+        parts = [
+            f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's"
+            " earthquake"
+        ]
     if summary.snow_depth_m:
         parts.append(f"snow {summary.snow_depth_m:g} m")
     if summary.diagnosis.broken_from_start:
@@ -113,7 +140,10 @@ def _structure(model, group):
     roof = _roof_class(model, group)
     return {
         "roof": roof,
-        "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays) for storey in storeys},
+        "storeys": {
+            str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
+            for storey in storeys
+        },
         "uplift": _uplift(model, group, bays),
     }
 
@@ -142,9 +172,13 @@ class _Rules:
 def _storey(model, group, storey, required, bays):
     here, area = [bay for bay in bays if bay.low.storey == storey], floor_area(model, group, storey)
     eccentricity = _eccentricities(here, _mass_centre(model, group, storey))
-    return {"floor_area_m2": round(area, 3),
-            "directions": {name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
-                           for name, axis in DIRECTIONS.items()}}
+    return {
+        "floor_area_m2": round(area, 3),
+        "directions": {
+            name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
+            for name, axis in DIRECTIONS.items()
+        },
+    }
 
 
 def _direction(bays, axis, area, eccentricity, place):
@@ -191,7 +225,9 @@ def is_balanced(low, high, eccentricity):
 
 
 def _quarters(bays, axis, plan, needed):
-    """[low, high] existing over required wall quantity of the outer quarters at either side of the walls' direction. plan: (2, 2) [m]"""
+    """[low, high] existing over required wall quantity of the outer quarters at either side of the walls' direction.
+    plan: (2, 2) [m]
+    """
     across = 1 - axis
     low, high = plan[:, across]
     quarter = (high - low) / 4
@@ -201,16 +237,22 @@ def _quarters(bays, axis, plan, needed):
 
 
 def _eccentricities(bays, mass):
-    """{direction: Re}: distance of the centre of mass from that of rigidity, across the direction, over the elastic radius. None where
-    no wall resists in that direction.
+    """{direction: Re}: distance of the centre of mass from that of rigidity, across the direction, over the elastic
+    radius. None where no wall resists in that direction.
 
     The rigidity of a bay is its wall quantity: bays of a storey have one height.
     """
     sides = {axis: [bay for bay in bays if bay.axis == axis] for axis in (0, 1)}
     sums = {axis: sum(bay.quantity for bay in mine) for axis, mine in sides.items()}
-    centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis] for axis, mine in sides.items() if sums[axis] > 0}
+    centre = {
+        axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
+        for axis, mine in sides.items()
+        if sums[axis] > 0
+    }
     torsion = sum(bay.quantity * (bay.centre[1 - axis] - centre[axis]) ** 2 for axis in centre for bay in sides[axis])
-    return {name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis]) for name, axis in DIRECTIONS.items()}
+    return {
+        name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis]) for name, axis in DIRECTIONS.items()
+    }
 
 
 def _eccentricity(rigidity, mass, torsion, total):
@@ -218,7 +260,9 @@ def _eccentricity(rigidity, mass, torsion, total):
 
 
 def _mass_centre(model, group, storey):
-    """(2,) of all that the storey carries, without snow: members of higher storeys, and of its own above the columns. [m]"""
+    """(2,) of all that the storey carries, without snow: members of higher storeys, and of its own above the columns.
+    [m]
+    """
     carried = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"
                and (e.storey > storey or (e.storey == storey and e.kind not in ("column", "brace")))]
     total = sum(e.mass for e in carried)
@@ -253,7 +297,12 @@ def _bays(model, group):
 def _sheets(model, group):
     """(column, column, multiplier) of sheets without openings."""
     for joint in model.joints:
-        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not joint.label.endswith((".window.columns", ".door.columns")):
+        if (
+            joint.kind == WALL_COLUMN
+            and joint.group == group
+            and not joint.broken
+            and not joint.label.endswith((".window.columns", ".door.columns"))
+        ):
             yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
 
 
@@ -261,7 +310,10 @@ def _braces(model, group):
     """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
     columns = model.of_kind("column", group=group)
     for brace in model.of_kind("brace", group=group):
-        ends = [brace.vertices[np.argmin(brace.vertices[:, 2])][:2], brace.vertices[np.argmax(brace.vertices[:, 2])][:2]]
+        ends = [
+            brace.vertices[np.argmin(brace.vertices[:, 2])][:2],
+            brace.vertices[np.argmax(brace.vertices[:, 2])][:2],
+        ]
         here = [column for column in columns if column.storey == brace.storey]
         foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
         if foot is not head:
@@ -280,29 +332,43 @@ def brace_multiplier(section):
 
 
 def _uplift(model, group, bays):
-    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need with its joint [kN].
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need with its
+    joint [kN].
 
     The corrections for the direction of braces are left out.
     """
     storeys = sorted(model.storey_levels[group])
     columns = {(c.storey, *np.round(c.solid.centroid[:2], 3)): c for c in model.of_kind("column", group=group)}
     strengths = _foot_strengths(model)
-    needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name) for key, column in columns.items()]
+    needs = [
+        (n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
+        for key, column in columns.items()
+    ]
     rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
     if not rows:
         return None
     need, strength, name = max(rows, key=lambda row: row[0])
-    return {"columns": len(rows), "too_weak": sum(row[0] > row[1] + 1e-9 for row in rows),
-            "largest_kn": round(need, 3), "fitting_kn": round(strength, 3) if np.isfinite(strength) else None, "column": name}
+    return {
+        "columns": len(rows),
+        "too_weak": sum(row[0] > row[1] + 1e-9 for row in rows),
+        "largest_kn": round(need, 3),
+        "fitting_kn": round(strength, 3) if np.isfinite(strength) else None,
+        "column": name,
+    }
 
 
 def n_value(columns, key, bays, storeys):
-    """N = sum of A B over the column and those above it, less L. columns: {(storey, x, y): element}; the larger of both directions. [-]"""
+    """N = sum of A B over the column and those above it, less L. columns: {(storey, x, y): element}; the larger of both
+    directions. [-]
+    """
     storey, x, y = key
     stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
     corner = [len(column.side) > 1 for column in stack]
     vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
-    sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner)) for axis in (0, 1)]
+    sums = [
+        sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
+        for axis in (0, 1)
+    ]
     return max(sums) - vertical
 
 

@@ -3,15 +3,15 @@
 import numpy as np
 
 LARGEST = 1e-9
-"""Largest displacement of a vertex. [m] It is far below the tolerance of flush contacts (1e-4 m) and of planar faces (1e-6 of an element's size),
-so that shapes and contacts stay the same, and far above rounding errors (1e-15 m)."""
+"""Largest displacement of a vertex. [m] It is far below the tolerance of flush contacts (1e-4 m) and of planar faces
+(1e-6 of an element's size), so that shapes and contacts stay the same, and far above rounding errors (1e-15 m)."""
 
 
 def disturb(model, seed):
     """Move each vertex of every free element of a HouseModel by a random vector of at most LARGEST, in place.
 
-    seed: whole number >= 1 of the random numbers. Joints, and masses that were computed before, are left alone. The vectors are uniformly
-    distributed in a cube.
+    seed: whole number >= 1 of the random numbers. Joints, and masses that were computed before, are left alone. The
+    vectors are uniformly distributed in a cube.
     """
     random = np.random.default_rng(seed)
     reach = LARGEST / np.sqrt(3)  # half an edge of the cube [m]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two of them. Lengths in m, world frame."""
+"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two of them. Lengths in m, world
+frame.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,7 +28,9 @@ def cross(a, b):
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise seen from outside."""
+    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise seen from
+    outside.
+    """
 
     normal: np.ndarray
     offset: float
@@ -40,7 +44,9 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """Convex polyhedron given by its vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the hull."""
+    """Convex polyhedron given by its vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the
+    hull.
+    """
 
     vertices: np.ndarray
 
@@ -51,7 +57,9 @@ class Polyhedron:
         except (QhullError, ValueError):
             raise ValueError("vertices are flat, too few or not finite") from None
         if len(hull.vertices) != len(self.vertices):
-            raise ValueError(f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside the convex hull")
+            raise ValueError(
+                f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside the convex hull"
+            )
         return hull
 
     @cached_property
@@ -181,11 +189,14 @@ def _clip_edge(polygon, a, b):
             points.append(polygon[i])
         if height[i] * height[j] < 0:
             points.append(polygon[i] + (polygon[j] - polygon[i]) * height[i] / (height[i] - height[j]))
-    return np.array([p for i, p in enumerate(points) if np.abs(p - points[i - 1]).max() > SAME or len(points) == 1]).reshape(-1, 2)
+    return np.array(
+        [p for i, p in enumerate(points) if np.abs(p - points[i - 1]).max() > SAME or len(points) == 1]
+    ).reshape(-1, 2)
 
 
 def contact_polygon(a, b, tolerance):
-    """Flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]) of the largest one, or None.
+    """Flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]) of the largest one, or
+    None.
 
     Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
     """

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values of joints: a joint type has those of one fitting, a rule the number of fittings and the share of them that acts in its joints."""
+"""Values of joints: a joint type has those of one fitting, a rule the number of fittings and the share of them that
+acts in its joints.
+"""
 
 from ..base.joint_kinds import WALL_KINDS
 from .layout import SLIP_KEYS
 from .schema import fail
 
 END_JOINED = ("brace", "column")
-"""Kinds of members with a joint at each end; of the two members of a joint, the first is the one that comes first here."""
+"""Kinds of members with a joint at each end; of the two members of a joint, the first is the one that comes first here.
+"""
 
 
 def check_joint_types(types):
@@ -28,11 +31,17 @@ def _check_slip(table, path):
         fail(table.at("ks"), f"{path}.ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
     start, first, last = table["strength"] / table["kn"], table["softening_stretch"], table["ultimate_stretch"]
     if not start < first < last:
-        fail(table.at("softening_stretch"), path, f"strength / kn = {start:g} m, softening_stretch {first:g} m and ultimate_stretch {last:g} m must ascend")
+        fail(
+            table.at("softening_stretch"),
+            path,
+            f"strength / kn = {start:g} m, softening_stretch {first:g} m and ultimate_stretch {last:g} m must ascend",
+        )
 
 
 def rules_by_kinds(rules):
-    """{(kind a, kind b, across): (name, rule)}; a is the brace of the two, else the column, else the first kind of the rule."""
+    """{(kind a, kind b, across): (name, rule)}; a is the brace of the two, else the column, else the first kind of the
+    rule.
+    """
     found = {}
     for name, rule in rules.items():
         pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
@@ -46,17 +55,27 @@ def _rank(kind):
 
 
 def check_joint_rules(rules):
-    """HouseError for two rules for the same kinds of members, and for a rule with a kind of joint that only sheathed walls have."""
+    """HouseError for two rules for the same kinds of members, and for a rule with a kind of joint that only sheathed
+    walls have.
+    """
     for name, rule in rules.items():
         if rule["kind"] in WALL_KINDS:
-            fail(rule.at("kind"), f"joints.{name}.kind", f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
+            fail(
+                rule.at("kind"),
+                f"joints.{name}.kind",
+                f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name",
+            )
     pairs = {}
     for (a, b, across), entries in rules_by_kinds(rules).items():
         pairs.setdefault((*sorted((a, b)), across), []).extend(entries)
     for (a, b, _), entries in pairs.items():
         if len(entries) > 1:
             (first, _), (second, rule) = entries[:2]
-            fail(rule.where, f"joints.{second}", f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
+            fail(
+                rule.where,
+                f"joints.{second}",
+                f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited",
+            )
 
 
 def joint_values(data, rule):
@@ -70,4 +89,4 @@ def joint_values(data, rule):
         "per": table["per"] or data["law"]["joint_reading"],
         "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
         **{key: table[key] for key in SLIP_KEYS},
-    }  # fmt: skip
+    }

@@ -18,8 +18,9 @@ LYING = 0.1
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    A rule joins elements of one structure, or with `across` those of two structures. Contacts below `joint_search.min_area`
-    get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam with that strip only.
+    A rule joins elements of one structure, or with `across` those of two structures. Contacts below
+    `joint_search.min_area` get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam
+    with that strip only.
     """
     data = description.data
     rules = {kinds: rule for kinds, [(_, rule)] in rules_by_kinds(data["joints"]).items()}
@@ -39,7 +40,9 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order; HouseError for more than MAX_PAIRS."""
+    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order; HouseError for more than
+    MAX_PAIRS.
+    """
     bounds = np.array([e.solid.bounds for e in elements])
     low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []
@@ -47,8 +50,10 @@ def near_pairs(elements, margin):
         near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
         pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
         if len(pairs) > MAX_PAIRS:
-            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or overlap "
-                             "by their bounding boxes; move members apart")
+            raise HouseError(
+                f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or"
+                " overlap by their bounding boxes; move members apart"
+            )
     return pairs
 
 
@@ -56,10 +61,22 @@ def _joint(a, b, rule, contact, data):
     polygon, normal, area = contact
     points = spring_points(polygon, normal)
     end_joined = a.kind in END_JOINED
-    at_end = end_joined and (a.kind != "column" or abs(normal[2]) > LYING)  # columns of two wings have joints between their sides
+    at_end = end_joined and (
+        a.kind != "column" or abs(normal[2]) > LYING
+    )  # columns of two wings have joints between their sides
     end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if at_end else ""
-    return JointSpec(a.name, b.name, points, normal, area=area, storey=a.storey, side=a.side if end_joined else a.side or b.side, end=end,
-                     group=a.group, **joint_values(data, rule))
+    return JointSpec(
+        a.name,
+        b.name,
+        points,
+        normal,
+        area=area,
+        storey=a.storey,
+        side=a.side if end_joined else a.side or b.side,
+        end=end,
+        group=a.group,
+        **joint_values(data, rule),
+    )
 
 
 def spring_points(polygon, normal):

@@ -32,8 +32,14 @@ nodes = ListOf(node, scalar=True, most=MAX_LINES)
 storey = Number("", 1, MAX_STOREYS, whole=True)
 storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
 
-axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
-               "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)}, one_of=("module", "positions"))
+axis = Record(
+    {
+        "module": length(0.1, 20.0, default=None),
+        "count": Number("modules", 1, 200, whole=True, default=1),
+        "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None),
+    },
+    one_of=("module", "positions"),
+)
 
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
 
@@ -55,14 +61,26 @@ def _layer(kind, one_of=(), **fields):
 
 
 def _strip(kind, fixed):
-    return _layer(kind, height=length(0.01, 2.0), width=length(0.01, 2.0), fixed=Flag(fixed), lines=ListOf(line, most=MAX_LINES, default=None))
+    return _layer(
+        kind,
+        height=length(0.01, 2.0),
+        width=length(0.01, 2.0),
+        fixed=Flag(fixed),
+        lines=ListOf(line, most=MAX_LINES, default=None),
+    )
 
 
 area = Record({"x": ListOf(node, 2), "y": ListOf(node, 2)}, default=None)
 
 
 def _roof(kind, one_of=(), **fields):
-    common = dict(type=Choice((kind,)), thickness=length(0.01, 2.0), eaves=length(high=3.0, default=0.0, open_low=False), area=area, snow=Flag(True))
+    common = dict(
+        type=Choice((kind,)),
+        thickness=length(0.01, 2.0),
+        eaves=length(high=3.0, default=0.0, open_low=False),
+        area=area,
+        snow=Flag(True),
+    )
     return _layer("roof", one_of=one_of, **common, **fields)
 
 
@@ -84,8 +102,17 @@ layer = Variants("layer", {
     "roof": roof,
 })
 
-wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "type": ListOf(word(), scalar=True, most=5),
-                    "opening": Choice(("none", "window", "door"), "none"), "storeys": storeys})
+wall_line = Record(
+    {
+        "along": Choice(("x", "y")),
+        "at": nodes,
+        "from": node,
+        "to": node,
+        "type": ListOf(word(), scalar=True, most=5),
+        "opening": Choice(("none", "window", "door"), "none"),
+        "storeys": storeys,
+    }
+)
 
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
@@ -112,12 +139,26 @@ structure = Record({
     "loads": loads,
 })
 
-material = Variants("law", {
-    "timber": Record({"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000),
-                      "young": Number("Pa", 1e6, 1e12), "poisson": Number("", 0.0, 0.49)}),  # of known materials; TimberMat takes (-1, 0.5]
-    "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
-                    "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
-})
+material = Variants(
+    "law",
+    {
+        "timber": Record(
+            {
+                "law": Choice(("timber",)),
+                "density": Number("kg/m3", 20, 30000),
+                "young": Number("Pa", 1e6, 1e12),
+                "poisson": Number("", 0.0, 0.49),
+            }
+        ),  # of known materials; TimberMat takes (-1, 0.5]
+        "snow": Record(
+            {
+                "law": Choice(("snow",)),
+                "density": Number("kg/m3", 10, 1000),
+                "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True),
+            }
+        ),
+    },
+)
 
 _stretch = Number("m", 1e-5, 10.0, default=None)
 joint_type = Record({
@@ -131,30 +172,59 @@ SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
 
 _drift = Number("rad", 1e-4, 1.0, default=None)
-board = Record({"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS), "thickness": length(0.001, 0.2),
-                "shear_modulus": Number("Pa", 1e6, 1e11), "edge": length(high=0.1, default=0.01, open_low=False)})
-nails = Record({
-    "k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None), "du": length(1e-4, 0.5),
-    "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None), "board": board, "height": length(0.1, 20.0, default=None),
-}, default=None)
-wall_type = Record({
-    "multiplier": Number("", 0.1, 20.0, default=None),
-    "strength": Number("N/m", 10.0, 1e6, default=None), "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
-    "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
-    "nails": nails,
-    "friction_share": Number("", 0.0, 1.0, default=0.2),
-    "softening_drift": _drift, "ultimate_drift": _drift,
-})
+board = Record(
+    {
+        "width": length(0.1, 10.0),
+        "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
+        "thickness": length(0.001, 0.2),
+        "shear_modulus": Number("Pa", 1e6, 1e11),
+        "edge": length(high=0.1, default=0.01, open_low=False),
+    }
+)
+nails = Record(
+    {
+        "k": Number("N/m", 1e4, 1e8),
+        "Pv": Number("N", 10.0, 1e5),
+        "dv": length(high=0.1, default=None),
+        "du": length(1e-4, 0.5),
+        "spacing": length(0.01, 1.0),
+        "inner_spacing": length(0.01, 1.0, default=None),
+        "board": board,
+        "height": length(0.1, 20.0, default=None),
+    },
+    default=None,
+)
+wall_type = Record(
+    {
+        "multiplier": Number("", 0.1, 20.0, default=None),
+        "strength": Number("N/m", 10.0, 1e6, default=None),
+        "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
+        "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
+        "nails": nails,
+        "friction_share": Number("", 0.0, 1.0, default=0.2),
+        "softening_drift": _drift,
+        "ultimate_drift": _drift,
+    }
+)
 
-joint_rule = Record({
-    "between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(), "across": Flag(False),
-    "number": Number("fittings", 1, 100, whole=True, default=1), "share": Number("", 0.01, 1.0, default=1.0),
-    "strength": Number("N", 10.0, infinite=True, default=None),
-})
+joint_rule = Record(
+    {
+        "between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2),
+        "type": word(),
+        "kind": word(),
+        "across": Flag(False),
+        "number": Number("fittings", 1, 100, whole=True, default=1),
+        "share": Number("", 0.01, 1.0, default=1.0),
+        "strength": Number("N", 10.0, infinite=True, default=None),
+    }
+)
 
-_broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None)
-damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey,
-                        "column_beam": _broken, "brace_beam": _broken})
+_broken = Record(
+    {"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None
+)
+damage_region = Record(
+    {"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken, "brace_beam": _broken}
+)
 
 HOUSE = Record({
     "name": word(),

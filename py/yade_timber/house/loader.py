@@ -40,7 +40,10 @@ def _chain(path):
     while path is not None:
         files = [file for file, _ in links]
         if path.resolve() in [file.resolve() for file in files]:
-            raise HouseError(f"{where}: extends: the file extends itself through {' -> '.join(file.name for file in files)}; remove one 'extends'")
+            raise HouseError(
+                f"{where}: extends: the file extends itself through {' -> '.join(file.name for file in files)}; remove"
+                " one 'extends'"
+            )
         if len(links) == MAX_FILES:
             raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
         table, nodes = parse_table(text_of(path), path.name, nodes_left)
@@ -68,16 +71,22 @@ def _extended(path, table):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {shown(parent)}")
     found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
     if found is None:
-        raise HouseError(f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that name "
-                         f"({', '.join([*COMMON, *shipped_houses()])})")
+        raise HouseError(
+            f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that"
+            f" name ({', '.join([*COMMON, *shipped_houses()])})"
+        )
     require_house_file(found, f"{table.at('extends')}: extends")
     return found
 
 
 def require_house_file(path, where):
-    """Refuse a file that another file names and that is no house file by its name: messages about its content would quote it."""
+    """Refuse a file that another file names and that is no house file by its name: messages about its content would
+    quote it.
+    """
     if path.resolve().suffix not in SUFFIXES:
-        raise HouseError(f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}")
+        raise HouseError(
+            f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}"
+        )
 
 
 def shipped_houses():
@@ -91,7 +100,9 @@ def shipped_paths(name):
 
 
 def merge(base, change):
-    """`change` laid over `base`: tables entry by entry, null removes an entry if there is one, everything else is replaced as a whole."""
+    """`change` laid over `base`: tables entry by entry, null removes an entry if there is one, everything else is
+    replaced as a whole.
+    """
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
         if value is None:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Loads as engineers state them, in kN per m2: of roof surface and of floor with the slab itself, of outer wall beside its columns.
+"""Loads as engineers state them, in kN per m2: of roof surface and of floor with the slab itself, of outer wall beside
+its columns.
 
-A load becomes mass of the member that carries it, spread evenly over the member's volume: roof and floor slabs, and for walls the
-columns, half of each bay on the column at either end.
+A load becomes mass of the member that carries it, spread evenly over the member's volume: roof and floor slabs, and for
+walls the columns, half of each bay on the column at either end.
 """
 
 import numpy as np
@@ -13,7 +14,9 @@ from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
 
 
 def apply_loads(elements, structures, loads):
-    """Set the masses of loaded elements. loads: those of the house file, which a structure's own ones override key by key."""
+    """Set the masses of loaded elements. loads: those of the house file, which a structure's own ones override key by
+    key.
+    """
     for structure in structures.values():
         own = structure.table["loads"]
         mine = {key: loads[key] if own[key] is None else own[key] for key in loads}
@@ -27,7 +30,11 @@ def apply_loads(elements, structures, loads):
 
 def upper_area(element):
     """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
-    return sum(abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T)) for face in element.solid.faces if face.normal[2] > 1e-6)
+    return sum(
+        abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T))
+        for face in element.solid.faces
+        if face.normal[2] > 1e-6
+    )
 
 
 def _hang_walls(structure, members, load):

@@ -11,7 +11,9 @@ DIRECTION = {"x": "EW", "y": "NS"}
 
 
 def lay_strips(structure, layer, kind):
-    """Members along the lines of the layer or of the structure: one piece per line; `cut` lines end at the lines they cross."""
+    """Members along the lines of the layer or of the structure: one piece per line; `cut` lines end at the lines they
+    cross.
+    """
     table, elements = layer.table, []
     lines = _single_lines(structure, table["lines"] if table["lines"] is not None else structure.table["lines"])
     for line in lines:
@@ -30,10 +32,15 @@ def _single_lines(structure, lines):
         structure.check_nodes(line["along"], (line["from"], line["to"]), line.at("from"))
         structure.check_nodes(across, line["at"], line.at("at"))
         if line["from"] >= line["to"]:
-            raise HouseError(f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
+            raise HouseError(
+                f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must"
+                " be below 'to'"
+            )
         single += [{**line, "at": at, "where": line.where} for at in line["at"]]
         if len(single) > MAX_LINES:
-            raise HouseError(f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list; remove some")
+            raise HouseError(
+                f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list; remove some"
+            )
     return single
 
 
@@ -63,19 +70,34 @@ def _strip(structure, layer, kind, name, line, start, end):
     centre = structure.axes[across](line["at"])
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
-    return structure.block(kind, name, low, high, layer.table, line["where"], fixed=layer.table["fixed"], storey=layer.storey,
-                           side=structure.sides(**{across: line["at"]}), section=(width, layer.z1 - layer.z0))
+    return structure.block(
+        kind,
+        name,
+        low,
+        high,
+        layer.table,
+        line["where"],
+        fixed=layer.table["fixed"],
+        storey=layer.storey,
+        side=structure.sides(**{across: line["at"]}),
+        section=(width, layer.z1 - layer.z0),
+    )
 
 
 def lay_floors(structure, layer):
-    """Floor slabs: one per area (default: the whole grid), extended by the margin beyond the grid; neighbouring areas share a grid line."""
+    """Floor slabs: one per area (default: the whole grid), extended by the margin beyond the grid; neighbouring areas
+    share a grid line.
+    """
     areas = layer.table["areas"] or [None]
     elements = []
     for number, area in enumerate(areas, 1):
         low, high = structure.area(area, [other for other in areas if other is not area])
         name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
-        elements.append(structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where,
-                                        storey=layer.storey))
+        elements.append(
+            structure.block(
+                "floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where, storey=layer.storey
+            )
+        )
     return elements
 
 
@@ -84,9 +106,19 @@ def lay_columns(structure, layer):
     elements = []
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
         centre = np.array([structure.axes["x"](x), structure.axes["y"](y)])
-        elements.append(structure.block("column", f"column{layer.storey}.x{x:g}y{y:g}", [*(centre - section / 2), layer.z0],
-                                        [*(centre + section / 2), layer.z1], layer.table, where, storey=layer.storey,
-                                        side=structure.sides(x=x, y=y), section=(section, section)))
+        elements.append(
+            structure.block(
+                "column",
+                f"column{layer.storey}.x{x:g}y{y:g}",
+                [*(centre - section / 2), layer.z0],
+                [*(centre + section / 2), layer.z1],
+                layer.table,
+                where,
+                storey=layer.storey,
+                side=structure.sides(x=x, y=y),
+                section=(section, section),
+            )
+        )
     return elements
 
 
@@ -96,7 +128,10 @@ def column_plan(structure, storey):
     for i, group in enumerate(structure.table["columns"]):
         for number in group["storeys"]:
             if number not in structure.storeys:
-                raise HouseError(f"{group.at('storeys')}: {structure.name}: columns[{i + 1}]: no storey {number}; the stack has {structure.storeys}")
+                raise HouseError(
+                    f"{group.at('storeys')}: {structure.name}: columns[{i + 1}]: no storey {number}; the stack has"
+                    f" {structure.storeys}"
+                )
         if group["storeys"] and storey not in group["storeys"]:
             continue
         for x, y in _group_nodes(structure, group):
@@ -104,8 +139,10 @@ def column_plan(structure, storey):
                 plan[x, y] = (group["section"], group.where)
                 require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
             elif group["lines"] is None:
-                raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
-                                 f"(first in {plan[x, y][1]}); remove one of them")
+                raise HouseError(
+                    f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
+                    f"(first in {plan[x, y][1]}); remove one of them"
+                )
     return plan
 
 

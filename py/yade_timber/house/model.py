@@ -14,7 +14,9 @@ from .geometry import Polyhedron
 
 @dataclass(eq=False)
 class Element:
-    """One rigid member. World frame: x east, y north, z up, origin at the south-west column's centre line on the ground."""
+    """One rigid member. World frame: x east, y north, z up, origin at the south-west column's centre line on the
+    ground.
+    """
 
     name: str               # e.g. 'main.column1.x4y0'
     kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
@@ -22,11 +24,13 @@ class Element:
     material: str           # key of HouseModel.materials
     density: float          # mass over volume, with what it carries and without hollows [kg/m3]
     fixed: bool = False
-    storey: int = 0         # storey of the columns below it (columns, braces: their own); 0 below the first
-    side: frozenset = frozenset()  # walls of which it is a part: 'north', 'south', 'east', 'west'; empty inside the house
-    section: tuple = ()     # (width, depth) [m] where the member has a section
-    group: str = ""         # structure, e.g. 'main', 'entrance'
-    source: str = ""        # file:line of its description
+    storey: int = 0  # storey of the columns below it (columns, braces: their own); 0 below the first
+    side: frozenset = (
+        frozenset()
+    )  # walls of which it is a part: 'north', 'south', 'east', 'west'; empty inside the house
+    section: tuple = ()  # (width, depth) [m] where the member has a section
+    group: str = ""  # structure, e.g. 'main', 'entrance'
+    source: str = ""  # file:line of its description
 
     def __repr__(self):
         return f"<Element {self.name}: {self.kind}, {len(self.vertices)} corners>"
@@ -37,7 +41,9 @@ class Element:
             polyhedron = Polyhedron(np.asarray(self.vertices, float))
             polyhedron.hull
         except ValueError as problem:
-            raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its dimensions") from None
+            raise HouseError(
+                f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its dimensions"
+            ) from None
         return polyhedron
 
     def move(self, vertices):
@@ -62,7 +68,9 @@ class Element:
 
 @dataclass(eq=False)
 class JointSpec:
-    """Springs between elements `a` and `b` of a house, or of `connect`: four at the corners of their contact area (paper, 2.4 and 4), or one of a wall."""
+    """Springs between elements `a` and `b` of a house, or of `connect`: four at the corners of their contact area
+    (paper, 2.4 and 4), or one of a wall.
+    """
 
     a: str
     b: str
@@ -82,7 +90,7 @@ class JointSpec:
     friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
     softening_stretch: object = None  # [m] law 'slip': stretch from which the strength falls
     ultimate_stretch: object = None   # [m] law 'slip': stretch at which no strength is left
-    envelope: tuple = ()  # law 'slip': (stretch [m], force [N]) of the first loading, in place of the line through the three values above
+    envelope: tuple = ()  # law 'slip': (stretch [m], force [N]) of the first loading, replaces the three values
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts
@@ -109,16 +117,20 @@ class HouseModel:
     description: str
     elements: list
     joints: list
-    materials: dict          # name -> {'law': 'timber', 'density', 'young', 'poisson'} or {'law': 'snow', 'density', 'stiffness_per_kg'}
-    friction: list           # [(material, material, coefficient)]
-    law: dict                # 'joint_reading', ...; 'wall_level': None without walls of a rated multiplier
-    snow_depth: float        # [m]
-    storey_levels: dict      # group -> {storey: (z foot, z head) of its columns [m]}
-    grids: dict              # group -> {'x': positions of its nodes [m], 'y': likewise}
+    materials: dict  # name -> {'law': 'timber', 'density', 'young', 'poisson'} or
+    # {'law': 'snow', 'density', 'stiffness_per_kg'}
+    friction: list  # [(material, material, coefficient)]
+    law: dict  # 'joint_reading', ...; 'wall_level': None without walls of a rated multiplier
+    snow_depth: float  # [m]
+    storey_levels: dict  # group -> {storey: (z foot, z head) of its columns [m]}
+    grids: dict  # group -> {'x': positions of its nodes [m], 'y': likewise}
     multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
 
     def __repr__(self):
-        return f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of snow>"
+        return (
+            f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of"
+            " snow>"
+        )
 
     @cached_property
     def by_name(self):
@@ -140,7 +152,9 @@ class HouseModel:
         return f"{counts['joints']} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
 
     def counts(self):
-        """Numbers to check a house: elements, columns by section, braces, joints without those of walls, joints by kind, masses [kg]."""
+        """Numbers to check a house: elements, columns by section, braces, joints without those of walls, joints by
+        kind, masses [kg].
+        """
         columns, braces = self.of_kind("column"), self.of_kind("brace")
         return {
             "elements": len(self.elements),

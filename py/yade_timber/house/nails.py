@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Shear of a wall whose boards are nailed to the frame, from tests of single nails. Lengths in m, forces in N.
 
-Frame and boards stay straight. The frame shears by the angle gamma, a board turns by a part of it so that the nails' work is least. A nail at
-(x, y) from the board's centre then slips by gamma Ixy / Ix y along the board's width and by gamma Ixy / Iy x along its height:
+Frame and boards stay straight. The frame shears by the angle gamma, a board turns by a part of it so that the nails'
+work is least. A nail at (x, y) from the board's centre then slips by gamma Ixy / Ix y along the board's width and by
+gamma Ixy / Iy x along its height:
 
     Ix = sum y^2, Iy = sum x^2, Ixy = 1 / (1/Ix + 1/Iy)      M = k Ixy gamma
     Zxy = Ixy gamma / (slip of the corner nail)              My = Pv Zxy            the corner nail yields
     Zpxy = sum of the slips / gamma                          Mu = Pv Zpxy           all nails yield
 
-over all boards, each with its own Ixy. The boards shear as well, by M / (G V) with their volume V. The wall's shear is M over its height H:
+over all boards, each with its own Ixy. The boards shear as well, by M / (G V) with their volume V. The wall's shear is
+M over its height H:
 
-    K = 1 / (1/(k Ixy) + 1/(G V)) / H      gamma_v = Mu / (H K)      gamma_u = gamma_v + (du - Pv/k) Zpxy / Ixy      mu = gamma_u / gamma_v
-    Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
+    K = 1 / (1/(k Ixy) + 1/(G V)) / H      gamma_v = Mu / (H K)      gamma_u = gamma_v + (du - Pv/k) Zpxy / Ixy      mu
+    = gamma_u / gamma_v Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
 
-Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed calculation of walls with
-boards; the formulas follow from the mechanics above.
+Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed
+calculation of walls with boards; the formulas follow from the mechanics above.
 """
 
 from dataclasses import dataclass
@@ -48,7 +50,11 @@ class NailedWall:
     @property
     def allowable(self):
         """[N]"""
-        return min(self.yield_moment / self.height, 0.2 * (2 * self.ductility - 1) ** 0.5 * self.strength, CODE_DRIFT * self.stiffness)
+        return min(
+            self.yield_moment / self.height,
+            0.2 * (2 * self.ductility - 1) ** 0.5 * self.strength,
+            CODE_DRIFT * self.stiffness,
+        )
 
 
 def nailed_wall(nails):
@@ -66,7 +72,9 @@ def nailed_wall(nails):
 
 
 def _positions(nails, height):
-    """(n, 2) nails of a board from its centre: along its edges, and on its vertical centre line where there is an inner spacing."""
+    """(n, 2) nails of a board from its centre: along its edges, and on its vertical centre line where there is an inner
+    spacing.
+    """
     half = np.array([nails["board"]["width"], height]) / 2 - nails["board"]["edge"]
     sides, ends = _line(half[1], nails["spacing"]), _line(half[0], nails["spacing"])[1:-1]
     points = [(x, y) for x in (-half[0], half[0]) for y in sides] + [(x, y) for x in ends for y in (-half[1], half[1])]

@@ -30,7 +30,8 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     name_or_path : str or Path
         Shipped house or house file.
     settings : sequence of str
-        Keys of the house file, list items from 1: 'joint_types.corner_fitting.strength=7000', 'friction[1].coefficient=0.3'.
+        Keys of the house file, list items from 1: 'joint_types.corner_fitting.strength=7000',
+        'friction[1].coefficient=0.3'.
     braces : sequence of str
         Names of braces and walls to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3),
         'main.wall1.EW.y0.3-4.plywood'.
@@ -84,13 +85,17 @@ def _steps(key, where):
     for part in parts:
         match = _STEP.fullmatch(part)
         if match is None:
-            raise HouseError(f"{where}: {shown(key)} is not a key; write it like materials.timber.density or friction[1].coefficient")
+            raise HouseError(
+                f"{where}: {shown(key)} is not a key; write it like materials.timber.density or friction[1].coefficient"
+            )
         steps += [match.group(1), *(int(number) - 1 for number in re.findall(r"\d+", match.group(2)))]
     return steps
 
 
 def _entered(node, step, key, where):
-    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, which the schema checks later."""
+    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, which the schema checks
+    later.
+    """
     if isinstance(step, str) and isinstance(node, Table):
         return node.setdefault(step, Table(where=where))
     _require_item(node, step, key, where)
@@ -108,24 +113,34 @@ def _put(node, step, value, key, where):
 
 def _require_item(node, step, key, where):
     if not isinstance(step, int) or not isinstance(node, Items):
-        raise HouseError(f"{where}: {key}: there is no table or list at '{step if isinstance(step, str) else f'[{step + 1}]'}'")
+        raise HouseError(
+            f"{where}: {key}: there is no table or list at '{step if isinstance(step, str) else f'[{step + 1}]'}'"
+        )
     if not 0 <= step < len(node):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
 
 
-# --- braces, walls and joints ------------------------------------------------------------------------------------------------
+# --- braces, walls and joints
+# ------------------------------------------------------------------------------------------------
 
 
 def brace_parts(name, where="brace"):
-    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises HouseError."""
+    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises
+    HouseError.
+    """
     match = _BRACE.fullmatch(name)
     if match is None:
-        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like main.wall2.NS.x8.6-7.plywood")
+        raise HouseError(
+            f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
+            " main.wall2.NS.x8.6-7.plywood"
+        )
     return _parts(match)
 
 
 def wall_parts(name):
-    """'main.wall1.EW.y0.3-4.plywood' -> ('main', storey 1, along 'x', at 0.0, from 3.0, to 4.0 [grid nodes], 'plywood'); None for another name."""
+    """'main.wall1.EW.y0.3-4.plywood' -> ('main', storey 1, along 'x', at 0.0, from 3.0, to 4.0 [grid nodes],
+    'plywood'); None for another name.
+    """
     match = _WALL.fullmatch(name)
     return match and (*_parts(match), match.groups()[-1])
 
@@ -139,7 +154,9 @@ def _add_brace(data, name, where):
     structure, storey, along, at, foot, head = brace_parts(name, where)
     runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
     table = _structure(data, structure, name, where).setdefault("braces", Table(where=where))
-    _append(table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs}, where)
+    _append(
+        table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs}, where
+    )
 
 
 def _add_wall(data, name, where):
@@ -161,7 +178,9 @@ def _append(lines, line, where):
 
 def _strengthen(data, factor, where):
     if not MIN_FACTOR <= factor <= MAX_FACTOR:
-        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g}, {MAX_FACTOR:g}]")
+        raise HouseError(
+            f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g}, {MAX_FACTOR:g}]"
+        )
     for table in (*data["joint_types"].values(), *data["joints"].values()):
         if table.get("strength") is not None:
             table["strength"] *= factor

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""YAML text -> tables and lists that know their file and line. Sizes are limited; other types than numbers, texts and flags are refused."""
+"""YAML text -> tables and lists that know their file and line. Sizes are limited; other types than numbers, texts and
+flags are refused.
+"""
 
 import re
 
@@ -95,9 +97,15 @@ class _Parser(yaml.SafeLoader):
 
     def _check_size(self, count, depth, mark):
         if count > self.max_nodes:
-            raise HouseError(f"{self._where(mark)}: more than {MAX_NODES} values, aliases and extended files included; make the house smaller")
+            raise HouseError(
+                f"{self._where(mark)}: more than {MAX_NODES} values, aliases and extended files included; make the"
+                " house smaller"
+            )
         if depth > MAX_DEPTH:
-            raise HouseError(f"{self._where(mark)}: nested more than {MAX_DEPTH} levels deep, or an entry contains itself; remove levels")
+            raise HouseError(
+                f"{self._where(mark)}: nested more than {MAX_DEPTH} levels deep, or an entry contains itself; remove"
+                " levels"
+            )
 
     def _convert(self, node, depth):
         if node is None:
@@ -108,7 +116,9 @@ class _Parser(yaml.SafeLoader):
             return self._table(node, depth)
         if isinstance(node, yaml.SequenceNode) and node.tag == TAG + "seq":
             sources = [self._where(child.start_mark) for child in node.value]
-            return Items([self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark), sources)
+            return Items(
+                [self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark), sources
+            )
         if isinstance(node, yaml.ScalarNode) and node.tag in _PLAIN_TYPES:
             return self._scalar(node)
         raise HouseError(f"{self._where(node.start_mark)}: unsupported type {shown(node.tag.replace(TAG, '!!'))}; "
@@ -124,7 +134,10 @@ class _Parser(yaml.SafeLoader):
             if not isinstance(key, str):
                 raise HouseError(f"{where}: a key must be a word, got {shown(key)}")
             if key in table:
-                raise HouseError(f"{where}: key {shown(key)} is given twice (first in line {table.at(key).rsplit(':', 1)[-1]}); remove one")
+                raise HouseError(
+                    f"{where}: key {shown(key)} is given twice (first in line {table.at(key).rsplit(':', 1)[-1]});"
+                    " remove one"
+                )
             previous = table[key] = self._convert(value_node, depth + 1)
             table.entries[key] = where
         return table
@@ -144,7 +157,8 @@ class _Parser(yaml.SafeLoader):
         return self._number(kind, text, node, where)
 
     def _number(self, kind, text, node, where):
-        """Decimal numbers only: 010 (octal), 0x10 and 1:30 (base 60) of YAML 1.1 are refused, as few users know them."""
+        """Decimal numbers only: 010 (octal), 0x10 and 1:30 (base 60) of YAML 1.1 are refused, as few users know them.
+        """
         digits = text.lstrip("+-")
         other_base = ":" in text or kind == "int" and len(digits) > 1 and digits[0] == "0"
         try:
@@ -160,15 +174,25 @@ class _Parser(yaml.SafeLoader):
 
 def _refuse_decimal_comma(where, key_node, previous, value_node):
     """`{height: 2,73}` reads as height 2 and a key 73 without a value."""
-    is_number = isinstance(key_node, yaml.ScalarNode) and re.fullmatch(r"\d{1,20}", key_node.value) and isinstance(previous, int)
+    is_number = (
+        isinstance(key_node, yaml.ScalarNode)
+        and re.fullmatch(r"\d{1,20}", key_node.value)
+        and isinstance(previous, int)
+    )
     if is_number and isinstance(value_node, yaml.ScalarNode) and not value_node.value:
-        raise HouseError(f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point: {previous}.{key_node.value}")
+        raise HouseError(
+            f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point:"
+            f" {previous}.{key_node.value}"
+        )
 
 
 _Parser.yaml_implicit_resolvers = {
-    first: [(tag, pattern) for tag, pattern in resolvers if tag in _PLAIN_TYPES] for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    first: [(tag, pattern) for tag, pattern in resolvers if tag in _PLAIN_TYPES]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }  # dates are texts
-_Parser.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))  # 1e7 is a number in YAML 1.2, a text for PyYAML
+_Parser.add_implicit_resolver(
+    TAG + "float", _EXPONENT, list("-+.0123456789")
+)  # 1e7 is a number in YAML 1.2, a text for PyYAML
 
 
 class _Writer(yaml.SafeDumper):

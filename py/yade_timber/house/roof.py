@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Roof slabs and the snow on them. Lengths in m. The outline is the roof's rectangle of the grid, extended by margin and eaves.
+"""Roof slabs and the snow on them. Lengths in m. The outline is the roof's rectangle of the grid, extended by margin
+and eaves.
 
-All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, on which it
-rests with a level face, the soffit of the eaves. Where that face would end before the plates, the eaves are boxed: the soffit reaches
-over the plates, and from there the underside rises to the slab's own thickness at the ridge. A boxed slab is hollow: it has the mass of
-its thickness over its sloped area. Gable: two slabs that share the ridge, tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees
-in plan; each slab is the part of the outline nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three
-corners are cut off, octahedra. A square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
+All slopes of a roof are equal. Each slab lies between two parallel planes and above the level of the wall plates, on
+which it rests with a level face, the soffit of the eaves. Where that face would end before the plates, the eaves are
+boxed: the soffit reaches over the plates, and from there the underside rises to the slab's own thickness at the ridge.
+A boxed slab is hollow: it has the mass of its thickness over its sloped area. Gable: two slabs that share the ridge,
+tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees in plan; each slab is the part of the outline
+nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three corners are cut off, octahedra. A
+square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
 opposite, which belong to its joints.
 """
 
@@ -26,7 +28,9 @@ OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Plan and slope of a pitched roof: corners (2,) of the outline, eave level z [m], horizontal run from eave to ridge [m], rise over run."""
+    """Plan and slope of a pitched roof: corners (2,) of the outline, eave level z [m], horizontal run from eave to
+    ridge [m], rise over run.
+    """
 
     low: np.ndarray
     high: np.ndarray
@@ -40,7 +44,9 @@ class Plan:
         return d, max(d @ self.low, d @ self.high)
 
     def bottom(self, side, rise, drop):
-        """Plane of the slab's underside: it rises by `rise` [-] and lies `drop` [m] below the parallel plane through the eave."""
+        """Plane of the slab's underside: it rises by `rise` [-] and lies `drop` [m] below the parallel plane through
+        the eave.
+        """
         d, e = self.distance(side)
         return (*(-rise * d), -1.0), -(self.eave + rise * e - drop)
 
@@ -55,7 +61,9 @@ class Plan:
         return (*(self.slope * d), 1.0), self.eave + self.slope * e
 
     def nearer(self, side, other):
-        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: a hip or the ridge."""
+        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: a hip
+        or the ridge.
+        """
         (d, e), (d2, e2) = self.distance(side), self.distance(other)
         return (*(d2 - d), 0.0), e2 - e
 
@@ -87,7 +95,9 @@ class HipPlan(Plan):
         """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
         opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
         hip_end = self._is_hip_end(side)
-        planes = [self.nearer(side, other) for other in OUTWARD if other != side and not (hip_end and other == opposite)]
+        planes = [
+            self.nearer(side, other) for other in OUTWARD if other != side and not (hip_end and other == opposite)
+        ]
         return planes + (self._corner_cuts(side) if hip_end else [])
 
     def _is_hip_end(self, side):
@@ -131,8 +141,10 @@ def hip_plan(structure, layer):
     half, cut = (high - low).min() / 2, layer.table["corner_cut"]
     plan = HipPlan(low, high, layer.z0, half, slope(structure, layer, half), cut)
     if cut >= half / 2:
-        raise HouseError(f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the roof's width "
-                         f"({half / 2:g} m), got {cut:g}")
+        raise HouseError(
+            f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the roof's width "
+            f"({half / 2:g} m), got {cut:g}"
+        )
     return plan
 
 
@@ -240,11 +252,15 @@ def lay_snow(structure, layer, depth, material):
     if depth == 0 or not layer.table["snow"]:
         return []
     bodies = ROOFS[layer.table["type"]][1](structure, layer, depth)
-    return [_element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()]
+    return [
+        _element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()
+    ]
 
 
 def carry_roofs(structure, elements, joints):
-    """Change and append joints, so that the walls bear the weight of the structure's roofs and no thrust: tie beams and posts."""
+    """Change and append joints, so that the walls bear the weight of the structure's roofs and no thrust: tie beams and
+    posts.
+    """
     for layer in structure.layers:
         if layer.kind == "roof" and layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
@@ -253,11 +269,15 @@ def carry_roofs(structure, elements, joints):
 
 
 def _tie_slabs(structure, layer, joints):
-    """Move half of a ridge joint's springs down to the tie beams of a gable roof, where its slabs would push the walls apart.
+    """Move half of a ridge joint's springs down to the tie beams of a gable roof, where its slabs would push the walls
+    apart.
 
-    The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of one fitting.
+    The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of
+    one fitting.
     """
-    slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides}
+    slabs = {
+        f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides
+    }
     for joint in joints:
         if {joint.a, joint.b} == slabs:
             joint.points[joint.points[:, 2] < joint.centre[2], 2] = layer.z0
@@ -272,15 +292,25 @@ def _row(joint, length):
 
 
 def _posts(structure, layer, elements, joints):
-    """JointSpecs of a mono-pitch roof's slab with the plates of its high wall; each post has the stiffness and strength of one fitting of its eave."""
+    """JointSpecs of a mono-pitch roof's slab with the plates of its high wall; each post has the stiffness and strength
+    of one fitting of its eave.
+    """
     side = layer.table["falls"]
     name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
-    plates = {e.name: e for e in elements if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT}
-    eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)), None)
+    plates = {
+        e.name: e
+        for e in elements
+        if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT
+    }
+    eave = next(
+        (joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)), None
+    )
     high = _high_plates(mono_plan(structure, layer), plates.values()) if eave else []
     if not high or {eave.a, eave.b} & {plate.name for plate in high}:
-        raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on posts over those of the wall "
-                         "opposite; add beams below both and a rule of `joints` between roof and beam")
+        raise HouseError(
+            f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on posts over"
+            " those of the wall opposite; add beams below both and a rule of `joints` between roof and beam"
+        )
     return [_post_row(eave, name, plate) for plate in high]
 
 
@@ -288,7 +318,9 @@ def _high_plates(plan, plates):
     """Those farthest from the eave, of the plates below the plan."""
     d, e = plan.distance(*plan.sides)
     centres = ((plate.solid.centroid[:2], plate) for plate in plates)
-    runs = [(e - d @ centre, plate) for centre, plate in centres if (plan.low < centre).all() and (centre < plan.high).all()]
+    runs = [
+        (e - d @ centre, plate) for centre, plate in centres if (plan.low < centre).all() and (centre < plan.high).all()
+    ]
     most = max((run for run, _ in runs), default=0.0)
     return [plate for run, plate in runs if most - run < SEAT]
 
@@ -298,12 +330,16 @@ def _post_row(eave, slab, plate):
     (x0, y0, _), (x1, y1, z) = plate.solid.bounds
     points = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]])
     pair = {"a": slab, "b": plate.name} if eave.a == slab else {"a": plate.name, "b": slab}
-    return replace(eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side, **_row(eave, max(x1 - x0, y1 - y0)))
+    return replace(
+        eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side, **_row(eave, max(x1 - x0, y1 - y0))
+    )
 
 
 def _element(structure, layer, kind, side, vertices, table):
     name = slab_name(structure, layer, kind, side)
-    return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side])))
+    return structure.element(
+        kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side]))
+    )
 
 
 def slab_name(structure, layer, kind, side):

@@ -33,7 +33,8 @@ def fail(where, name, problem):
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when `open_low`.
+    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when
+    `open_low`.
 
     In rad a text like 1/120 is a number, too.
     """
@@ -52,9 +53,18 @@ class Number:
             value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
-        wrong_kind = math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
+        wrong_kind = (
+            math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
+        )
         if wrong_kind or not self._admits(value):
-            fail(where, name, f"must be a{' whole' if self.whole else ''} number{self._range()}, got {value!r}{self._other_units(value)}")
+            fail(
+                where,
+                name,
+                (
+                    f"must be a{' whole' if self.whole else ''} number{self._range()}, got"
+                    f" {value!r}{self._other_units(value)}"
+                ),
+            )
         return int(value) if self.whole else float(value)
 
     def _admits(self, value):
@@ -62,7 +72,11 @@ class Number:
 
     def _other_units(self, value):
         """Hint for a value that would be admissible in another usual unit, e.g. a section of 105."""
-        meant = [f"{value!r} {unit} = {value * factor:g}" for unit, factor in OTHER_UNITS.get(self.unit, ()) if self._admits(value * factor)]
+        meant = [
+            f"{value!r} {unit} = {value * factor:g}"
+            for unit, factor in OTHER_UNITS.get(self.unit, ())
+            if self._admits(value * factor)
+        ]
         return f"; in {self.unit}: {' or '.join(meant)}" if meant else ""
 
     def _range(self):
@@ -121,14 +135,26 @@ class Pair:
 
     def check(self, value, where, name):
         if not isinstance(value, list) or len(value) != 2:
-            fail(where, name, f"expected a list of two items, got {f'{len(value)} items' if isinstance(value, list) else shown(value)}")
-        checked = [field.check(v, value.at(i), f"{name}[{i + 1}]") for i, (field, v) in enumerate(zip((self.first, self.second), value))]
+            fail(
+                where,
+                name,
+                (
+                    "expected a list of two items, got"
+                    f" {f'{len(value)} items' if isinstance(value, list) else shown(value)}"
+                ),
+            )
+        checked = [
+            field.check(v, value.at(i), f"{name}[{i + 1}]")
+            for i, (field, v) in enumerate(zip((self.first, self.second), value))
+        ]
         return Items(checked, value.where, value.entries)
 
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items, `most` limits it."""
+    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items, `most` limits
+    it.
+    """
 
     item: object
     length: int = 0
@@ -142,7 +168,14 @@ class ListOf:
         if not isinstance(value, list):
             fail(where, name, f"expected a list, got {shown(value)}")
         if self.length and len(value) != self.length:
-            fail(where, name, f"expected {self.length} items, got {len(value)}{'; write decimal points, not commas' if len(value) > self.length else ''}")
+            fail(
+                where,
+                name,
+                (
+                    f"expected {self.length} items, got"
+                    f" {len(value)}{'; write decimal points, not commas' if len(value) > self.length else ''}"
+                ),
+            )
         if len(value) > self.most:
             fail(where, name, f"a list of {len(value)} items; at most {self.most}")
         checked = [self.item.check(v, value.at(i), f"{name}[{i + 1}]") for i, v in enumerate(value)]
@@ -164,7 +197,11 @@ class MapOf:
             fail(where, name, f"{len(value)} entries; at most {self.most}")
         for key in value:
             if len(key) > MAX_NAME or not re.fullmatch(NAME, key):
-                fail(value.at(key), name, f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -")
+                fail(
+                    value.at(key),
+                    name,
+                    f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -",
+                )
         checked = {k: self.item.check(v, value.at(k), f"{name}.{k}" if name else k) for k, v in value.items()}
         return Table(checked, value.where, value.entries)
 

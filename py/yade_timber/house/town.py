@@ -18,8 +18,15 @@ from .schema import MapOf, Number, Record, fail
 
 FAR = 20_000.0
 """Largest coordinate of a lot. [m]"""
-LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR), "rotation": Number("degrees", -360, 360, default=0.0),
-              "snow": Number("m", 0, MAX_SNOW, default=None)})
+LOT = Record(
+    {
+        "house": word(),
+        "x": Number("m", -FAR, FAR),
+        "y": Number("m", -FAR, FAR),
+        "rotation": Number("degrees", -360, 360, default=0.0),
+        "snow": Number("m", 0, MAX_SNOW, default=None),
+    }
+)
 WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)
 TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOTS)})
 
@@ -27,7 +34,8 @@ TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOT
 @dataclass(frozen=True)
 class Lot:
     """A house at a place. house: file or name of a shipped house; x, y: of the middle of its plan, east and north [m];
-    rotation: of the house, counter-clockwise seen from above [degrees]; snow: depth [m], None: the house file's; where: file and line.
+    rotation: of the house, counter-clockwise seen from above [degrees]; snow: depth [m], None: the house file's; where:
+    file and line.
     """
 
     name: str
@@ -49,12 +57,18 @@ class Lot:
 
     def motion(self, given):
         """GroundMotion in the axes of the house."""
-        return given if np.array_equal(self.axes, np.eye(3)) else replace(given, acceleration=given.acceleration @ self.axes)
+        return (
+            given
+            if np.array_equal(self.axes, np.eye(3))
+            else replace(given, acceleration=given.acceleration @ self.axes)
+        )
 
     def outline(self, model):
         """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
         low, high = plan(model)
-        corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]]) - (low + high) / 2
+        corners = (
+            np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]]) - (low + high) / 2
+        )
         return corners @ self.axes[:2, :2].T + (self.x, self.y)
 
     def origin(self, model):
@@ -71,8 +85,8 @@ def plan(model):
 
 @dataclass(frozen=True)
 class Town:
-    """Lots in the order of the file. velocity: apparent velocity of the wave [m/s], infinite without a wave; direction: azimuth towards which it
-    travels, clockwise from north [degrees].
+    """Lots in the order of the file. velocity: apparent velocity of the wave [m/s], infinite without a wave; direction:
+    azimuth towards which it travels, clockwise from north [degrees].
     """
 
     name: str
@@ -89,7 +103,9 @@ class Town:
 
 
 def load_town(path):
-    """Town of a YAML file. House files are looked for beside it, then as for `load_house`. Raises HouseError (one line, file:line)."""
+    """Town of a YAML file. House files are looked for beside it, then as for `load_house`. Raises HouseError (one line,
+    file:line).
+    """
     path = Path(path)
     if not is_file(path):
         raise HouseError(f"{path}: no such regular file; give a town file")
@@ -98,7 +114,12 @@ def load_town(path):
     if not data["lots"]:
         fail(data.at("lots"), "town.lots", "a town needs at least one lot")
     wave = data["wave"] or {}
-    return Town(data["name"] or one_line(path.stem), path, tuple(_lot(name, lot, path) for name, lot in data["lots"].items()), **wave)
+    return Town(
+        data["name"] or one_line(path.stem),
+        path,
+        tuple(_lot(name, lot, path) for name, lot in data["lots"].items()),
+        **wave,
+    )
 
 
 def _lot(name, entry, path):
@@ -122,7 +143,10 @@ def check_places(placed):
         for (other, others), (centre, radius) in zip(outlines[:k], reach[:k]):
             near = np.linalg.norm(reach[k][0] - centre) < reach[k][1] + radius
             if near and _overlap(corners, others):
-                raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}: move it by x or y, or turn it")
+                raise HouseError(
+                    f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}: move it by x or"
+                    " y, or turn it"
+                )
 
 
 def _overlap(a, b):

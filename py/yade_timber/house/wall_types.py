@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Types of sheathing -> envelopes: shear per metre of wall over the drift at first loading.
 
-A type has a rated multiplier, a strength and a stiffness, the points of a test, or nails. Lengths in m, drifts in rad, shears in N/m.
+A type has a rated multiplier, a strength and a stiffness, the points of a test, or nails. Lengths in m, drifts in rad,
+shears in N/m.
 """
 
 from dataclasses import dataclass
@@ -12,7 +13,9 @@ from .nails import nailed_wall
 from .schema import fail
 
 ALLOWABLE = 1960.0
-"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article 46)"""
+"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article
+46)
+"""
 
 RATED_DRIFT = 1 / 120
 """Drift at which walls with pinned feet are rated. [rad]"""
@@ -20,8 +23,8 @@ RATED_DRIFT = 1 / 120
 
 @dataclass(frozen=True)
 class Level:
-    """Envelope of walls of a rated multiplier over their allowable shear: points (drift, ratio) before the largest shear, the ratio of the
-    largest shear, the drift from which it falls, and the drift without any."""
+    """Envelope of walls of a rated multiplier over their allowable shear: points (drift, ratio) before the largest
+    shear, the ratio of the largest shear, the drift from which it falls, and the drift without any."""
 
     points: tuple
     ratio: float
@@ -50,7 +53,9 @@ FORMS = ("multiplier", "envelope", "nails")
 
 
 def check_wall_types(types):
-    """HouseError for a type with none or several descriptions of its shear, and for points or drifts that do not ascend."""
+    """HouseError for a type with none or several descriptions of its shear, and for points or drifts that do not
+    ascend.
+    """
     for name, table in types.items():
         path = f"wall_types.{name}"
         forms = [key for key in FORMS if table[key] is not None]
@@ -84,7 +89,11 @@ def _check_rated(table, path):
         drifts = [drift for drift, _ in points]
         if drifts != sorted(set(drifts)):
             ends = f"softening_drift {drifts[-2]:g} and ultimate_drift {drifts[-1]:g} must ascend"
-            fail(table.at("softening_drift"), path, f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends)
+            fail(
+                table.at("softening_drift"),
+                path,
+                f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends,
+            )
 
 
 def _check_envelope(table, path):
@@ -99,11 +108,26 @@ def _check_envelope(table, path):
         fail(where, f"{path}.envelope", "only the last point may have no shear")
     largest = max(shear for _, shear in points)
     if largest < LEAST_SHEAR:
-        fail(where, f"{path}.envelope", f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
+        fail(
+            where,
+            f"{path}.envelope",
+            f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N",
+        )
     if table["ultimate_drift"] is None and points[-1][1] == largest:
-        fail(where, f"{path}.envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift, at which there is no shear left")
+        fail(
+            where,
+            f"{path}.envelope",
+            (
+                "the last point has the largest shear; add points beyond it, or ultimate_drift, at which there is no"
+                " shear left"
+            ),
+        )
     if points[-1][1] == 0 and table["ultimate_drift"] is not None:
-        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift", "the last point of envelope has no shear already; remove one of them")
+        fail(
+            table.at("ultimate_drift"),
+            f"{path}.ultimate_drift",
+            "the last point of envelope has no shear already; remove one of them",
+        )
     _check_end(table, path, drifts[-1], "the last drift of envelope")
 
 
@@ -116,9 +140,15 @@ def _check_nails(table, path):
     if nails["dv"] is not None and abs(nails["dv"] / slip - 1) > SLIP_TOLERANCE:
         fail(nails.at("dv"), f"{path}.nails.dv", f"must be Pv / k = {slip:g} m within 10 %, got {nails['dv']:g}")
     if 2 * board["edge"] >= min(board["width"], *board["heights"]):
-        fail(board.at("edge"), f"{path}.nails.board.edge", f"{board['edge']:g} m from the edge leaves no place for nails")
+        fail(
+            board.at("edge"), f"{path}.nails.board.edge", f"{board['edge']:g} m from the edge leaves no place for nails"
+        )
     if nails["height"] is not None and nails["height"] < sum(board["heights"]):
-        fail(nails.at("height"), f"{path}.nails.height", f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m")
+        fail(
+            nails.at("height"),
+            f"{path}.nails.height",
+            f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m",
+        )
     wall = nailed_wall(nails)
     if wall.ultimate_drift > 1:
         fail(where, f"{path}.nails", f"the wall fails at a drift of {wall.ultimate_drift:.3g}; at most 1: check du")
@@ -127,7 +157,11 @@ def _check_nails(table, path):
 
 def _check_end(table, path, last, name):
     if table["ultimate_drift"] is not None and not table["ultimate_drift"] > last:
-        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift", f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
+        fail(
+            table.at("ultimate_drift"),
+            f"{path}.ultimate_drift",
+            f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}",
+        )
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails}
@@ -144,7 +178,9 @@ def _is_rated(table):
 
 
 def envelope(table, level):
-    """[(drift, shear)] of a wall type from its first point to zero shear. level: key of LEVELS, for types of a rated multiplier."""
+    """[(drift, shear)] of a wall type from its first point to zero shear. level: key of LEVELS, for types of a rated
+    multiplier.
+    """
     if table["envelope"] is not None:
         return _tested(table)
     if table["nails"] is not None:
@@ -155,8 +191,9 @@ def envelope(table, level):
 def multiplier(table):
     """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
 
-    Allowable shear of nails: nails.py; of other envelopes: the lesser of the shear at 1/120 and two thirds of the largest one. The two other
-    loads by which tests with pinned feet are evaluated, at yield and from the ductility, are left out.
+    Allowable shear of nails: nails.py; of other envelopes: the lesser of the shear at 1/120 and two thirds of the
+    largest one. The two other loads by which tests with pinned feet are evaluated, at yield and from the ductility, are
+    left out.
     """
     if table["multiplier"] is not None:
         return table["multiplier"]
@@ -169,7 +206,9 @@ def multiplier(table):
 def _rated(table, level):
     """Of a multiplier; with an own strength or stiffness: bilinear."""
     allowable = ALLOWABLE * (table["multiplier"] or 0.0)
-    softening, ultimate = (getattr(level, key) if table[key] is None else table[key] for key in ("softening_drift", "ultimate_drift"))
+    softening, ultimate = (
+        getattr(level, key) if table[key] is None else table[key] for key in ("softening_drift", "ultimate_drift")
+    )
     if table["strength"] is None and table["stiffness"] is None:
         rising = [(drift, ratio * allowable) for drift, ratio in level.points]
         return [*_concave(rising, (softening, level.ratio * allowable)), (ultimate, 0.0)]
@@ -179,7 +218,9 @@ def _rated(table, level):
 
 
 def _concave(rising, peak):
-    """The points up to the peak without those below a line between two others: a wall that reaches its largest shear early is stiffer."""
+    """The points up to the peak without those below a line between two others: a wall that reaches its largest shear
+    early is stiffer.
+    """
     kept = [(0.0, 0.0)]
     for drift, shear in [*(point for point in rising if point[1] == peak[1] or point[0] < peak[0]), peak]:
         while len(kept) > 1 and _slope(kept[-2], kept[-1]) <= _slope(kept[-1], (drift, shear)):
@@ -193,7 +234,9 @@ def _slope(a, b):
 
 
 def _tested(table):
-    """Points of a test; beyond the last one the line from the largest shear through it, unless `ultimate_drift` says otherwise."""
+    """Points of a test; beyond the last one the line from the largest shear through it, unless `ultimate_drift` says
+    otherwise.
+    """
     points = _points(table)
     (drift, shear), peak = points[-1], max(points, key=lambda point: point[1])
     if shear == 0:

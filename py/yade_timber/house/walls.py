@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheathed walls: springs of the law slip in each bay, whose shear follows the envelope of their type. Lengths in m.
 
-A sheet is nailed to the beams above and below it and to the columns at its sides. Its drift is that of its bay. Half of its shear H acts
-between the beams, horizontally; the other half between the columns, vertically: as a force H h / L, with the bay's height h and length L,
-which does the same work and pulls the columns out of their joints. The half is the factor 0.5 by which the rule for fittings of the
-Japanese code (Notification 1460 of 2000, N-value method) takes the restraint of neighbouring members into account.
+A sheet is nailed to the beams above and below it and to the columns at its sides. Its drift is that of its bay. Half of
+its shear H acts between the beams, horizontally; the other half between the columns, vertically: as a force H h / L,
+with the bay's height h and length L, which does the same work and pulls the columns out of their joints. The half is
+the factor 0.5 by which the rule for fittings of the Japanese code (Notification 1460 of 2000, N-value method) takes the
+restraint of neighbouring members into account.
 
-Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no stiffness across their plane.
+Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no
+stiffness across their plane.
 """
 
 from dataclasses import dataclass
@@ -24,7 +26,8 @@ from .wall_types import envelope
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
-"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA, precise diagnosis of 2004;
+"""Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
+precise diagnosis of 2004;
 stiffness: assumed to be the same). [-]"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
@@ -65,19 +68,26 @@ class Bay:
     def end(self, top):
         """(3,) point just above the top or below the foot of the bay, midway between the columns. [m]"""
         level = self.low.solid.bounds[1 if top else 0][2]
-        ends = [column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0) for column in (self.low, self.high)]
+        ends = [
+            column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0) for column in (self.low, self.high)
+        ]
         return np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
 
 
 def sheathe(structure, elements, data, level):
-    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file; level: of walls of a rated multiplier."""
+    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file; level: of walls of
+    a rated multiplier.
+    """
     members = [element for element in elements if element.group in (structure.name, "")]
     joints, seen = [], {}
     for line in structure.table["walls"]:
         for bay in _bays(structure, line, {element.name: element for element in members}):
             for name in line["type"]:
                 if (bay.name, name) in seen:
-                    raise HouseError(f"{bay.where}: {bay.name} has sheathing of type {name} already ({seen[bay.name, name]}); remove one")
+                    raise HouseError(
+                        f"{bay.where}: {bay.name} has sheathing of type {name} already ({seen[bay.name, name]});"
+                        " remove one"
+                    )
                 seen[bay.name, name] = bay.where
                 joints += _joints(bay, name, members, data, level)
     return joints
@@ -87,7 +97,9 @@ def _bays(structure, line, by_name):
     """Bays of a line of the house file in all its storeys and positions."""
     for number in line["storeys"]:
         if number not in structure.storeys:
-            raise HouseError(f"{line.at('storeys')}: {structure.name}: walls: no storey {number}; the stack has {structure.storeys}")
+            raise HouseError(
+                f"{line.at('storeys')}: {structure.name}: walls: no storey {number}; the stack has {structure.storeys}"
+            )
     bays = []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
@@ -99,14 +111,21 @@ def _bays(structure, line, by_name):
 def _nodes(structure, line, storey, at):
     """Nodes with columns on a line from its first to its last node, which must be among them."""
     along = line["along"]
-    on_line = sorted(x if along == "x" else y for x, y in column_plan(structure, storey) if (y if along == "x" else x) == at)
+    on_line = sorted(
+        x if along == "x" else y for x, y in column_plan(structure, storey) if (y if along == "x" else x) == at
+    )
     for key in ("from", "to"):
         if line[key] not in on_line:
             known = ", ".join(f"{node:g}" for node in on_line) or "none"
-            raise HouseError(f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}: no column at node "
-                             f"{line[key]:g}; nodes with columns on this line: {known}")
+            raise HouseError(
+                f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey"
+                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {known}"
+            )
     if line["from"] >= line["to"]:
-        raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g}; 'from' must be below 'to'")
+        raise HouseError(
+            f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g}; 'from' must be"
+            " below 'to'"
+        )
     return [node for node in on_line if line["from"] <= node <= line["to"]]
 
 
@@ -121,28 +140,65 @@ def _bay(structure, line, place, by_name):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in '.plywood.window.beams'."""
+    """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in
+    '.plywood.window.beams'.
+    """
     label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
     along = bay.high.solid.centroid - bay.low.solid.centroid
     along[2] = 0.0
     below, above = (_member_at(bay, members, top) for top in (False, True))
     points = envelope(data["wall_types"][name], level)
     beams, columns = _values(bay, points, bay.height, 1.0), _values(bay, points, bay.length, bay.height / bay.length)
-    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey, side=bay.side, group=bay.low.group,
-                  law="slip", damping_ratio=data["law"]["joint_damping"], friction_share=data["wall_types"][name]["friction_share"])
-    return [JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams", **beams, **common),
-            JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=WALL_COLUMN, label=f"{label}.columns", **columns, **common)]
+    common = dict(
+        points=bay.centre[None],
+        area=0.0,
+        type=name,
+        ks=0.0,
+        per="spring",
+        storey=bay.low.storey,
+        side=bay.side,
+        group=bay.low.group,
+        law="slip",
+        damping_ratio=data["law"]["joint_damping"],
+        friction_share=data["wall_types"][name]["friction_share"],
+    )
+    return [
+        JointSpec(
+            below.name,
+            above.name,
+            normal=along / np.linalg.norm(along),
+            kind=WALL_BEAM,
+            label=f"{label}.beams",
+            **beams,
+            **common,
+        ),
+        JointSpec(
+            bay.low.name,
+            bay.high.name,
+            normal=np.array([0.0, 0.0, 1.0]),
+            kind=WALL_COLUMN,
+            label=f"{label}.columns",
+            **columns,
+            **common,
+        ),
+    ]
 
 
 def _values(bay, points, lever, ratio):
-    """Law of one half. points: envelope of the wall's type; lever: stretch over drift [m]; ratio: force of the spring over the shear that it
-    stands for [-]. The spring unloads along the steepest line of its envelope."""
+    """Law of one half. points: envelope of the wall's type; lever: stretch over drift [m]; ratio: force of the spring
+    over the shear that it stands for [-]. The spring unloads along the steepest line of its envelope."""
     part = SHARE * bay.share * bay.length * ratio
     envelope = tuple((lever * drift, part * shear) for drift, shear in points)
     slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *envelope), envelope)]
     strength = max(force for _, force in envelope)
     softening = max(stretch for stretch, force in envelope if force == strength)
-    return {"kn": max(slopes), "strength": strength, "envelope": envelope, "softening_stretch": softening, "ultimate_stretch": envelope[-1][0]}
+    return {
+        "kn": max(slopes),
+        "strength": strength,
+        "envelope": envelope,
+        "softening_stretch": softening,
+        "ultimate_stretch": envelope[-1][0],
+    }
 
 
 def _member_at(bay, members, top):
@@ -153,5 +209,7 @@ def _member_at(bay, members, top):
         if element.kind not in ("column", "brace", "snow") and (low <= point).all() and (point <= high).all():
             return element
     word = "above" if top else "below"
-    raise HouseError(f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y {point[1]:.3f}, z {point[2]:.3f} m; "
-                     "lay one there or remove the wall")
+    raise HouseError(
+        f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y {point[1]:.3f}, z"
+        f" {point[2]:.3f} m; lay one there or remove the wall"
+    )

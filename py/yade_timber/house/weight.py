@@ -14,8 +14,10 @@ def weigh(model):
     snow_kn                 of the snow
     floor_area_m2           sum over the storeys of the area between the axes of the outer columns
     per_floor_area_kn_m2    total over floor area
-    storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the columns and walls below and
-                            above; of this level and all higher ones, the weight that drives the storey's shear. Without snow.
+    storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the
+    columns and walls below and
+                            above; of this level and all higher ones, the weight that drives the storey's shear. Without
+                            snow.
     """
     area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
     total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
@@ -55,8 +57,12 @@ def _share(element, storey):
 
 
 def sentence(weights):
-    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first structure's storeys."""
-    per_area = "" if weights["per_floor_area_kn_m2"] is None else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor"
+    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first
+    structure's storeys.
+    """
+    per_area = (
+        "" if weights["per_floor_area_kn_m2"] is None else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor"
+    )
     storeys = next(iter(weights["storeys"].values()), {})
     carried = ", ".join(f"storey {name} {values['carried_kn']:.0f} kN" for name, values in storeys.items())
     return f"weighs {weights['total_kn']:.0f} kN{per_area}; carried by {carried}"

@@ -35,7 +35,9 @@ def column_name(cell):
 
 
 def equal_step(path, stated, times):
-    """Time step [s]. stated: {'dt' or 'sampling': (text, file:line: key)}; times: column of times [s], or None. Raises RecordError."""
+    """Time step [s]. stated: {'dt' or 'sampling': (text, file:line: key)}; times: column of times [s], or None. Raises
+    RecordError.
+    """
     where = path
     if "dt" in stated:
         text, where = stated["dt"]
@@ -57,4 +59,8 @@ def equal_step(path, stated, times):
 
 def channels_of(path, names, rows, step, begins=None):
     """One channel for each column of accelerations; rows (n, columns) in m/s2."""
-    return [Channel(path, step, rows[:, index], DIRECTIONS[name], begins) for index, name in enumerate(names) if name in DIRECTIONS]
+    return [
+        Channel(path, step, rows[:, index], DIRECTIONS[name], begins)
+        for index, name in enumerate(names)
+        if name in DIRECTIONS
+    ]

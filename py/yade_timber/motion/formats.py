@@ -52,7 +52,9 @@ def parse(path, lines, units=None, stated=False):
     """
     kind = sniff(lines)
     if kind is None:
-        raise RecordError(f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and plain CSV")
+        raise RecordError(
+            f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and plain CSV"
+        )
     if kind == "at2":
         return _at2(path, lines, units, stated)
     reader = {"knet": knet.read_ascii, "knet csv": knet.read_csv, "jma": _jma, "csv": _plain_csv}[kind]
@@ -88,7 +90,9 @@ def _at2_header(path, lines):
     absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
     problem = absent if number is None else "with NPTS and DT in another form"
     place = path if number is None else f"{path}:{number}"
-    raise RecordError(f"{place}: AT2 header {problem}; write 'NPTS= n, DT= s SEC', NPTS first, or convert it to {PLAIN_CSV}")
+    raise RecordError(
+        f"{place}: AT2 header {problem}; write 'NPTS= n, DT= s SEC', NPTS first, or convert it to {PLAIN_CSV}"
+    )
 
 
 def _words(line, separators):
@@ -125,7 +129,9 @@ def _unit_in(line):
     words = _words(line, "()=:,")
     for i, word in enumerate(words):
         if word in ("unit", "units") and (i == 0 or words[i - 1] in ("in", "the")):
-            rest = words[i + 2 :] if words[i + 1 : i + 2] and words[i + 1] in ("of", "are", "is", "in") else words[i + 1 :]
+            rest = (
+                words[i + 2 :] if words[i + 1 : i + 2] and words[i + 1] in ("of", "are", "is", "in") else words[i + 1 :]
+            )
             return rest[0].rstrip(".") if rest and rest[0][0].isalpha() else None
     return None
 
@@ -182,7 +188,9 @@ def _jma(path, lines, units):
 
 
 def _jma_header(path, lines):
-    """({key: (value, file:line: key)}, [column names], index of the first row); a value is all that follows the key in its line."""
+    """({key: (value, file:line: key)}, [column names], index of the first row); a value is all that follows the key in
+    its line.
+    """
     keys = {}
     for index, line in enumerate(lines[:JMA_HEADER_LINES]):
         names = [column_name(cell)[0] for cell in line.split(",") if cell.strip()]
@@ -191,7 +199,9 @@ def _jma_header(path, lines):
         key, _, value = line.replace('"', "").partition("=" if "=" in line else ",")
         key = " ".join(key.upper().split()).rstrip(".")
         keys[key] = value.strip(FILLING), f"{path}:{index + 1}: {shown(key)}"
-    raise RecordError(f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES} lines")
+    raise RecordError(
+        f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES} lines"
+    )
 
 
 # --- plain CSV ----------------------------------------------------------------------------------
@@ -203,25 +213,32 @@ def _plain_csv(path, lines, units):
     """CSV with named columns: ns, ew, ud (one or more), optionally time [s] or [ms], and a stated unit."""
     header_index, names, units_of, delimiter = _csv_columns(lines)
     comments = _csv_comments(path, lines[:header_index])
-    in_file = [comments[key][0] for key in ("units", "unit") if key in comments] + [units_of[name] for name in names if units_of[name] and name != "time"]
+    in_file = [comments[key][0] for key in ("units", "unit") if key in comments] + [
+        units_of[name] for name in names if units_of[name] and name != "time"
+    ]
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
-    step = equal_step(path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
+    step = equal_step(
+        path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None
+    )
     if "samples" in comments:
         require_count(path, len(rows), whole(*comments["samples"]), "'# samples:'")
     return channels_of(path, names, rows * factor, step)
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such row.
+    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such
+    row.
 
     It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
     """
     for index, line in enumerate(lines):
         if line.startswith(COMMENT) or not line.strip(FILLING):
             continue
-        return _named_columns(index, line) or (_named_columns(index - 1, uncommented(lines[index - 1])) if index else None)
+        return _named_columns(index, line) or (
+            _named_columns(index - 1, uncommented(lines[index - 1])) if index else None
+        )
     return None
 
 

@@ -19,13 +19,15 @@ CM = 0.01
 """One centimetre in metres."""
 
 VELOCITY_CORNER = 0.05
-"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs record baseline errors, not motion."""
+"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs record baseline errors, not motion.
+"""
 
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
 
 MOST_SAMPLES = 2_000_000
-"""Samples of one component that are integrated, transients included: 100 s at 1e-4 s. Resampled motions may have more."""
+"""Samples of one component that are integrated, transients included: 100 s at 1e-4 s. Resampled motions may have more.
+"""
 
 STEPS_PER_PERIOD = 20
 """Smallest number of steps per oscillator period; sampling then underestimates a peak by at most 1.2 %."""
@@ -37,7 +39,8 @@ STEPS_PER_PERIOD = 20
 def peak(values, component="any"):
     """Largest absolute value of (n, 3) columns ew, ns, ud.
 
-    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'level' = larger one
+    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'level' = larger
+    one
                of the two horizontal components; 'any' = largest of the three components
     """
     if component in ("level", "any"):
@@ -86,9 +89,11 @@ def displacement(motion, corner=VELOCITY_CORNER):
 
 
 def _integral(motion, corner, times):
-    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a drift.
+    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a
+    drift.
 
-    Of a motion with more than MOST_SAMPLES every second, third ... sample is integrated, with straight lines between the results.
+    Of a motion with more than MOST_SAMPLES every second, third ... sample is integrated, with straight lines between
+    the results.
     """
     transients = 0.0 if corner is None else 2 * PADDING / corner / motion.dt
     stride = math.ceil((len(motion) + transients) / MOST_SAMPLES)
@@ -99,7 +104,11 @@ def _integral(motion, corner, times):
     for _ in range(times):
         values = scipy.integrate.cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
     values = values[pad : len(values) - pad]
-    return values if stride == 1 else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T])
+    return (
+        values
+        if stride == 1
+        else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T])
+    )
 
 
 # --- JMA instrumental intensity -----------------------------------------------------------------
@@ -184,8 +193,8 @@ class Spectrum:
 def response_spectrum(acceleration, dt, periods, damping=0.05):
     """Response spectrum of a ground acceleration.
 
-    Exact for ground acceleration that is linear between its samples (Nigam and Jennings 1969), half a period of free vibration after its end
-    included.
+    Exact for ground acceleration that is linear between its samples (Nigam and Jennings 1969), half a period of free
+    vibration after its end included.
 
     Parameters
     ----------
@@ -257,13 +266,16 @@ def _subdivided(columns, parts):
 
 
 def arias(motion):
-    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud'} and their sum 'total'. [m/s]"""
+    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud'} and their sum 'total'.
+    [m/s]
+    """
     each = np.pi / (2.0 * STANDARD_GRAVITY) * _energy(motion)[-1]
     return {"ew": float(each[0]), "ns": float(each[1]), "ud": float(each[2]), "total": float(each.sum())}
 
 
 def significant_duration(motion, start=0.05, end=0.95):
-    """Time in which the Arias intensity (three components together) grows from `start` to `end` of its final value. [s]"""
+    """Time in which the Arias intensity (three components together) grows from `start` to `end` of its final value. [s]
+    """
     growth = _energy(motion).sum(axis=1)
     if growth[-1] <= 0.0:
         return 0.0
@@ -272,7 +284,9 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 
 def onset(motion, share=0.05):
-    """Onset of strong shaking: time at which the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
+    """Onset of strong shaking: time at which the Arias intensity reaches `share` of its final value. [s]; None without
+    shaking.
+    """
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

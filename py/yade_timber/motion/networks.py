@@ -58,5 +58,7 @@ def other_binary(raw):
     elif len(raw) >= SAC_VERSION_AT + 4:
         versions = (struct.unpack_from(f"{order}i", raw, SAC_VERSION_AT)[0] for order in "<>")
         name = name or ("SAC" if any(version in SAC_VERSIONS for version in versions) else None)
-    about = f"{name}, which is not read" if name else "empty or not a text file; a record must be text in UTF-8 or CP932"
+    about = (
+        f"{name}, which is not read" if name else "empty or not a text file; a record must be text in UTF-8 or CP932"
+    )
     return f"{about}; {remedy or f'convert it to {PLAIN_CSV}'}"

@@ -23,14 +23,18 @@ LARGEST_RATIO = 100_000
 
 
 def turned(motion, angle):
-    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90, north shakes along +x."""
+    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90, north shakes along
+    +x.
+    """
     if not np.isfinite(angle):
         raise RecordError(f"{motion.name}: angle {angle}; it must be a finite number of degrees")
     if angle == 0.0:
         return motion
     sine, cosine = round_off(np.sin(np.radians(angle))), round_off(np.cos(np.radians(angle)))
     ew, ns, ud = motion.acceleration.T
-    return _changed(motion, np.column_stack([cosine * ew + sine * ns, cosine * ns - sine * ew, ud]), f"turned by {angle:g} degrees")
+    return _changed(
+        motion, np.column_stack([cosine * ew + sine * ns, cosine * ns - sine * ew, ud]), f"turned by {angle:g} degrees"
+    )
 
 
 def round_off(x):
@@ -98,16 +102,16 @@ def resample(motion, dt, method="bandlimited"):
     dt : float
         New time step. [s]
     method : {"bandlimited", "linear"}
-        ``bandlimited``: Fourier interpolation of the record, padded with zeros; for a larger step it also removes frequencies above the new
-        Nyquist frequency; dt / old dt must be a ratio of whole numbers. ``linear``: straight lines between the samples, as in the
-        ground-motion engine.
+        ``bandlimited``: Fourier interpolation of the record, padded with zeros; for a larger step it also removes
+        frequencies above the new Nyquist frequency; dt / old dt must be a ratio of whole numbers. ``linear``: straight
+        lines between the samples, as in the ground-motion engine.
 
     Returns
     -------
     motion : GroundMotion
     error : float
-        Largest difference from the band-limited interpolation of the original at the new times, in parts of the record's PGA
-        (0 for an upsampling by ``bandlimited``).
+        Largest difference from the band-limited interpolation of the original at the new times, in parts of the
+        record's PGA (0 for an upsampling by ``bandlimited``).
     """
     if method not in ("bandlimited", "linear"):
         raise RecordError(f"resampling method '{method}'; admissible: bandlimited, linear")
@@ -129,10 +133,15 @@ def _fourier(motion, dt):
     """(band-limited interpolation at the new times, the same without frequencies above the new Nyquist frequency)."""
     ratio = Fraction(dt / motion.dt).limit_denominator(LARGEST_RATIO)
     if ratio <= 0 or abs(float(ratio) - dt / motion.dt) > 1e-9 * dt / motion.dt or ratio.numerator > LARGEST_RATIO:
-        raise RecordError(f"{motion.name}: {dt:g} s is not a whole-number ratio of {motion.dt:g} s; choose another step")
+        raise RecordError(
+            f"{motion.name}: {dt:g} s is not a whole-number ratio of {motion.dt:g} s; choose another step"
+        )
     periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
     total = periods * ratio.numerator
-    require_size(max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator, f"{motion.name}: resampling to {dt:g} s")
+    require_size(
+        max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator,
+        f"{motion.name}: resampling to {dt:g} s",
+    )
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
     kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)
@@ -159,10 +168,15 @@ def shaking_window(motion, threshold=0.5):
 
 
 def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
-    """The motion with other samples. change: for its source; dt: their step [s]; factor: on the accelerations [-]; start: of the part that is kept [s]"""
+    """The motion with other samples. change: for its source; dt: their step [s]; factor: on the accelerations [-];
+    start: of the part that is kept [s]
+    """
     dt = motion.dt if dt is None else dt
     source = f"{motion.source}; {change}".lstrip("; ")
-    return replace(motion, dt=dt, acceleration=acceleration, source=source, parts=_changed_parts(motion.parts, acceleration, dt, factor, start))
+    return replace(
+        motion, dt=dt, acceleration=acceleration, source=source,
+        parts=_changed_parts(motion.parts, acceleration, dt, factor, start),
+    )
 
 
 def _changed_parts(parts, acceleration, dt, factor, start):
@@ -172,5 +186,7 @@ def _changed_parts(parts, acceleration, dt, factor, start):
         first, end = max(part.start - start, 0.0), min(part.start + part.duration - start, len(acceleration) * dt)
         samples = acceleration[max(0, round(first / dt)) : max(0, round(end / dt))]
         if len(samples):
-            changed.append(replace(part, start=first, duration=end - first, scale=factor * part.scale, pga_gal=peaks_gal(samples)))
+            changed.append(
+                replace(part, start=first, duration=end - first, scale=factor * part.scale, pga_gal=peaks_gal(samples))
+            )
     return tuple(changed)

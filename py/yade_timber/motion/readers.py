@@ -28,7 +28,11 @@ SUFFIXES = (
     ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
     ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2", "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
+    (
+        "PEER",
+        r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
+        "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2",
+    ),
 )
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
@@ -54,12 +58,13 @@ def read_motion(record, component=None, units=None, angle=0.0, trim_to_shortest=
     record : str or Path
         A file, three files separated by commas, or the common prefix of three files.
     component : str, optional
-        Direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; replaces the directions in the files,
-        needed only where a file does not state its own.
+        Direction of each file ('ns', 'ew', 'ud', or an azimuth in degrees), separated by commas; replaces the
+        directions in the files, needed only where a file does not state its own.
     units : str, optional
         Unit of the numbers (gal, m/s2, g) where the file does not state it; a contradiction is refused.
     angle : float
-        Azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's +y to the record's north.
+        Azimuth of the record's north in the house's frame: degrees clockwise, seen from above, from the house's +y to
+        the record's north.
         With 90 the record's north component shakes the house along +x.
     trim_to_shortest : bool
         Cut components of different length at the shortest one instead of refusing them.
@@ -87,7 +92,11 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
     peak = np.abs(acceleration).max()
     require_possible(peak, record)
     if peak > SURPRISING:
-        warnings.warn(f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning, stacklevel=2)
+        warnings.warn(
+            f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit",
+            RecordWarning,
+            stacklevel=2,
+        )
     name, source = one_line(_common_name(paths)), one_line(_provenance(channels, directions))
     return turned(GroundMotion(dt, acceleration, name, source, _beginning(channels)), angle)
 
@@ -169,7 +178,9 @@ def _aligned(channels, trim_to_shortest):
     lengths = [len(channel.values) for channel in channels]
     if min(lengths) != max(lengths) and not trim_to_shortest:
         stated = ", ".join(f"{c.path.name}: {n}" for c, n in zip(channels, lengths))
-        raise RecordError(f"components of different length ({stated}); cut them at the shortest (--shortest), or make them equal")
+        raise RecordError(
+            f"components of different length ({stated}); cut them at the shortest (--shortest), or make them equal"
+        )
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
 
 

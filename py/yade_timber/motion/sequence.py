@@ -20,7 +20,9 @@ DENOMINATOR = 100_000
 
 @dataclass(frozen=True)
 class Part:
-    """One motion of a sequence. source: file or generator; start and duration [s]; scale: its own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it."""
+    """One motion of a sequence. source: file or generator; start and duration [s]; scale: its own factor [-]; pga_gal:
+    {'ns', 'ew', 'ud'} after it.
+    """
 
     source: str
     start: float
@@ -30,7 +32,8 @@ class Part:
 
 
 def joined(motions, scales, gap=DEFAULT_GAP):
-    """One GroundMotion of several: each times its own factor, `gap` seconds of quiet between them, in `parts` the data of each.
+    """One GroundMotion of several: each times its own factor, `gap` seconds of quiet between them, in `parts` the data
+    of each.
 
     The time step is the largest that divides all steps, so that straight lines between the samples stay as they are.
     Raises RecordError for motions whose steps have no such common part.
@@ -48,7 +51,9 @@ def joined(motions, scales, gap=DEFAULT_GAP):
         pieces.append(samples)
         start += len(samples) * step
     require_size(sum(map(len, pieces)), "the sequence")
-    name, source = " then ".join(motion.name for motion in motions), f"; then after {gap:g} s: ".join(part.source for part in parts)
+    name, source = " then ".join(motion.name for motion in motions), f"; then after {gap:g} s: ".join(
+        part.source for part in parts
+    )
     return GroundMotion(step, np.vstack(pieces), name, source, motions[0].begins, tuple(parts))
 
 
@@ -60,12 +65,16 @@ def common_step(steps, where):
     whole = [abs(float(fraction) - step) <= 1e-9 * step for fraction, step in zip(fractions, steps)]
     common = Fraction(gcd(*(f.numerator for f in fractions)), lcm(*(f.denominator for f in fractions)))
     if not all(whole) or min(steps) > 100 * common:
-        raise RecordError(f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample")
+        raise RecordError(
+            f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample"
+        )
     return float(common)
 
 
 def refined(motion, factor):
-    """(n, 3) accelerations of a motion [m/s2] on a step `factor` times smaller, straight lines between the samples; ends in the last sample."""
+    """(n, 3) accelerations of a motion [m/s2] on a step `factor` times smaller, straight lines between the samples;
+    ends in the last sample.
+    """
     if factor == 1:
         return motion.acceleration
     times = np.arange((len(motion) - 1) * factor + 1) / factor
@@ -84,12 +93,17 @@ def with_factor(entry):
 
 
 def following(text, name):
-    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for messages."""
+    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for
+    messages.
+    """
     found = []
     for entry in text.split(";"):
         record, value = with_factor(entry)
         if not record or not 0 < value <= 1e6:
-            raise RecordError(f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are separated by ;")
+            raise RecordError(
+                f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are"
+                " separated by ;"
+            )
         found.append((record, value))
     return found
 

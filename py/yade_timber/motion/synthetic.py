@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A seeded synthetic motion like the one recorded at Ojiya (K-NET NIG019) on 2004-10-23, which may not be redistributed.
+"""A seeded synthetic motion like the one recorded at Ojiya (K-NET NIG019) on 2004-10-23, which may not be
+redistributed.
 
 It matches the published measures of that record (TARGETS), not its wave form. Steps for one seed:
 
@@ -30,7 +31,9 @@ GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
 DEFAULT_SEED = 3
-"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds differ, see research/claims."""
+"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds
+differ, see research/claims.
+"""
 
 DT = 0.01
 """Time step. [s]"""
@@ -101,7 +104,9 @@ def achieved(motion):
 
 
 def _pgv_h(motion):
-    """Peak of the horizontal velocity [cm/s], from rest at the first sample: version 1 of the generator. `measures.pgv` differs by 0.1 %."""
+    """Peak of the horizontal velocity [cm/s], from rest at the first sample: version 1 of the generator. `measures.pgv`
+    differs by 0.1 %.
+    """
     acceleration = zero_phase_highpass(motion.acceleration, DT, VELOCITY_CORNER, 2)
     return peak(scipy.integrate.cumulative_trapezoid(acceleration, dx=DT, axis=0, initial=0.0), "h") / CM
 

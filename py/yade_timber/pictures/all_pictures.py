@@ -8,16 +8,21 @@ from . import copies
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
-NAMES = [f"{END}.png", *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")), PLAYER]
+NAMES = [
+    f"{END}.png",
+    *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")),
+    PLAYER,
+]
 """Files that `write` makes."""
 
 
 def write(folder, results=None):
-    """Write the pictures of a run into a folder; returns their paths. results: folder with the run's frames, by default the same.
+    """Write the pictures of a run into a folder; returns their paths. results: folder with the run's frames, by default
+    the same.
 
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
-    from matplotlib.backends import backend_pdf  # noqa: F401  (here: it takes 22 MB and 0.3 s, and a run without pictures needs none)
+    from matplotlib.backends import backend_pdf  # noqa: F401  here: it takes 22 MB and 0.3 s
 
     from . import figures
 
@@ -30,7 +35,9 @@ def write(folder, results=None):
 
 
 def _sheets(folder, recorded, path):
-    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of paths. path: of the frames"""
+    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of
+    paths. path: of the frames
+    """
     from . import player, sheets, views
 
     for view in views.VIEWS:

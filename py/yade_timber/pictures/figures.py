@@ -39,7 +39,8 @@ METADATA = {"CreationDate": None}
 
 
 class Pixels(Artist):
-    """A picture (rows, columns, 3) uint8, the first row at the top, from the lower left corner of axes on. It is drawn pixel by pixel, in a PDF as well:
+    """A picture (rows, columns, 3) uint8, the first row at the top, from the lower left corner of axes on. It is drawn
+    pixel by pixel, in a PDF as well:
     `imshow` resamples, which takes twenty times as long."""
 
     zorder = 0
@@ -70,7 +71,8 @@ def add_panel(figure, corner, size, dpi):
 
 
 def drawable(text, most=LONGEST_TEXT):
-    """A text from data that matplotlib draws literally: one line, no mathtext, only letters of the font, at most `most` letters.
+    """A text from data that matplotlib draws literally: one line, no mathtext, only letters of the font, at most `most`
+    letters.
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
@@ -115,7 +117,9 @@ def heading_height(width, subtitle=""):
 
 def _wrapped(subtitle, width):
     """Subtitle in lines for a figure of this width [inch]; each line of the text begins a new one."""
-    units_kept = (re.sub(r"(?<=\d) (?=[a-z]\b)", "\u00a0", drawable(line)) for line in subtitle.splitlines())  # a number and its unit stay together
+    units_kept = (
+        re.sub(r"(?<=\d) (?=[a-z]\b)", "\u00a0", drawable(line)) for line in subtitle.splitlines()
+    )  # a number and its unit stay together
     return "\n".join(fill(line, int(SUBTITLE_LETTERS * (width - 2 * MARGIN))) for line in units_kept)
 
 

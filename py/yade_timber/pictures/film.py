@@ -2,8 +2,8 @@
 """Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow. Needs no YADE.
 
 Positions are interpolated between recorded frames, the ground moves as recorded, the camera stands still.
-The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the processor (SwiftShader),
-a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
+The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the
+processor (SwiftShader), a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
 """
 import shutil
 import subprocess
@@ -23,7 +23,10 @@ from .key_times import first_shown, last_change
 from .provenance import parts
 from .stage import Stage
 
-ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4")
+ENCODING = (
+    "-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f",
+    "mp4",
+)
 WEBP = dict(loop=0, method=2, kmin=0, kmax=1)
 """Each picture is a key frame: a difference to the picture before leaves traces of what has moved."""
 SLOW, BEFORE_FALL, AFTER_FALL = 0.25, 0.7, 1.8
@@ -38,7 +41,8 @@ LONGEST = 36000
 
 @dataclass(frozen=True)
 class Format:
-    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film, None: 1, and SLOW around the first fall;
+    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film, None: 1, and SLOW
+    around the first fall;
     quality: of WebP, 0 to 100."""
 
     width: int = 1920
@@ -49,10 +53,11 @@ class Format:
 
 
 def write(path, runs, view="space", form=Format(), begin=None, end=None):
-    """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the format.
+    """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the
+    format.
 
-    runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking (from the start,
-    if `end` is earlier) until no picture differs visibly from the last one.
+    runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking
+    (from the start, if `end` is earlier) until no picture differs visibly from the last one.
     Raises RunError when it cannot be made, OSError when it cannot be written.
     """
     if not all(len(run.time) for run in runs):
@@ -64,7 +69,9 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     form = replace(form, width=form.width // len(runs) * len(runs))
     times = picture_times(runs, form, begin, end)
     with written_whole(path) as part:
-        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(part, partial(images, runs, view, form, times), form, len(times))
+        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(
+            part, partial(images, runs, view, form, times), form, len(times)
+        )
     return len(times)
 
 
@@ -76,7 +83,10 @@ def picture_times(runs, form, begin, end):
         slow = form.speed is None and fall - BEFORE_FALL <= times[-1] < fall + AFTER_FALL
         times.append(times[-1] + (SLOW if slow else form.speed or 1.0) / form.rate)
     if len(times) > LONGEST:
-        raise RunError(f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer pictures per second")
+        raise RunError(
+            f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer pictures per"
+            " second"
+        )
     return times[:-1]
 
 
@@ -97,13 +107,17 @@ def default_name():
 
 
 class Pictures:
-    """Draws the runs side by side with one camera, a caption on each, and the strip below: one for both runs of the same origin."""
+    """Draws the runs side by side with one camera, a caption on each, and the strip below: one for both runs of the
+    same origin.
+    """
 
     def __init__(self, runs, view, form):
         self.picture = Image.new("RGB", (form.width, form.height))
         origins = [parts(run) for run in runs]
         below = runs[:1] if origins[0] == origins[-1] else runs
-        self.strips = [Strip(run, origin, (form.width // len(below), form.height)) for run, origin in zip(below, origins)]
+        self.strips = [
+            Strip(run, origin, (form.width // len(below), form.height)) for run, origin in zip(below, origins)
+        ]
         size = form.width // len(runs), form.height - self.strips[0].height
         starts = [corners(run) for run in runs]
         shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
@@ -131,13 +145,17 @@ def corners(run, frame=None):
 
 def _write_mp4(path, make, form, _count):
     """Pass the images to ffmpeg, which encodes them in another process; the last one is repeated."""
-    source = ("-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i", "-")
+    source = (
+        "-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i", "-",
+    )
     even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
     command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
     try:
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     except FileNotFoundError:
-        raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in .webp") from None
+        raise RunError(
+            "a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in .webp"
+        ) from None
     said = []
     listener = threading.Thread(target=lambda: said.append(process.stderr.read()))
     listener.start()
@@ -156,7 +174,9 @@ def _write_mp4(path, make, form, _count):
         status = process.wait()
         listener.join()
     if status:
-        raise RunError(f"ffmpeg: {' '.join(said[0].decode(errors='replace').split())[-300:] or f'exit status {status}'}")
+        raise RunError(
+            f"ffmpeg: {' '.join(said[0].decode(errors='replace').split())[-300:] or f'exit status {status}'}"
+        )
 
 
 def _write_webp(path, make, form, count):
@@ -180,10 +200,14 @@ class Reel(Image.Image):
         self.seek(0)
 
     def seek(self, frame):
-        """Take the next image. Pillow asks for each of them once, in their order, and for the first one again at the end."""
+        """Take the next image. Pillow asks for each of them once, in their order, and for the first one again at the
+        end.
+        """
         if frame > self.number:
             image = next(self.images)
-            self.__dict__.update(image.__dict__)  # pixels, size and mode, which are read-only properties since Pillow 10.1
+            self.__dict__.update(
+                image.__dict__
+            )  # pixels, size and mode, which are read-only properties since Pillow 10.1
             self.number = frame
 
     def tell(self):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed. Needs no YADE."""
+"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed. Needs no
+YADE.
+"""
 import sys
 from contextlib import contextmanager
 from functools import cache
@@ -12,8 +14,12 @@ from matplotlib.ft2font import FT2Font
 from .style import default_style
 
 OWN = "DejaVu Sans"
-EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic", "Noto Sans CJK JP", "WenQuanYi Zen Hei")
-"""Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have."""
+EAST_ASIAN = (
+    "IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic",
+    "Noto Sans CJK JP", "WenQuanYi Zen Hei",
+)
+"""Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have.
+"""
 PACKAGE = "fonts-ipafont-gothic"
 LAYOUT = ["GDEF", "GPOS", "GSUB", "kern"]
 """Tables of a font for the layout of text. A PDF file has the places of all letters."""
@@ -55,7 +61,10 @@ def has(letter):
         _used.add(family)
         return True
     if not _missed and letter.isalpha():
-        print(f"notice: no installed font has the letter '{letter}'; install {PACKAGE} for Japanese names", file=sys.stderr)
+        print(
+            f"notice: no installed font has the letter '{letter}'; install {PACKAGE} for Japanese names",
+            file=sys.stderr,
+        )
         _missed.add(letter)
     return False
 

@@ -83,7 +83,9 @@ def named(frames):
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
     for kind in ("structure_fallen", "snow_fallen"):
-        yield from [(event.time_s, short(event)) for event in (summary.events if summary else ()) if event.kind == kind][:1]
+        yield from [
+            (event.time_s, short(event)) for event in (summary.events if summary else ()) if event.kind == kind
+        ][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first damage"
     if frames.history and frames.history.samples and not summary.collapsed:
@@ -109,7 +111,9 @@ def largest_drift(frames):
 
 
 def first_shown(frames):
-    """Time at which curves and films begin: shortly before the shaking when the house is at rest until then, else 0. [s]"""
+    """Time at which curves and films begin: shortly before the shaking when the house is at rest until then, else 0.
+    [s]
+    """
     if frames.motion is None or not frames.history:
         return 0.0
     start = min(onset(frames.motion), frames.time[-1]) - LEAD

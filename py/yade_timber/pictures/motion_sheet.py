@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra. Needs no YADE."""
+"""One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra. Needs
+no YADE.
+"""
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..base.colors import DIRECTIONS
-from ..motion import GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity
+from ..motion import (
+    GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity,
+)
 from .figures import A4, heading, heading_height, new_figure, save
 from .style import default_style
 
@@ -49,7 +53,10 @@ def page(motion, corner, dpi):
 def describe(motion):
     """Source, JMA intensity and horizontal peaks."""
     intensity = jma_intensity(motion)
-    peaks = f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and {pgv(motion):.0f} cm/s"
+    peaks = (
+        f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and"
+        f" {pgv(motion):.0f} cm/s"
+    )
     return "\n".join(filter(None, (peaks, constant_note(motion))))
 
 
@@ -62,7 +69,9 @@ def draw_accelerations(axes, motion):
         axis.plot(motion.time, values, color=DIRECTIONS[key], lw=0.6)
         axis.plot(motion.time[peak], values[peak], "o", markersize=4, markerfacecolor="none", color="black")
         text = f"{abs(values[peak]):.0f} gal at {motion.time[peak]:.2f} s"
-        axis.annotate(text, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8, va="center")
+        axis.annotate(
+            text, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8, va="center"
+        )
         axis.set_ylim(-reach, reach)
         axis.set_ylabel(f"acceleration {name} [gal]", fontsize=8)
     axes[-1].set_xlabel("time [s]", fontsize=8)
@@ -73,7 +82,9 @@ def draw_curves(axis, time, values, label):
     for key, column, name, dashes in reversed(ROWS):
         axis.plot(time, values[:, column], color=DIRECTIONS[key], ls=dashes, lw=0.9, label=name)
     axis.set_ylabel(label, fontsize=8)
-    axis.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, fontsize=8, frameon=False, borderaxespad=0)  # above: it hides no peak
+    axis.legend(
+        loc="lower right", bbox_to_anchor=(1, 1), ncols=3, fontsize=8, frameon=False, borderaxespad=0
+    )  # above: it hides no peak
 
 
 def draw_spectra(axis, motion):

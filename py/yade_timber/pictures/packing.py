@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Compressed arrays of numbers for the player (read by player/src/run.js). Needs no YADE.
 
-Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64 text. Numbers
-are rounded to multiples of their array's step. Each column is stored as differences from row to row, the sign in the lowest bit
-(zigzag), with the four bytes of all differences in separate planes: a column that hardly changes becomes a run of zeros.
+Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64
+text. Numbers are rounded to multiples of their array's step. Each column is stored as differences from row to row, the
+sign in the lowest bit (zigzag), with the four bytes of all differences in separate planes: a column that hardly changes
+becomes a run of zeros.
 """
 import base64
 import json
@@ -21,10 +22,19 @@ TIME_STEP = 1e-6
 
 
 def pack(info, arrays):
-    """Base64 text. info: JSON content; arrays: {name: (values (rows, ...), step)}. Raises ValueError for values that do not fit."""
-    header = {**info, "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()]}
+    """Base64 text. info: JSON content; arrays: {name: (values (rows, ...), step)}. Raises ValueError for values that do
+    not fit.
+    """
+    header = {
+        **info,
+        "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()],
+    }
     text = json.dumps(header, allow_nan=False).encode()
-    parts = [len(text).to_bytes(4, "little"), text, *(planes(name, values, step) for name, (values, step) in arrays.items())]
+    parts = [
+        len(text).to_bytes(4, "little"),
+        text,
+        *(planes(name, values, step) for name, (values, step) in arrays.items()),
+    ]
     return base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode()
 
 

@@ -26,7 +26,9 @@ NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken
 
 @dataclass
 class Panel:
-    """The wall of a bay. corners (4, 3) world [m], around the bay; storey: from 1; sides: of the house, as 'north'; state: a key of STYLES."""
+    """The wall of a bay. corners (4, 3) world [m], around the bay; storey: from 1; sides: of the house, as 'north';
+    state: a key of STYLES.
+    """
 
     corners: np.ndarray
     storey: int
@@ -39,12 +41,19 @@ class Panel:
         left, right, low, high = OPENINGS[self.opening]
         foot, other_foot, other_head, head = self.corners
         at = [(left, low), (right, low), (right, high), (left, high)]
-        return np.array([(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head for u, v in at])
+        return np.array(
+            [
+                (1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
+                for u, v in at
+            ]
+        )
 
 
 @dataclass
 class Sheet:
-    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint; broken: bool of its joints."""
+    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint; broken:
+    bool of its joints.
+    """
 
     bay: tuple
     ends: list
@@ -62,7 +71,16 @@ def panels(frames, frame):
         k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)
         bay = joints.a[k], joints.b[k]
         ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
-        sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]), list(broken[halves])))
+        sheets.append(
+            Sheet(
+                bay,
+                ends,
+                tuple(joints.side[k].split("+")),
+                joints.name[k],
+                int(frames.elements.storey[joints.a[k]]),
+                list(broken[halves]),
+            )
+        )
     return of_sheets(sheets)
 
 
@@ -71,8 +89,20 @@ def panels_as_built(model):
     sheets = []
     for joint in model.joints:
         if joint.kind == WALL_COLUMN:
-            ends = [axis_ends(vertices, vertices) for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
-            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey, [joint.broken]))
+            ends = [
+                axis_ends(vertices, vertices)
+                for vertices in (model.element(name).vertices for name in (joint.a, joint.b))
+            ]
+            sheets.append(
+                Sheet(
+                    (joint.a, joint.b),
+                    ends,
+                    tuple(joint.side),
+                    joint.name,
+                    model.element(joint.a).storey,
+                    [joint.broken],
+                )
+            )
     return of_sheets(sheets)
 
 
@@ -86,12 +116,21 @@ def of_sheets(sheets):
         (foot, head), (other_foot, other_head) = layers[0].ends
         broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        found.append(Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken), opening))
+        found.append(
+            Panel(
+                np.array([foot, other_foot, other_head, head]),
+                layers[0].storey,
+                layers[0].sides,
+                state(broken),
+                opening,
+            )
+        )
     return found
 
 
 def axis_ends(start, corners):
-    """((3,) foot, (3,) head) of a column's axis. start, corners: its corners (n, 3) before the first step and now [m]."""
+    """((3,) foot, (3,) head) of a column's axis. start, corners: its corners (n, 3) before the first step and now [m].
+    """
     height = start[:, 2]
     return corners[height < height.mean()].mean(0), corners[height > height.mean()].mean(0)
 

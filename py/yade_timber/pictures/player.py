@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The player: one HTML file that plays a recorded run, or two runs side by side in step. Needs no YADE, the page no network.
+"""The player: one HTML file that plays a recorded run, or two runs side by side in step. Needs no YADE, the page no
+network.
 
 Positions are stored in steps of POSITION_STEP, orientations in steps of ORIENTATION_STEP: a centroid is off by at most
 0.44 mm, an orientation by at most 0.004 degrees. Between two frames the page interpolates (linear, slerp).
 
-Security: a run's data are base64 text; the page shows its texts as text nodes only. The content-security policy of the page
-permits its own script and style, by their hashes, and nothing else.
+Security: a run's data are base64 text; the page shows its texts as text nodes only. The content-security policy of the
+page permits its own script and style, by their hashes, and nothing else.
 """
 import base64
 import hashlib
@@ -39,7 +40,8 @@ LONGEST_TEXT = 400
 
 
 def make(runs, path):
-    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages, and the tables beside it give peaks.
+    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages, and the tables
+    beside it give peaks.
 
     Raises RunError when a run cannot be shown, OSError when the page cannot be written.
     """
@@ -50,7 +52,9 @@ def make(runs, path):
         "policy": POLICY.format(script=digest(script), style=digest(style)),
         "title": html.escape(" / ".join(plain(run.title) for _, run in runs)),
         "style": style,
-        "data": "\n".join(f'<script type="text/plain" class="run-data">{packed(source, run)}</script>' for source, run in runs),
+        "data": "\n".join(
+            f'<script type="text/plain" class="run-data">{packed(source, run)}</script>' for source, run in runs
+        ),
         "script": script,
     }
     write_text(path, re.sub(r"\{\{(\w+)\}\}", lambda mark: parts[mark[1]], asset("page.html")))
@@ -96,15 +100,27 @@ def info(run, largest):
     e, j = run.elements, run.joints
     return {
         "title": plain(run.title),
-        "result": plain(english.sentence(run.summary)) if run.summary else f"Not ended yet: the first {run.time[-1]:.1f} s",
+        "result": (
+            plain(english.sentence(run.summary)) if run.summary else f"Not ended yet: the first {run.time[-1]:.1f} s"
+        ),
         "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
         "origin": plain(provenance(run)),
-        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey), **uplift(largest, name)}
-                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
+        "elements": [
+            {
+                "name": plain(name),
+                "kind": plain(kind),
+                "group": plain(group),
+                "storey": int(storey),
+                **uplift(largest, name),
+            }
+            for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)
+        ],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
-        "joint_list": [{"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
-                       for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)],
+        "joint_list": [
+            {"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
+            for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)
+        ],
         "feet": feet(run),
         "breaks": breaks(run),
         "kinds": kinds({plain(kind) for kind in e.kind}),
@@ -120,7 +136,11 @@ def info(run, largest):
 
 def japanese_texts(run):
     """Title, result and origin of an ended run in Japanese."""
-    texts = {"title": japanese.title(run.summary), "result": japanese.result(run.summary), "origin": provenance(run, japanese)}
+    texts = {
+        "title": japanese.title(run.summary),
+        "result": japanese.result(run.summary),
+        "origin": provenance(run, japanese),
+    }
     return {name: plain(text) for name, text in texts.items()}
 
 
@@ -135,14 +155,20 @@ def uplift(largest, element):
 
 
 def feet(run):
-    """Numbers of the joints at the feet of columns: their first element is a column, whose centroid is above them at the start."""
+    """Numbers of the joints at the feet of columns: their first element is a column, whose centroid is above them at
+    the start.
+    """
     e, j = run.elements, run.joints
     below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
-    return [k for k, kind in enumerate(j.kind) if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
+    return [
+        k for k, kind in enumerate(j.kind) if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"
+    ]
 
 
 def breaks(run):
-    """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number of all."""
+    """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number
+    of all.
+    """
     firsts, table = {}, run.breaks or {"joint": []}
     for number, joint in enumerate(map(int, table["joint"])):
         if 0 <= joint < len(run.joints.name):
@@ -153,9 +179,13 @@ def breaks(run):
 
 
 def main_event(run):
-    """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest drift; else None."""
+    """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest
+    drift; else None.
+    """
     known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
-    falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run) if event.kind == kind]
+    falls = [
+        event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run) if event.kind == kind
+    ]
     largest = [float(largest_drift(run))] if drifts(run) else []
     return next((time for time in (*known, *falls, *largest) if time is not None), None)
 
@@ -178,9 +208,14 @@ def recorded(run):
 
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded(run)) if 0 <= event.time_s <= run.time[-1]]
+    shown = [
+        event for event in (*shaking(run), *passed_levels(run), *recorded(run)) if 0 <= event.time_s <= run.time[-1]
+    ]
     shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
-    return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))} for event in shown]
+    return [
+        {"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
+        for event in shown
+    ]
 
 
 def shaking(run):
@@ -258,5 +293,9 @@ def curves(run):
     found = drifts(run)
     time = run.history.time if found else np.empty(0)
     values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
-    motion = {"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)} if run.motion else {}
+    motion = (
+        {"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
+        if run.motion
+        else {}
+    )
     return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

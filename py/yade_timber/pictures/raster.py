@@ -19,7 +19,9 @@ SKY = np.array([0.76, 0.85, 0.93], np.float32)
 
 @dataclass(frozen=True)
 class Window:
-    """Part of a picture plane. view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m]; density: pixels per metre."""
+    """Part of a picture plane. view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m];
+    density: pixels per metre.
+    """
 
     view: object
     box: tuple
@@ -32,7 +34,9 @@ class Window:
         return round((right - left) * self.density), round((top - bottom) * self.density)
 
     def matrix(self, near, far):
-        """(4, 4) from the world to OpenGL's clip space. near, far: coordinates towards the viewer of the nearest and farthest point drawn [m]"""
+        """(4, 4) from the world to OpenGL's clip space. near, far: coordinates towards the viewer of the nearest and
+        farthest point drawn [m]
+        """
         left, right, bottom, top = self.box
         rows = [(self.view.right, left, right), (self.view.up, bottom, top), (self.view.toward, near, far)]
         made = np.eye(4)
@@ -57,8 +61,8 @@ def shade(solids, window, front, sky=SKY):
     solids  list with .vertices, .faces, .color, .kind
     front   where haze begins, as from `front_of` [m]
     sky     RGB of the background, or one number for a grey
-    Returns the RGB picture (rows, columns, 3), uint8, first row at the top, and for each pixel the coordinate towards the viewer of
-    the visible face [m], minus infinity for the background.
+    Returns the RGB picture (rows, columns, 3), uint8, first row at the top, and for each pixel the coordinate towards
+    the viewer of the visible face [m], minus infinity for the background.
     """
     sky = np.broadcast_to(np.float32(sky), 3)
     drawn, near, far = _drawn(solids, window, front, sky)
@@ -75,7 +79,9 @@ def covered(solids, window):
 def _drawn(solids, window, front, sky):
     """(Canvas with the picture, nearest and farthest coordinate towards the viewer [m])."""
     view = window.view
-    bodies = Bodies(Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids], "PLAIN")
+    bodies = Bodies(
+        Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids], "PLAIN"
+    )
     vertices = np.concatenate([s.vertices for s in solids]) if solids else np.zeros((0, 3))
     toward = vertices @ view.toward
     near, far = (toward.max() + 0.1, toward.min() - 0.1) if len(toward) else (1.0, 0.0)
@@ -83,7 +89,14 @@ def _drawn(solids, window, front, sky):
     light = LIGHT @ np.array([view.right, view.toward, view.up], float) / np.linalg.norm(LIGHT)
     shared = dict(camera=window.matrix(near, far), toward=(*view.toward, front), haze=sky, haziness=(HAZE, HAZE_DEPTH))
     put(program("PLAIN"), **shared, light=light, ambient=(DARKEST, DARKEST), direct=1 - DARKEST)
-    put(program("EDGE"), **shared, eye=(*view.toward, 0), ink=(EDGE_COLOR,) * 3 + (1,), size=window.size, width=EDGE_WIDTH)
+    put(
+        program("EDGE"),
+        **shared,
+        eye=(*view.toward, 0),
+        ink=(EDGE_COLOR,) * 3 + (1,),
+        size=window.size,
+        width=EDGE_WIDTH
+    )
     drawn = canvas(*window.size)
     drawn.begin(sky)
     bodies.render_faces()

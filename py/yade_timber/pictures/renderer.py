@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of convex bodies by OpenGL without a window. Needs no YADE.
 
-moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs no display.
+moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs
+no display.
 Soft lines along all edges smooth the outlines of faces. World frame: x east, y north, z up [m].
 """
 import threading
@@ -18,7 +19,8 @@ LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
 
 def once_per_thread(make):
-    """A function that keeps its results: an OpenGL context and all that belongs to it can be used by one thread only."""
+    """A function that keeps its results: an OpenGL context and all that belongs to it can be used by one thread only.
+    """
     own = threading.local()
 
     @wraps(make)
@@ -48,13 +50,19 @@ def context():
         _started.append(True)
         return moderngl.create_context(standalone=True, backend="egl", require=330)
     except Exception as problem:  # moderngl raises Exception itself
-        raise RunError(f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}): install {PACKAGES}") from None
+        raise RunError(
+            f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}): install"
+            f" {PACKAGES}"
+        ) from None
 
 
 @once_per_thread
 def program(name):
     """The compiled program of the shaders NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT."""
-    stages = {f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None) for stage in ("vertex", "geometry", "fragment")}
+    stages = {
+        f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None)
+        for stage in ("vertex", "geometry", "fragment")
+    }
     return context().program(**stages)
 
 
@@ -105,7 +113,9 @@ class Topology:
 
 
 class Bodies:
-    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies; surface: program of their faces, SOLID, or PLAIN without shadows"""
+    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies; surface: program of their faces, SOLID, or PLAIN
+    without shadows
+    """
 
     def __init__(self, topology, colors, surface="SOLID"):
         self.topology = topology
@@ -168,7 +178,9 @@ class Canvas:
 
     def depths(self):
         """(height, width) float32, 0 near to 1 far, the first row at the top."""
-        return np.frombuffer(self.frame.read(components=1, attachment=-1, dtype="f4", alignment=1), "f4").reshape(self.size[::-1])[::-1]
+        return np.frombuffer(self.frame.read(components=1, attachment=-1, dtype="f4", alignment=1), "f4").reshape(
+            self.size[::-1]
+        )[::-1]
 
 
 @once_per_thread

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed. Needs no YADE."""
+"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed. Needs no
+YADE.
+"""
 import base64
 import html
 import io
@@ -35,36 +37,52 @@ PATIENCE = 120.0
 COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
 CAVEATS = (
     "Members are rigid: they neither bend nor split; only joints and contacts deform.",
-    "Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice snow adds to the "
-    "earthquake load and houses under snow fare worse. Do not conclude that snow is good for a house.",
-    "Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under several motions.",
-    "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies no house; ask an engineer.",
+    (
+        "Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
+        " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
+        " house."
+    ),
+    (
+        "Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
+        " several motions."
+    ),
+    (
+        "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report"
+        " certifies no house; ask an engineer."
+    ),
 )
 """Limits of the model that a reader of one result must know (docs/limits.md)."""
 LIGHT = 1.5
 """Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
 STYLE = """
 @page { size: A4; margin: 9mm 10mm; }
-body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; width: 190mm; height: 277mm; margin: 0 auto;
+body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; width: 190mm; height: 277mm;
+  margin: 0 auto;
   display: flex; flex-direction: column; }
 h1 { font-size: 14pt; margin: 0 0 1mm; } h2 { font-size: 9pt; margin: 1.6mm 0 0.6mm; border-bottom: 0.3mm solid #999; }
-.verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+.verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold;
+  -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 .row { display: flex; gap: 4mm; } .row > * { flex: 1 1 0; min-width: 0; } .row > .wide { flex: 1.25 1 0; }
 img { max-width: 100%; display: block; } img.shots { flex: 1 1 0; min-height: 45mm; object-fit: contain; }
-table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm; border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
+table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm;
+  border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
 td.number, th.number { text-align: right; } td { white-space: nowrap; } td.name { white-space: normal; }
-ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; } small { font-size: 6.4pt; }
+ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; }
+small { font-size: 6.4pt; }
 """
 
 
 def write(folder):
-    """Write report.html, and report.pdf where a browser is installed, into the folder of a finished run; returns the paths.
+    """Write report.html, and report.pdf where a browser is installed, into the folder of a finished run; returns the
+    paths.
 
     Raises RunError for a folder without complete results, OSError when a file cannot be written.
     """
     folder = Path(folder)
     results = quantities.read(folder)
-    frames = recording.load(folder / recording.NAME, missing="the report needs recorded frames: run without --no-frames")
+    frames = recording.load(
+        folder / recording.NAME, missing="the report needs recorded frames: run without --no-frames"
+    )
     if frames.summary is None:
         raise RunError(f"{folder / recording.NAME}: of a run that has not ended; continue it with --resume")
     write_text(folder / PAGE, page(frames, results))
@@ -79,14 +97,20 @@ def page(frames, results):
     parts = [
         f"<h1>{text(frames.title)}</h1>",
         f'<div class="verdict" style="background:{COLORS[found.verdict]}">{text(sentence(found))}</div>',
-        f'<div class="row"><section>{house(frames, found, failures)}</section><section class="wide">{motion(frames, found)}{storeys(found)}</section></div>',
+        (
+            f'<div class="row"><section>{house(frames, found, failures)}</section><section'
+            f' class="wide">{motion(frames, found)}{storeys(found)}</section></div>'
+        ),
         f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
         f'<div class="row"><section>{events(found)}</section><section class="wide">{table}</section></div>{limits()}',
         f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(found))}</ul>",
         repeat(found),
     ]
     title = text(f"Report: {frames.title}")
-    head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
+    head = (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta'
+        f' charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
+    )
     return f"{head}\n<body>\n{chr(10).join(parts)}\n</body></html>\n"
 
 
@@ -101,7 +125,10 @@ def picture(figure, part=None, name="", about=""):
     data = io.BytesIO()
     fonts.apply(figure)
     figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
-    return f'<img class="{name}" alt="{text(about)}" src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">'
+    return (
+        f'<img class="{name}" alt="{text(about)}"'
+        f' src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">'
+    )
 
 
 # --- parts of the page ------------------------------------------------------------------------------------------------
@@ -110,15 +137,26 @@ def picture(figure, part=None, name="", about=""):
 def house(frames, found, failures):
     """Plans with the first failures, numbers of members, weight, natural periods."""
     kinds = frames.elements.kind
-    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {"walled bay": len(panels(frames, 0))}
-    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew") if (mode := found.main_mode("before", axis)))
+    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {
+        "walled bay": len(panels(frames, 0))
+    }
+    periods = ", ".join(
+        f"{direction_name(axis)} {period_text(mode)}"
+        for axis in ("ns", "ew")
+        if (mode := found.main_mode("before", axis))
+    )
     (_, counts["joint"]), (_, counts["wall sheet"]) = found.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
-    marks = "; blue: braces (thin end: foot)" * bool(counts["brace"]) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
-    marks += "; orange: joints broken from the start" * any(frames.joints.damaged) + "; numbers: first failures" * bool(failures)
+    marks = "; blue: braces (thin end: foot)" * bool(
+        counts["brace"]
+    ) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
+    marks += "; orange: joints broken from the start" * any(frames.joints.damaged) + "; numbers: first failures" * bool(
+        failures
+    )
     return (
-        f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}"
-        f"<p>Plans, north up{marks}. {numbers}. {weight(found.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
+        f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}<p>Plans, north"
+        f" up{marks}. {numbers}."
+        f" {weight(found.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
     )
 
 
@@ -131,7 +169,10 @@ def storeys(found):
         f"<td class=number>{coefficients(storey)}</td></tr>"
         for name, storey in known.storeys.items()
     )
-    return f"<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S, E-W{until}</th></tr>{rows}</table>"
+    return (
+        "<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S,"
+        f" E-W{until}</th></tr>{rows}</table>"
+    )
 
 
 def coefficients(storey):
@@ -141,7 +182,11 @@ def coefficients(storey):
 
 def weight(known):
     """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of a Weight."""
-    per_area = "" if known.per_floor_area_kn_m2 is None else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor"
+    per_area = (
+        ""
+        if known.per_floor_area_kn_m2 is None
+        else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor"
+    )
     snow = f"; snow {known.snow_kn:.0f} kN" if known.snow_kn else ""
     return f"Weight {known.total_kn:.0f} kN{per_area}{snow}."
 
@@ -157,8 +202,12 @@ def motion(frames, found):
         return "<h2>The motion</h2><p>No earthquake.</p>"
     applied = report_pictures.ground_motion(frames)
     intensity = jma_intensity(applied).official if applied.duration >= 0.3 and applied.acceleration.any() else None
-    peaks = ", ".join(f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
-    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None else f", JMA intensity {intensity:.1f}")
+    peaks = ", ".join(
+        f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud"))
+    )
+    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + (
+        "" if intensity is None else f", JMA intensity {intensity:.1f}"
+    )
     scale = f", times {found.record.scale:g}" if found.record.scale != 1 else ""
     about = f"<p>{text(found.record.source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
     return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
@@ -178,9 +227,11 @@ def limits():
 def joints(results):
     """Table of the joints most loaded."""
     rows = "".join(
-        f"<tr><td class=name>{joint_name(row['joint'])}</td><td class=number>{float(row['utilisation [-]']):.2f}</td>"
-        f"<td class=number>{float(row['pull [N]']) / 1e3:.1f}</td><td class=number>{float(row['shear [N]']) / 1e3:.1f}</td>"
-        f"<td class=number>{1e3 * float(row['opening [m]']):.0f}</td><td>{text(row['state'])}</td></tr>"
+        f"<tr><td class=name>{joint_name(row['joint'])}</td><td"
+        f" class=number>{float(row['utilisation [-]']):.2f}</td><td"
+        f" class=number>{float(row['pull [N]']) / 1e3:.1f}</td><td"
+        f" class=number>{float(row['shear [N]']) / 1e3:.1f}</td><td"
+        f" class=number>{1e3 * float(row['opening [m]']):.0f}</td><td>{text(row['state'])}</td></tr>"
         for row in results.joints[:JOINTS_SHOWN]
     )
     heads = ("utilisation", "pull kN", "shear kN", "opening mm")
@@ -189,11 +240,15 @@ def joints(results):
 
 
 def failed_joints(frames, results, failures):
-    """Table of the first failures of a house that has collapsed, and how far its other joints were when its fall began."""
+    """Table of the first failures of a house that has collapsed, and how far its other joints were when its fall began.
+    """
     known = {row["joint"]: row for row in results.joints}
     rows = "".join(failed_joint(number, failure, frames, known) for number, failure in enumerate(failures, 1))
     heads = ("drift of its storey", "pull kN", "shear kN", "strength kN")
-    head = f"<tr><th></th><th class=number>time s</th><th>joint</th><th>cause</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}</tr>"
+    head = (
+        "<tr><th></th><th class=number>time"
+        f" s</th><th>joint</th><th>cause</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}</tr>"
+    )
     return f"<h2>First failures</h2><table>{head}{rows}</table><p>{text(others(frames, results))}</p>"
 
 
@@ -201,12 +256,18 @@ def failed_joint(number, failure, frames, known):
     """Row of a Failure. known: {joint: row of joints.csv}"""
     joint, row = frames.joints, known[frames.joints.name[failure.joint]]
     storey = joint.storey[failure.joint]
-    place = f"{joint.kind[failure.joint].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey}, {joint.side[failure.joint].replace('+', ', ')}"
+    place = (
+        f"{joint.kind[failure.joint].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
+        f" {joint.side[failure.joint].replace('+', ', ')}"
+    )
     drift = "" if failure.drift is None else directed(failure.drift, failure.direction)
-    forces = "".join(f"<td class=number>{float(row[column]) / 1e3:.1f}</td>" for column in ("pull [N]", "shear [N]", "strength [N]"))
+    forces = "".join(
+        f"<td class=number>{float(row[column]) / 1e3:.1f}</td>" for column in ("pull [N]", "shear [N]", "strength [N]")
+    )
     title = f' title="{joint_name(row["joint"])}"'
-    return (f"<tr><td class=number>{number}</td><td class=number>{failure.time:.2f}</td><td{title}>{text(place)}</td><td>{text(failure.cause)}</td>"
-            f"<td class=number>{drift}</td>{forces}</tr>")  # fmt: skip
+    return (f"<tr><td class=number>{number}</td><td "
+            f"class=number>{failure.time:.2f}</td><td{title}>{text(place)}</td><td>{text(failure.cause)}</td>"
+            f"<td class=number>{drift}</td>{forces}</tr>")
 
 
 def others(frames, results):
@@ -219,12 +280,18 @@ def others(frames, results):
     failed = len(rows) - len(loads)
     known = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
     about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {known}"
-    used = f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}" if len(loads) else "none is left"
+    used = (
+        f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}"
+        if len(loads)
+        else "none is left"
+    )
     return f"{about}; of the others {used}."
 
 
 def joint_name(name):
-    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first. A wall's joint has one name."""
+    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first.
+    A wall's joint has one name.
+    """
     first, _, second = name.partition("|")
     if not second:
         return text(first)
@@ -235,14 +302,20 @@ def joint_name(name):
 def caveats(found):
     """Limits of the model that matter for this run."""
     per_area = found.weight.per_floor_area_kn_m2
-    light = f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load weigh 2.5 to 3 kN per m²."
+    light = (
+        f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load"
+        " weigh 2.5 to 3 kN per m²."
+    )
     return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
 def repeat(found):
     """Versions, and the command that repeats the run; none for the house of a town and for a motion from Python."""
     versions, made = found.versions, found.made_from
-    about = f"yade-timber {versions.package}, YADE {versions.yade}, package {made['package']}, files {made['files']}; time step {found.dt:g} s."
+    about = (
+        f"yade-timber {versions.package}, YADE {versions.yade}, package {made['package']}, files {made['files']}; time"
+        f" step {found.dt:g} s."
+    )
     options = {name: value for name, value in made["options"].items() if name != "name"}
     name = made["options"].get("name")
     command = shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(options, name is not None)])
@@ -261,8 +334,13 @@ def print_pdf(source, path):
     sandbox = [] if os.geteuid() else ["--no-sandbox"]  # Chromium has none for root; the page is our own
     try:
         with written_whole(path) as part, tempfile.TemporaryDirectory() as profile:
-            options = ["--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer", f"--print-to-pdf={part}"]
-            subprocess.run([browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True, timeout=PATIENCE)
+            options = [
+                "--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer",
+                f"--print-to-pdf={part}",
+            ]
+            subprocess.run(
+                [browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True, timeout=PATIENCE
+            )
     except subprocess.SubprocessError:
         return []
     return [path]

@@ -26,7 +26,9 @@ THICK = 0.11
 
 @default_style()
 def plans(frames, failures=()):
-    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the start, numbered failures."""
+    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the
+    start, numbered failures.
+    """
     e = frames.elements
     columns = [k for k, kind in enumerate(e.kind) if kind == "column"]
     storeys = sorted({int(e.storey[k]) for k in columns})
@@ -53,13 +55,23 @@ def draw_plan(axis, frames, storey):
         box = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
         if kind == "column":
             thick = max(x1 - x0, y1 - y0) >= THICK
-            axis.add_patch(Polygon(box, closed=True, facecolor="black" if thick else "white", edgecolor="black", lw=0.5, zorder=3))
+            axis.add_patch(
+                Polygon(box, closed=True, facecolor="black" if thick else "white", edgecolor="black", lw=0.5, zorder=3)
+            )
         else:
             axis.add_patch(wedge(corners))
     for panel in panels(frames, 0):
         if panel.storey == storey:
             (x, y, _), (other_x, other_y, _) = panel.corners[:2]
-            axis.plot((x, other_x), (y, other_y), color=colors.GREEN, lw=2.2, ls=":" if panel.opening else "-", solid_capstyle="butt", zorder=1.5)
+            axis.plot(
+                (x, other_x),
+                (y, other_y),
+                color=colors.GREEN,
+                lw=2.2,
+                ls=":" if panel.opening else "-",
+                solid_capstyle="butt",
+                zorder=1.5,
+            )
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
     axis.set_title(f"storey {storey}", fontsize=7, pad=2)
@@ -98,7 +110,9 @@ def ground_motion(frames):
 
 @default_style()
 def motion(frames):
-    """Figure with the horizontal accelerations, and the 5 % pseudo-acceleration spectra with lines at the house's natural periods."""
+    """Figure with the horizontal accelerations, and the 5 % pseudo-acceleration spectra with lines at the house's
+    natural periods.
+    """
     figure = new_figure(3.9, 1.85, DPI)
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))
     figure.subplots_adjust(left=0.11, right=0.985, top=0.9, bottom=0.2, wspace=0.34)
@@ -106,7 +120,13 @@ def motion(frames):
     shown = recorded.time <= frames.time[-1]
     for direction, column in (("ew", 0), ("ns", 1)):
         values = np.asarray(recorded.acceleration)[:, column]
-        left.plot(recorded.time[shown], values[shown] / GAL, color=colors.DIRECTIONS[direction], lw=0.4, label=direction_name(direction))
+        left.plot(
+            recorded.time[shown],
+            values[shown] / GAL,
+            color=colors.DIRECTIONS[direction],
+            lw=0.4,
+            label=direction_name(direction),
+        )
         spectrum = response_spectrum(values, recorded.dt, PERIODS)
         right.semilogx(PERIODS, spectrum.psv * 0.01 * 2 * np.pi / PERIODS, color=colors.DIRECTIONS[direction], lw=1)
     draw_periods(right, frames.summary)
@@ -133,7 +153,9 @@ def style(axis, title, x):
 
 
 def shots(frames):
-    """(figure with up to six key times, in the view in which the house tilts or moves most; its part without the heading, a Bbox [inch])."""
+    """(figure with up to six key times, in the view in which the house tilts or moves most; its part without the
+    heading, a Bbox [inch]).
+    """
     direction = frames.summary.tilt_direction or frames.summary.largest_drift()[2]
     figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
     width, height = figure.get_size_inches()

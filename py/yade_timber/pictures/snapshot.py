@@ -19,6 +19,12 @@ def solids(frames, frame=None):
 
 
 def marks(frames, frame):
-    """Mark of every joint that is broken or partly broken in a frame, without those of walls, which are drawn as panels."""
+    """Mark of every joint that is broken or partly broken in a frame, without those of walls, which are drawn as
+    panels.
+    """
     positions, kinds = frames.joint_places(frame), frames.joints.kind
-    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame)) if state != "whole" and kinds[j] not in WALL_KINDS]
+    return [
+        Mark(positions[j], state)
+        for j, state in enumerate(frames.joint_states(frame))
+        if state != "whole" and kinds[j] not in WALL_KINDS
+    ]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints: the pictures of a film. Needs no YADE."""
+"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints: the pictures of a film.
+Needs no YADE.
+"""
 import numpy as np
 
 from ..base import colors
@@ -35,7 +37,9 @@ class Stage:
         e = frames.elements
         self.numbers = nearest_first(frames, camera.eye)
         places = e.position[self.numbers, :2]
-        self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE)
+        self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(
+            1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE
+        )
         self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
         self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
@@ -47,7 +51,9 @@ class Stage:
         self.depth.repeat_x = self.depth.repeat_y = False
         self.shadow = made.framebuffer(depth_attachment=self.depth)
         flat = {"GROUND": SQUARE, "SHADE": SQUARE, "SKY": UPPER_HALF}
-        self.ground, self.shade, self.sky = (made.vertex_array(program(name), [(made.buffer(form), "2f", "corner")]) for name, form in flat.items())
+        self.ground, self.shade, self.sky = (
+            made.vertex_array(program(name), [(made.buffer(form), "2f", "corner")]) for name, form in flat.items()
+        )
         self.marks = made.buffer(reserve=max(16 * len(frames.joints.name), 16), dynamic=True)
         self.points = made.vertex_array(program("MARK"), [(self.marks, "3f 1f", "place", "state")])
 
@@ -85,26 +91,50 @@ class Stage:
         self.depth.use(0)
 
     def _shadow_bounds(self, vertices):
-        """(4,) west, south, east and north end of the shadows on the ground [m]: they fill a small part of the picture. vertices: (V, 3) of all bodies"""
+        """(4,) west, south, east and north end of the shadows on the ground [m]: they fill a small part of the picture.
+        vertices: (V, 3) of all bodies
+        """
         places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])
         return np.concatenate([places.min(0), places.max(0)])
 
     def _prepare(self, moved, shadows):
-        """Set the shaders for a displacement of the ground (3,) [m], to which all positions are relative. shadows: from `_shadow_bounds`"""
+        """Set the shaders for a displacement of the ground (3,) [m], to which all positions are relative. shadows: from
+        `_shadow_bounds`
+        """
         view, shift = self.camera, np.eye(4)
         shift[:3, 3] = moved
         ahead = view.target - view.eye
         ahead /= np.linalg.norm(ahead)
         width, height = self.canvas.size
         depth, reach = self.spread * HAZE_DEPTH, self.spread * GROUND_REACH
-        shared = dict(camera=view.matrix @ shift, sun=self.sun, toward=(*-ahead, -ahead @ view.target), haze=HORIZON, haziness=(HAZE, depth), shade=0)
+        shared = dict(
+            camera=view.matrix @ shift,
+            sun=self.sun,
+            toward=(*-ahead, -ahead @ view.target),
+            haze=HORIZON,
+            haziness=(HAZE, depth),
+            shade=0,
+        )
         put(program("SHADOW"), sun=self.sun)
         put(program("SOLID"), **shared, light=self.light, ambient=AMBIENT, direct=DIRECT)
         put(program("EDGE"), **shared, eye=(*view.eye, 1), ink=EDGE_INK, size=(width, height), width=EDGE_WIDTH)
-        put(program("GROUND"), **shared, bounds=np.concatenate([self.middle - 2 * reach, self.middle + 2 * reach]), reach=reach, middle=self.middle)
+        put(
+            program("GROUND"),
+            **shared,
+            bounds=np.concatenate([self.middle - 2 * reach, self.middle + 2 * reach]),
+            reach=reach,
+            middle=self.middle
+        )
         put(program("SHADE"), **shared, bounds=shadows)
         put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
-        put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS, partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))
+        put(
+            program("MARK"),
+            **shared,
+            size=MARK_SIZE * view.scale * height,
+            sizes=MARK_PIXELS,
+            partly=rgb(colors.AMBER),
+            broken=rgb(colors.ORANGE)
+        )
 
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
@@ -112,7 +142,11 @@ class Stage:
         states = self.frames.joint_states(frame_before(self.frames, time))
         numbers = np.flatnonzero(states != "whole")
         places = position[j.a[numbers]] + rotated(orientation[j.a[numbers]], j.anchor[numbers])
-        found = np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers) else np.zeros((0, 4))
+        found = (
+            np.column_stack([places, [STATES[state] for state in states[numbers]]])
+            if len(numbers)
+            else np.zeros((0, 4))
+        )
         found = found[np.isfinite(found).all(1)].astype("f4")
         if not len(found):
             return
@@ -128,7 +162,9 @@ class Stage:
 
 
 def nearest_first(frames, eye):
-    """Numbers of the elements shown, those nearest to an eye (3,) [m] at the start first: hidden faces drawn later cost no shading."""
+    """Numbers of the elements shown, those nearest to an eye (3,) [m] at the start first: hidden faces drawn later cost
+    no shading.
+    """
     distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
     return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
 
@@ -150,7 +186,9 @@ def placements(frames, time):
     span = frames.time[last] - frames.time[first]
     share = min(max((time - frames.time[first]) / span, 0.0), 1.0) if span > 0 else 0.0
     a, b = (np.asarray(frames.position[k], float) for k in (first, last))
-    return a + share * (b - a), slerp(np.asarray(frames.orientation[first], float), np.asarray(frames.orientation[last], float), share)
+    return a + share * (b - a), slerp(
+        np.asarray(frames.orientation[first], float), np.asarray(frames.orientation[last], float), share
+    )
 
 
 def slerp(a, b, share):

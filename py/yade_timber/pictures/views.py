@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed. Needs no YADE."""
+"""One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed.
+Needs no YADE.
+"""
 import math
 from dataclasses import dataclass, field
 
@@ -18,7 +20,9 @@ from .raster import Window, covered, shade
 
 @dataclass
 class Solid:
-    """A convex body. vertices (n, 3) world [m]; faces: vertex indices, counter-clockwise from outside; color RGB in 0..1."""
+    """A convex body. vertices (n, 3) world [m]; faces: vertex indices, counter-clockwise from outside; color RGB in
+    0..1.
+    """
 
     kind: str
     vertices: np.ndarray
@@ -36,7 +40,9 @@ class Mark:
 
 @dataclass(frozen=True)
 class View:
-    """A direction of projection. right, toward, up (3,): unit vectors to the right of the picture, towards the viewer, upwards in the picture."""
+    """A direction of projection. right, toward, up (3,): unit vectors to the right of the picture, towards the viewer,
+    upwards in the picture.
+    """
 
     name: str
     title: str
@@ -86,15 +92,24 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
     "partly": (0.9, dict(marker="^", markerfacecolor=colors.AMBER, markeredgecolor="black")),
     "before": (0.75, dict(marker="o", markerfacecolor="white", markeredgecolor="black")),
 }
-MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken", "before": "joint broken before the start"}
+MARK_NAMES = {
+    "broken": "joint broken (pale: hidden)",
+    "partly": "joint partly broken",
+    "before": "joint broken before the start",
+}
 LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
-LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor", "foundation": "foundation"}
+LEGEND_KINDS = {
+    "snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor",
+    "foundation": "foundation",
+}
 
 
 def box_of(view, starts, later):
-    """(left, right, bottom, top) in the picture plane around the solids at the start and lists of solids at later times. [m]"""
+    """(left, right, bottom, top) in the picture plane around the solids at the start and lists of solids at later
+    times. [m]
+    """
     start = np.vstack([s.vertices for s in starts if s.kind != "ground"])
     points = np.vstack([start, *(s.vertices for solids in later for s in solids if s.kind != "ground")])
     across, original = points @ view.right, start @ view.right
@@ -116,13 +131,17 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
 
 
 def silhouette(start, view):
-    """Outer outlines of the house, snow and ground left out: list of (n, 2) closed lines in the picture plane [m]. start: solids before the first step"""
+    """Outer outlines of the house, snow and ground left out: list of (n, 2) closed lines in the picture plane [m].
+    start: solids before the first step
+    """
     box = box_of(view, start, [])
     window = Window(view, box, OUTLINE_PIXELS)
     mask = np.pad(covered([s for s in start if s.kind not in ("ground", "snow")], window), 1)[::-1].astype(float)
     found = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
     outers = [points[: ends[1]] for points, ends in zip(*found)]
-    outers = [line for line in outers if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)]
+    outers = [
+        line for line in outers if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)
+    ]
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
 
 
@@ -139,7 +158,13 @@ def draw_marks(ax, window, depth, marks, size):
         place = np.dot(mark.position, window.view.right), mark.position[2]
         groups.setdefault((mark.state, is_hidden(window, depth, mark.position)), []).append(place)
     for (state, hidden), places in groups.items():
-        ax.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6, **marker(state, size))
+        ax.plot(
+            *np.transpose(places),
+            linestyle="none",
+            alpha=0.4 if hidden else 1.0,
+            zorder=5 if hidden else 6,
+            **marker(state, size),
+        )
 
 
 def is_hidden(window, depth, position):
@@ -167,26 +192,51 @@ def scale_bar(ax, box, size):
     length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
     right, up = box[1] - 0.25, box[3] - 0.35
     ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
-    ax.annotate(f"{length:g} m", (right - length / 2, up), (0, -0.4 * size), textcoords="offset points", fontsize=size, ha="center", va="top")
+    ax.annotate(
+        f"{length:g} m",
+        (right - length / 2, up),
+        (0, -0.4 * size),
+        textcoords="offset points",
+        fontsize=size,
+        ha="center",
+        va="top",
+    )
 
 
 def kind_entries(solids):
     """Legend entries of the kinds of elements that occur."""
     found = {s.kind: s.color for s in reversed(solids)}
     names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in found else {})
-    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items() if kind in found]
+    return [
+        Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name)
+        for kind, name in names.items()
+        if kind in found
+    ]
 
 
 def legend(figure, solids, states, size):
-    """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text, reduced to fit [pt]"""
+    """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text,
+    reduced to fit [pt]
+    """
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
     entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]
-    entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size)) for state, name in MARK_NAMES.items() if state in states]
+    entries += [
+        Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
+        for state, name in MARK_NAMES.items()
+        if state in states
+    ]
     rows = -(-len(entries) // LEGEND_COLUMNS)
     place = (0.5, LEGEND_PLACE / figure.get_size_inches()[1])
-    style = dict(handles=entries, loc="lower center", bbox_to_anchor=place, ncols=-(-len(entries) // rows), frameon=False, handletextpad=0.5,
-                 columnspacing=1.6)
+    style = dict(
+        handles=entries,
+        loc="lower center",
+        bbox_to_anchor=place,
+        ncols=-(-len(entries) // rows),
+        frameon=False,
+        handletextpad=0.5,
+        columnspacing=1.6,
+    )
     drawn = figure.legend(**style, fontsize=size)
     fit = 0.98 * figure.bbox.width / drawn.get_window_extent().width
     if fit < 1:

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames as VTK time series for ParaView: elements, joints and contact forces. Needs VTK (python3-vtk9), not YADE.
+"""Recorded frames as VTK time series for ParaView: elements, joints and contact forces. Needs VTK (python3-vtk9), not
+YADE.
 
 elements.pvd  polygons; cell data: element (number), kind (code, names in the field data kind_names), storey, fixed;
               point data: displacement since the start [m]
 joints.pvd    for each joint a point on either element and the line between them; point data: joint (number), kind,
-              load [-] (largest spring force over strength), state (0 intact, 1 partly broken, 2 broken, 3 broken before the start)
+              load [-] (largest spring force over strength), state (0 intact, 1 partly broken, 2 broken, 3 broken before
+              the start)
 contacts.pvd  contact points; point data: force [N] on the second element, elements (first, second)
 """
 from xml.etree import ElementTree
@@ -65,7 +67,8 @@ def write_polydata(path, data):
             raise OSError(f"{path}: VTK could not write it")
 
 
-# --- contents of a file ------------------------------------------------------------------------------------------------
+# --- contents of a file
+# ------------------------------------------------------------------------------------------------
 
 
 class Elements:
@@ -80,7 +83,12 @@ class Elements:
         owner = np.repeat(np.arange(len(e.name)), [len(faces) for faces in e.faces])
         kinds = list(dict.fromkeys(e.kind))
         code = np.array([kinds.index(kind) for kind in e.kind])
-        self.of_cells = {"element": owner, "kind": code[owner], "storey": e.storey[owner], "fixed": e.fixed[owner].astype("u1")}
+        self.of_cells = {
+            "element": owner,
+            "kind": code[owner],
+            "storey": e.storey[owner],
+            "fixed": e.fixed[owner].astype("u1"),
+        }
         self.names = strings("kind_names", kinds)
 
     def __call__(self, frame):
@@ -113,7 +121,10 @@ class Joints:
         ends_b = frames.position[frame][b] + rotated(frames.orientation[frame][b], self.anchor_b)
         state = np.array([STATES[name] for name in frames.joint_states(frame)], int)
         values = {"joint": np.arange(len(state)), "kind": self.kind, "load": frames.load[frame], "state": state}
-        data = polydata(np.concatenate([frames.joint_places(frame), ends_b]), {name: np.tile(value, 2) for name, value in values.items()})
+        data = polydata(
+            np.concatenate([frames.joint_places(frame), ends_b]),
+            {name: np.tile(value, 2) for name, value in values.items()},
+        )
         data.SetVerts(self.points)
         data.SetLines(self.lines)
         data.GetFieldData().AddArray(self.names)
@@ -158,7 +169,10 @@ def cells(lists):
     """vtkCellArray of lists of point numbers."""
     made = vtkCellArray()
     starts, flat = np.cumsum([0, *map(len, lists)]), np.concatenate([np.empty(0, int), *lists])
-    made.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True), numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True))
+    made.SetData(
+        numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
+        numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True),
+    )
     return made
 
 

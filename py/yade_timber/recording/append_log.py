@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the result. Needs no YADE.
+"""A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the
+result. Needs no YADE.
 
-A record: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content (uint32), content; little-endian.
-The first one has the kind RUN and the fingerprint of the run's identity. What follows the last complete record, as after a kill, is not read.
+A record: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content
+(uint32), content; little-endian.
+The first one has the kind RUN and the fingerprint of the run's identity. What follows the last complete record, as
+after a kill, is not read.
 """
 import os
 import struct
@@ -24,7 +27,9 @@ class AppendLog:
         self.path, self.run, self.pending = path, run, []
 
     def add(self, kind, time, *arrays):
-        """Add a record with the arrays' bytes, one after the other. kind: one byte; time [s], not before that of the last record."""
+        """Add a record with the arrays' bytes, one after the other. kind: one byte; time [s], not before that of the
+        last record.
+        """
         self.pending.append((kind, time, b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)))
 
     def records(self):
@@ -33,7 +38,9 @@ class AppendLog:
         yield from self.pending
 
     def flush(self):
-        """Append the pending records to the file; returns its size. Raises OSError, and RunError for what is no regular file."""
+        """Append the pending records to the file; returns its size. Raises OSError, and RunError for what is no regular
+        file.
+        """
         if os.path.lexists(self.path):
             require_regular(self.path)
         with open(self.path, "ab") as file:
@@ -47,11 +54,14 @@ class AppendLog:
             return file.tell()
 
     def cut(self, time):
-        """Drop records after a time [s] and what is incomplete; returns the size of the file. Raises RunError, OSError."""
+        """Drop records after a time [s] and what is incomplete; returns the size of the file. Raises RunError, OSError.
+        """
         self.pending = [record for record in self.pending if record[1] <= time]
         if not os.path.lexists(self.path):
             return 0
-        size = sum(FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run) if when <= time)
+        size = sum(
+            FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run) if when <= time
+        )
         os.truncate(self.path, size)
         return size
 
@@ -62,7 +72,9 @@ def _packed(kind, time, content):
 
 
 def read(path, run):
-    """(kind, time, content) of each complete record of a file, none without the file. Raises RunError for a file of another run."""
+    """(kind, time, content) of each complete record of a file, none without the file. Raises RunError for a file of
+    another run.
+    """
     return (record for record in _all(path, run) if record[0] != RUN) if os.path.lexists(path) else iter(())
 
 

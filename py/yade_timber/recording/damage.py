@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no YADE.
+"""Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no
+YADE.
 
-A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are counted apart, never as broken.
+A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are
+counted apart, never as broken.
 Totals leave out the joints of walls, of which the sheets are counted.
 A column is lost when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
 """
@@ -21,14 +23,18 @@ SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
 """Inclination beyond which a column has fallen. [rad]"""
 SNOW_DROP = 1.0
-"""Snow has fallen when its centre is lower by this than its place on the roof, and it has left the roof's outline or touches the ground. [m]"""
+"""Snow has fallen when its centre is lower by this than its place on the roof, and it has left the roof's outline or
+touches the ground. [m]
+"""
 TOUCH = 0.05
 """Height of the lowest corner of snow that touches the ground. [m]"""
 
 
 @dataclass(frozen=True)
 class Level:
-    """Top of a storey. structure: name; marks: numbers of the elements that lie at this level; height of the storey [m]."""
+    """Top of a storey. structure: name; marks: numbers of the elements that lie at this level; height of the storey
+    [m].
+    """
 
     structure: str
     marks: list
@@ -37,7 +43,9 @@ class Level:
 
 @dataclass(frozen=True)
 class State:
-    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for a removed one; broken (J,): broken springs of each joint."""
+    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for a removed one; broken (J,): broken
+    springs of each joint.
+    """
 
     position: np.ndarray
     orientation: np.ndarray
@@ -76,7 +84,9 @@ class DamageSurvey:
         return broken, ~damaged & ~broken & (state.broken > 0)
 
     def count_broken(self, state, springs):
-        """The part `broken` of the summary. springs: number of springs that broke. A joint of two sides of the house counts for both."""
+        """The part `broken` of the summary. springs: number of springs that broke. A joint of two sides of the house
+        counts for both.
+        """
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
         broken, partly = self._broken_joints(state)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
@@ -87,7 +97,10 @@ class DamageSurvey:
             **vars(self.count_joints(broken)) | {"wall_sheets": sheets.count("broken") if sheets else None},
             by_side={side: int((counted & there).sum()) for side, there in on_side.items()},
             by_storey={name: int((counted & there).sum()) for name, there in in_storey.items()},
-            by_place={name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()} for name, there in in_storey.items()},
+            by_place={
+                name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()}
+                for name, there in in_storey.items()
+            },
             partly_broken=int(partly.sum()),
             wall_sheets_partly=sheets.count("partly") if sheets else None,
             springs=springs,
@@ -96,7 +109,9 @@ class DamageSurvey:
 
     @cached_property
     def _structure_of_joints(self):
-        """(J,) name of each joint's structure. The storeys of the main structure are numbered, other structures are not divided."""
+        """(J,) name of each joint's structure. The storeys of the main structure are numbered, other structures are not
+        divided.
+        """
         return np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
 
     # --- columns ------------------------------------------------------------------------------------------------------
@@ -144,25 +159,38 @@ class DamageSurvey:
         return list(dict.fromkeys(level.structure for level in self.levels))
 
     def _moves(self, state, structure):
-        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels without elements are skipped."""
+        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels
+        without elements are skipped.
+        """
         moves = []
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
             if level.structure == structure and marks:
-                moves.append(((state.position[marks] - self.elements.position[marks]).sum(0) / len(marks), level.height))
+                moves.append(
+                    ((state.position[marks] - self.elements.position[marks]).sum(0) / len(marks), level.height)
+                )
         return moves
 
     def fallen_structures(self, state):
         """Names of the structures of which a level has come down by half its storey."""
-        return [name for name in self.structures if any(-move[2] > height / 2 for move, height in self._moves(state, name))]
+        return [
+            name for name in self.structures if any(-move[2] > height / 2 for move, height in self._moves(state, name))
+        ]
 
     def drift(self, state, structure):
         """Largest storey drift of a structure, N-S or E-W. [-]"""
         moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
-        return max((float(np.abs((above - below)[:2]).max() / height) for (below, _), (above, height) in zip(moves, moves[1:])), default=0.0)
+        return max(
+            (
+                float(np.abs((above - below)[:2]).max() / height)
+                for (below, _), (above, height) in zip(moves, moves[1:])
+            ),
+            default=0.0,
+        )
 
     def by_structure(self, state, peaks):
-        """{name: verdict.Structure}, the main one first, on which verdicts rest. peaks: {name: peak drift so far [-]}"""
+        """{name: verdict.Structure}, the main one first, on which verdicts rest. peaks: {name: peak drift so far [-]}
+        """
         broken, partly = self._broken_joints(state)
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
@@ -187,7 +215,9 @@ class DamageSurvey:
             roofs = [j for j, kind in enumerate(e.kind) if kind == "roof" and e.group[j] == e.group[k]]
             if roofs:
                 roof = min(roofs, key=lambda j: np.linalg.norm(e.position[j] - e.position[k]))
-                found.append((k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof])))
+                found.append(
+                    (k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof]))
+                )
         return found
 
     def fallen_snow(self, state):
@@ -195,11 +225,15 @@ class DamageSurvey:
         if not self._snow:
             return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
-        lower = [(snow, roof) for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
+        lower = [
+            (snow, roof) for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP
+        ]
         return [roof for snow, roof in lower if self._has_left(state, snow)]
 
     def _has_left(self, state, snow):
-        """Whether snow touches the ground, or has no corner above the rectangle in plan around the roofs of its structure."""
+        """Whether snow touches the ground, or has no corner above the rectangle in plan around the roofs of its
+        structure.
+        """
         e = self.elements
         of_roofs = [k for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]]
         slab, *roofs = (placed(e.vertices[k], state.position[k], state.orientation[k]) for k in (snow, *of_roofs))

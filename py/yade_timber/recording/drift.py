@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Drifts of a run from its History: the residual drift, the amplitude of the motion that is left, the time when a lean begins. Needs no YADE."""
+"""Drifts of a run from its History: the residual drift, the amplitude of the motion that is left, the time when a lean
+begins. Needs no YADE.
+"""
 import numpy as np
 
 from .history import DIRECTIONS
@@ -7,11 +9,15 @@ from .history import DIRECTIONS
 SHORT_WINDOW = 1.0
 """Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
 SLOW_WINDOW = 5.0
-"""Last part of such a run that gives the amplitude: about the period of a swinging wreck, of which a shorter part looks like rest. [s]"""
+"""Last part of such a run that gives the amplitude: about the period of a swinging wreck, of which a shorter part looks
+like rest. [s]
+"""
 WINDOWS = (2.0, 4.0, 8.0, 16.0)
 """Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
 AVERAGED = 2.0
-"""As many of the last whole periods are averaged as make up this time, at least one: slow swings decay, and earlier ones are larger. [s]"""
+"""As many of the last whole periods are averaged as make up this time, at least one: slow swings decay, and earlier
+ones are larger. [s]
+"""
 HYSTERESIS = 0.25
 """A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
 RECENT = 1.2
@@ -23,8 +29,9 @@ MOVING_AMPLITUDE = 1e-3
 def residual(history):
     """([residual drift], [amplitude at the end]), each ns1, ew1, ns2, ew2, ... [-]; empty lists without samples.
 
-    Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at the end; without a
-    whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the same periods, or in the last SLOW_WINDOW.
+    Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at
+    the end; without a whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the
+    same periods, or in the last SLOW_WINDOW.
     """
     if not history.samples:
         return [], []
@@ -59,7 +66,9 @@ def start_of(time, window):
 
 
 def upward_crossings(values):
-    """Indices of the samples at which the values pass their mean upwards, after an excursion below it by HYSTERESIS of half their range."""
+    """Indices of the samples at which the values pass their mean upwards, after an excursion below it by HYSTERESIS of
+    half their range.
+    """
     centred = values - values.mean()
     threshold = HYSTERESIS * np.ptp(values) / 2
     crossings, last, below = [], None, False
@@ -82,7 +91,9 @@ def still_moving(amplitudes):
 
 
 def by_storey(values):
-    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ew2, ...]; at least two storeys, None where there is no value."""
+    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ew2, ...]; at least two storeys, None where there is no
+    value.
+    """
     values = [float(value) if np.isfinite(value) else None for value in values]
     pairs = list(zip(values[::2], values[1::2])) + [(None, None)] * (2 - len(values) // 2)
     return {f"storey{k}": dict(zip(DIRECTIONS, pair)) for k, pair in enumerate(pairs, 1)}
@@ -96,6 +107,8 @@ def lean_start(history, tilt_time, direction):
     if tilt_time is None:
         return None
     last = int(np.searchsorted(history.time, tilt_time, side="right"))
-    drift = max((history.drift(storey, direction)[:last] for storey in history.storeys), key=lambda values: abs(values[-1]))
+    drift = max(
+        (history.drift(storey, direction)[:last] for storey in history.storeys), key=lambda values: abs(values[-1])
+    )
     opposite = np.flatnonzero(drift * drift[-1] <= 0)
     return float(history.time[opposite[-1]]) if len(opposite) else 0.0

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m. Needs no YADE.
 
-The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for each run: runs/001, runs/002, ...
+The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for
+each run: runs/001, runs/002, ...
 Run 1 is undisturbed; run k is disturbed with the seed k.
 """
 import json
@@ -23,7 +24,9 @@ def run_folder(folder, number):
 
 def has_runs(folder):
     """Whether a folder holds an ensemble with the histories of all its finished runs."""
-    return (folder / NAME).is_file() and all((run_folder(folder, number) / HISTORY).is_file() for number in read(folder)["finished"])
+    return (folder / NAME).is_file() and all(
+        (run_folder(folder, number) / HISTORY).is_file() for number in read(folder)["finished"]
+    )
 
 
 def read(folder):

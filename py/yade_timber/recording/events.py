@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Events of a run: time, kind, facts. Their phrases: text/. Needs no YADE.
 
-FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they happen;
-OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the main one), ColumnsLost,
-SnowFallen: at the end of the frame interval in which they happen. ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded.
+FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they
+happen;
+OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the main
+one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins, StrongestShaking,
+LevelPassed: of the player, not recorded.
 """
 from dataclasses import dataclass, field
 
@@ -20,12 +22,17 @@ ColumnsLost = table("ColumnsLost", number=int, total=int)
 """number: of `total` columns, inclined by more than 45 degrees or without a joint"""
 SnowFallen = table("SnowFallen", structure=str, side=str, layer=str)
 """structure: '' for the main one; side: '' for a roof of one part; layer: 'roof' or 'roof2'"""
-ShakingBegins, StrongestShaking, LevelPassed = table("ShakingBegins"), table("StrongestShaking"), table("LevelPassed", drift=float)
+ShakingBegins, StrongestShaking, LevelPassed = (
+    table("ShakingBegins"),
+    table("StrongestShaking"),
+    table("LevelPassed", drift=float),
+)
 """drift: one of verdict.LIMITS [-]"""
 RECORDED = {
-    "first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight, "structure_fallen": StructureFallen,
+    "first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight,
+    "structure_fallen": StructureFallen,
     "columns_lost": ColumnsLost, "snow_fallen": SnowFallen,
-}  # fmt: skip
+}
 KINDS = {**RECORDED, "shaking_begins": ShakingBegins, "strongest_shaking": StrongestShaking, "level": LevelPassed}
 
 
@@ -48,11 +55,17 @@ class Event:
         if entries.keys() != {"time_s", "kind", "facts", "lot"} or entries["kind"] not in list(RECORDED):
             raise ValueError(f"{path}: not an event of this version")
         facts = decode(RECORDED[entries["kind"]], entries["facts"], f"{path}.facts")
-        return cls(require(entries["time_s"], float, f"{path}.time_s"), facts, decode(str | None, entries["lot"], f"{path}.lot"))
+        return cls(
+            require(entries["time_s"], float, f"{path}.time_s"),
+            facts,
+            decode(str | None, entries["lot"], f"{path}.lot"),
+        )
 
 
 class EventLog:
-    """Events of a run so far. survey: damage.DamageSurvey of its house; events: those known already, as `encoded` gives them."""
+    """Events of a run so far. survey: damage.DamageSurvey of its house; events: those known already, as `encoded` gives
+    them.
+    """
 
     def __init__(self, survey, events=()):
         self.survey = survey
@@ -85,7 +98,9 @@ class EventLog:
         self._observe_columns(time, state)
 
     def _observe_columns(self, time, state):
-        """An event for the first lost column, and each time the number has doubled: a collapse gives a few events, not ninety."""
+        """An event for the first lost column, and each time the number has doubled: a collapse gives a few events, not
+        ninety.
+        """
         total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
         known = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * known):

@@ -3,26 +3,35 @@
 
 Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
 
-attributes   format, title (house and loads), scenario, model, version (of the package), run (fingerprint of the run's identity), ended (bool);
+attributes   format, title (house and loads), scenario, model, version (of the package), run (fingerprint of the run's
+identity), ended (bool);
              of an ended run also summary: the text of summary.json
-/elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the first; fixed (N,) bool;
+/elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the
+first; fixed (N,) bool;
              position (N, 3) [m], orientation (N, 4) w, x, y, z: before the first step;
-             vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] : vertex_start[k + 1];
-             faces (C,): vertex numbers within the element, counter-clockwise from outside, those of face m in face_start[m] : face_start[m + 1];
+             vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] :
+             vertex_start[k + 1];
+             faces (C,): vertex numbers within the element, counter-clockwise from outside, those of face m in
+             face_start[m] : face_start[m + 1];
              the faces of element k are element_start[k] : element_start[k + 1]
-/joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,) strings;
-             a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a; springs (J,): their number;
+/joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,)
+strings;
+             a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a; springs
+             (J,): their number;
              damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
-/frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32: largest spring
+/frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32:
+largest spring
              force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of broken springs
-/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are start[k] : start[k + 1];
+/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are start[k]
+: start[k + 1];
              pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second element, float32
-/motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement (M, 3) [m] of the ground
-/history     of an ended run: columns (names with units), rows; the table of history.csv
+/motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement
+(M, 3) [m] of the ground /history     of an ended run: columns (names with units), rows; the table of history.csv
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
-Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has ended, the frames and contacts up to
-its last checkpoint are in frames.log beside the file (frame_log.py), which `load` reads, too.
+Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
+ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
+reads, too.
 """
 import json
 from dataclasses import dataclass, field
@@ -45,12 +54,17 @@ NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
-STRINGS = {"elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind", "joints/storey", "joints/side"}
+STRINGS = {
+    "elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind",
+    "joints/storey", "joints/side",
+}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
 def steps_between(dt):
-    """Number of steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
+    """Number of steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest,
+    too.
+    """
     stride = rest_stride(dt)
     return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
 
@@ -59,7 +73,9 @@ class _ShortRepr:
     """Prints sizes instead of contents."""
 
     def __repr__(self):
-        sizes = (f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}" for name, value in vars(self).items())
+        sizes = (
+            f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}" for name, value in vars(self).items()
+        )
         return f"{type(self).__name__}({', '.join(sizes)})"
 
 
@@ -121,9 +137,11 @@ class Motion(_ShortRepr):
 
 @dataclass(repr=False)
 class Frames:
-    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a run.
+    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a
+    run.
 
-    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists. All three are None before the end of the run.
+    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists. All three are None before
+    the end of the run.
     """
 
     title: str
@@ -161,7 +179,9 @@ class Frames:
     def all_corners(self, frame=None):
         """List of the (n, 3) corners of every element in a frame, or (None) before the first step, world frame [m]."""
         e = self.elements
-        position, orientation = (e.position, e.orientation) if frame is None else (self.position[frame], self.orientation[frame])
+        position, orientation = (
+            (e.position, e.orientation) if frame is None else (self.position[frame], self.orientation[frame])
+        )
         counts = [len(vertices) for vertices in e.vertices]
         body = np.repeat(np.arange(len(counts)), counts)
         corners = np.asarray(position, float)[body] + rotated(np.asarray(orientation)[body], np.concatenate(e.vertices))
@@ -173,9 +193,13 @@ class Frames:
         return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
 
     def joint_states(self, frame):
-        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint; frame: a number, or a slice of frames."""
+        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint; frame:
+        a number, or a slice of frames.
+        """
         j = self.joints
-        state = np.where(np.asarray(self.broken[frame]) == 0, "whole", np.where(self.broken[frame] >= j.springs, "broken", "partly"))
+        state = np.where(
+            np.asarray(self.broken[frame]) == 0, "whole", np.where(self.broken[frame] >= j.springs, "broken", "partly")
+        )
         return np.where(j.damaged, "before", state)
 
     def at(self, time):
@@ -223,7 +247,11 @@ def save(path, frames):
 
 
 def _save_attributes(file, frames):
-    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES}, "ended": frames.summary is not None}
+    known = {
+        "format": FORMAT,
+        **{name: getattr(frames, name) for name in ATTRIBUTES},
+        "ended": frames.summary is not None,
+    }
     if frames.summary is not None:
         known["summary"] = json.dumps(encode(frames.summary))
     file.attrs.update(known)
@@ -236,9 +264,14 @@ def _save_group(group, values):
 
 
 def _series(frames):
-    """The frames as arrays of the file's types; without frames, too, their shapes hold the numbers of elements and joints."""
+    """The frames as arrays of the file's types; without frames, too, their shapes hold the numbers of elements and
+    joints.
+    """
     types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
-    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape) for name, kind in types.items()}
+    return {
+        name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
+        for name, kind in types.items()
+    }
 
 
 def starts(lists):
@@ -251,13 +284,24 @@ def _save_elements(group, elements):
     faces = [face for body in values.pop("faces") for face in body]
     vertices = values.pop("vertices")
     _save_group(group, values)
-    _save_group(group, {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
-                        "face_start": starts(faces), "element_start": starts(elements.faces)})
+    _save_group(
+        group,
+        {
+            "vertices": np.concatenate(vertices),
+            "vertex_start": starts(vertices),
+            "faces": np.concatenate(faces),
+            "face_start": starts(faces),
+            "element_start": starts(elements.faces),
+        },
+    )
 
 
 def _save_contacts(group, contacts):
     shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
-    flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)]) for name, (kind, width) in shapes.items()}
+    flat = {
+        name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
+        for name, (kind, width) in shapes.items()
+    }
     _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
 
 
@@ -265,7 +309,9 @@ def _save_contacts(group, contacts):
 
 
 def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
-    """Frames of a file. Raises RunError when it cannot be read or holds something else. missing: remedy in the message when there is no file."""
+    """Frames of a file. Raises RunError when it cannot be read or holds something else. missing: remedy in the message
+    when there is no file.
+    """
     require_regular(path, missing)
     try:
         with h5py.File(path, "r") as file:
@@ -279,13 +325,17 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
         _check_shapes(loaded)
     except RunError:
         raise
-    except (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as problem:  # of h5py, numpy or json
+    except (
+        OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError,
+    ) as problem:  # of h5py, numpy or json
         raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}; {ANEW}") from None
     return loaded
 
 
 def _check_size(file, path):
-    """Refuse tables that declare more data than the file holds (ours are not compressed), before memory is taken for them."""
+    """Refuse tables that declare more data than the file holds (ours are not compressed), before memory is taken for
+    them.
+    """
     declared = []
     file.visititems(lambda _, item: declared.append(item.nbytes) if isinstance(item, h5py.Dataset) else None)
     if sum(declared) > Path(path).stat().st_size:
@@ -305,9 +355,17 @@ def _check_shapes(frames):
     shapes = {"position": (n, 3), "orientation": (n, 4), "load": (count,), "broken": (count,)}
     for name, shape in shapes.items():
         if getattr(frames, name).shape != (len(frames.time), *shape):
-            raise ValueError(f"frames/{name}: shape {getattr(frames, name).shape} instead of {(len(frames.time), *shape)}")
-    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n), *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
-    numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices) for face in faces]
+            raise ValueError(
+                f"frames/{name}: shape {getattr(frames, name).shape} instead of {(len(frames.time), *shape)}"
+            )
+    numbers = [
+        ("joints/a", j.a, n),
+        ("joints/b", j.b, n),
+        *(("contacts/pair", pair, n) for pair in frames.contacts.pair),
+    ]
+    numbers += [
+        ("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices) for face in faces
+    ]
     for name, values, limit in numbers:
         if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
             raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
@@ -315,7 +373,9 @@ def _check_shapes(frames):
 
 
 def _check_finite(frames):
-    """Raise ValueError for placements and times that are not finite. A removed element is NaN in all its numbers of a frame."""
+    """Raise ValueError for placements and times that are not finite. A removed element is NaN in all its numbers of a
+    frame.
+    """
     parts = np.asarray(frames.position), np.asarray(frames.orientation)
     finite = np.all([np.isfinite(part).all(2) for part in parts], axis=0)
     removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)
@@ -329,10 +389,14 @@ def _check_finite(frames):
 def _load(file):
     attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
-    loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])), **series)
+    loaded = Frames(
+        **attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])), **series
+    )
     loaded.contacts = _load_contacts(file["contacts"])
     if "motion" in file:
-        loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"]))
+        loaded.motion = Motion(
+            float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"])
+        )
     if file.attrs["ended"]:
         loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))
@@ -342,7 +406,10 @@ def _load(file):
 
 def _values(group):
     """{name: array, or list of strings}."""
-    return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()] for name, data in group.items()}
+    return {
+        name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
+        for name, data in group.items()
+    }
 
 
 def _split(flat, start):
@@ -353,10 +420,15 @@ def _load_elements(group):
     values = _values(group)
     begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
     faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
-    values |= {"vertices": _split(values["vertices"], begins["vertex_start"]), "faces": _split(faces, begins["element_start"])}
+    values |= {
+        "vertices": _split(values["vertices"], begins["vertex_start"]),
+        "faces": _split(faces, begins["element_start"]),
+    }
     return Elements(**values)
 
 
 def _load_contacts(group):
     values = _values(group)
-    return Contacts(list(values["time"]), *(_split(values[name], values["start"]) for name in ("pair", "position", "force")))
+    return Contacts(
+        list(values["time"]), *(_split(values[name], values["start"]) for name in ("pair", "position", "force"))
+    )

@@ -11,8 +11,8 @@
     history.broken_joints                 # (F,) [-]
     history.column("drop1")               # any column, with or without its unit
 
-Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-]; one column [J] for each term
-of `yade_timber.energy()`.
+Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-];
+one column [J] for each term of `yade_timber.energy()`.
 """
 import numpy as np
 
@@ -30,17 +30,25 @@ class History(Series):
     @property
     def storeys(self):
         """Numbers of the storeys, from below: (1, 2, ...)."""
-        return tuple(int(name[len("drift_ns"):].partition(" ")[0]) for name in self.columns if name.startswith("drift_ns"))
+        return tuple(
+            int(name[len("drift_ns") :].partition(" ")[0]) for name in self.columns if name.startswith("drift_ns")
+        )
 
     def drift(self, storey, direction):
-        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError."""
+        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError.
+        """
         if storey not in self.storeys or direction not in DIRECTIONS:
-            raise KeyError(f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))}; directions {', '.join(DIRECTIONS)}")
+            raise KeyError(
+                f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))}; directions"
+                f" {', '.join(DIRECTIONS)}"
+            )
         return self.column(f"drift_{direction}{storey}")
 
     def drifts(self):
         """(storey, direction, (F,) drift) of each storey and direction, in the order of the columns."""
-        return [(storey, direction, self.drift(storey, direction)) for storey in self.storeys for direction in DIRECTIONS]
+        return [
+            (storey, direction, self.drift(storey, direction)) for storey in self.storeys for direction in DIRECTIONS
+        ]
 
     def largest_drift(self):
         """(F,) largest absolute drift of any storey and direction at each sample. [-]"""

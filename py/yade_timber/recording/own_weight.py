@@ -3,7 +3,9 @@
 import numpy as np
 
 HARMFUL = 0.5
-"""Ground acceleration below which no sound house is damaged: half of the design earthquake that it must bear without damage. [m/s2]"""
+"""Ground acceleration below which no sound house is damaged: half of the design earthquake that it must bear without
+damage. [m/s2]
+"""
 
 
 def start_of_shaking(motion):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run. Needs no YADE."""
+"""Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run. Needs no
+YADE.
+"""
 import csv
 import math
 from dataclasses import dataclass, field
@@ -34,7 +36,9 @@ def rows(path):
 
 
 def read(folder):
-    """Peaks of a run's folder; empty where a table or a column is missing, as in older runs. Raises RunError for a table with other content."""
+    """Peaks of a run's folder; empty where a table or a column is missing, as in older runs. Raises RunError for a
+    table with other content.
+    """
     forces = _values(Path(folder) / JOINTS, "joint", ("pull [N]", "shear [N]"), lambda row: row["state"] != "before")
     uplift = _values(Path(folder) / COLUMNS, "column", ("uplift [m]",), lambda row: row["state"] == "standing")
     return Peaks(forces, {name: value for name, (value,) in uplift.items()})
@@ -45,7 +49,11 @@ def _values(path, noun, columns, is_shown):
     table = rows(path) if exists(path) else []
     if not table or not {noun, "state", *columns} <= table[0].keys():
         return {}
-    return {row[noun]: tuple(_number(row[column], path, number) for column in columns) for number, row in enumerate(table, 2) if is_shown(row)}
+    return {
+        row[noun]: tuple(_number(row[column], path, number) for column in columns)
+        for number, row in enumerate(table, 2)
+        if is_shown(row)
+    }
 
 
 def _number(text, path, line):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Storey shears and floor accelerations of a run, from the momenta of parts of its main structure. Needs no YADE.
 
-Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns, braces and walls of
-storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute acceleration, of everything above the heads of its
-columns; the base shear is that of all parts. A positive shear goes with a positive drift. Shears are means over a sample interval (0.01 s),
-accelerations what an accelerometer with the band BAND shows: members that slam give impacts of a few ms, of any height.
+Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns,
+braces and walls of storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute
+acceleration, of everything above the heads of its columns; the base shear is that of all parts. A positive shear goes
+with a positive drift. Shears are means over a sample interval (0.01 s), accelerations what an accelerometer with the
+band BAND shows: members that slam give impacts of a few ms, of any height.
 """
 import numpy as np
 
@@ -15,10 +16,14 @@ NAME = "storeys.csv"
 SUSTAINED = 0.1
 """Time over which a sustained shear is averaged. [s]"""
 BAND = (0.0, 10.0)
-"""Of accelerations [Hz]: up to the high-cut of JMA's seismic intensity, as of the accelerographs SMAC. At its end the amplitude is 1/sqrt(2)."""
+"""Of accelerations [Hz]: up to the high-cut of JMA's seismic intensity, as of the accelerographs SMAC. At its end the
+amplitude is 1/sqrt(2).
+"""
 BAND_TEXT = f"{BAND[0]:g} to {BAND[1]:g} Hz"
 ORDER, STEP, PADDING = 3, 0.01, 1.0
-"""Of the low-pass (amplitude of Butterworth's, without phase); time step at which it acts, ends held on each side for its transients. [s]"""
+"""Of the low-pass (amplitude of Butterworth's, without phase); time step at which it acts, ends held on each side for
+its transients. [s]
+"""
 AXES = {"ew": 0, "ns": 1, "ud": 2}
 """Component of a vector (east, north, up)."""
 
@@ -26,8 +31,9 @@ AXES = {"ew": 0, "ns": 1, "ud": 2}
 class Storeys(Series):
     """The table storeys.csv.
 
-    time [s]; base_shear_ns, base_shear_ew [N]; ground_acceleration_ns, _ew, _ud [m/s2]; for each storey k from 1: shear_nsk, shear_ewk [N]
-    and the absolute acceleration of the level above it, acceleration_nsk, acceleration_ewk, acceleration_udk [m/s2]. Accelerations within BAND.
+    time [s]; base_shear_ns, base_shear_ew [N]; ground_acceleration_ns, _ew, _ud [m/s2]; for each storey k from 1:
+    shear_nsk, shear_ewk [N] and the absolute acceleration of the level above it, acceleration_nsk, acceleration_ewk,
+    acceleration_udk [m/s2]. Accelerations within BAND.
     """
 
     __slots__ = ()
@@ -46,7 +52,9 @@ class Storeys(Series):
         return float(np.nan_to_num(np.abs(self.column(name))).max(initial=0.0))
 
     def sustained(self, name):
-        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of members last a few ms and hardly count."""
+        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of members last a few ms and
+        hardly count.
+        """
         values, time = np.nan_to_num(self.column(name)), self.time
         total, end = np.concatenate([[0.0], np.cumsum(values)]), np.searchsorted(time, time + SUSTAINED)
         whole = np.flatnonzero(end < len(time))
@@ -72,7 +80,9 @@ def storeys(samples, masses, motion=None):
         columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
         values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
         if first:
-            name, level = "acceleration_{}" + str(first // 2), forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
+            name, level = "acceleration_{}" + str(first // 2), (
+                forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
+            )
         else:
             name, level = "ground_acceleration_{}", ground
         columns += [f"{name.format(axis)} [m/s2]" for axis in ("ns", "ew", "ud")]
@@ -94,7 +104,9 @@ def band_limited(time, values):
 
 
 def ground_velocity(motion, time):
-    """(F, 3) velocity of the ground at times (F,) [m/s], by exact integration of the piecewise linear acceleration; zero without a motion."""
+    """(F, 3) velocity of the ground at times (F,) [m/s], by exact integration of the piecewise linear acceleration;
+    zero without a motion.
+    """
     if motion is None:
         return np.zeros((len(time), 3))
     a, dt = motion.acceleration, motion.dt

@@ -9,7 +9,9 @@ from .history import History
 from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
-"""Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has some 30 MB."""
+"""Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has
+some 30 MB.
+"""
 
 SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
@@ -44,7 +46,10 @@ def town_frames(name, lots):
     count = sum(len(lot.kept) for lot in placed)
     stride = -(-count * len(longest.time) // MOST_PLACEMENTS)
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
-    offsets, first_joints = ([0, *np.cumsum(sizes)] for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed]))
+    offsets, first_joints = (
+        [0, *np.cumsum(sizes)]
+        for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed])
+    )
     made = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
     made.time = [longest.time[k] for k in numbers]
     for k in numbers:
@@ -80,7 +85,12 @@ class _Lot:
     def state(self, k):
         """Positions, orientations, loads and broken springs in a frame; the last frame of a run that ended earlier."""
         run, k = self.run, min(k, len(self.run.time) - 1)
-        return self.placed(run.position[k]).astype("f4"), self.turned(run.orientation[k]).astype("f4"), run.load[k], run.broken[k]
+        return (
+            self.placed(run.position[k]).astype("f4"),
+            self.turned(run.orientation[k]).astype("f4"),
+            run.load[k],
+            run.broken[k],
+        )
 
 
 def _elements(lots):
@@ -102,12 +112,18 @@ def _elements(lots):
 def _joints(lots, offsets):
     """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
     parts = [lot.run.joints for lot in lots]
-    ends = {key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)] for key in ("a", "b")}
+    ends = {
+        key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)]
+        for key in ("a", "b")
+    }
     return frames.Joints(
         name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
         **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey", "side")},
         **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
-        **{key: np.concatenate([getattr(j, key) for j in parts]) for key in ("anchor", "springs", "damaged", "strength")},
+        **{
+            key: np.concatenate([getattr(j, key) for j in parts])
+            for key in ("anchor", "springs", "damaged", "strength")
+        },
     )
 
 

@@ -6,7 +6,8 @@ unsafe      a storey drift reached the safety limit, or a column has fallen or l
 repairable  a storey drift reached the damage limit, or springs of joints broke
 undamaged   none of these
 
-Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift exceeds the tilt.
+Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift
+exceeds the tilt.
 """
 from dataclasses import dataclass, field
 
@@ -28,15 +29,25 @@ class Limit:
         return f"1/{round(1 / self.drift)} {self.name}"
 
 
-DAMAGE = Limit(1 / 120, "damage limit", "Building Standard Law of Japan, Enforcement Order, Article 82-2: 1/200, eased to 1/120 where finishes allow it")
-SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Association, seismic diagnosis of wooden houses; limit strength calculation")
+DAMAGE = Limit(
+    1 / 120,
+    "damage limit",
+    "Building Standard Law of Japan, Enforcement Order, Article 82-2: 1/200, eased to 1/120 where finishes allow it",
+)
+SAFETY = Limit(
+    1 / 30,
+    "safety limit",
+    "Japan Building Disaster Prevention Association, seismic diagnosis of wooden houses; limit strength calculation",
+)
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to pull the house over")
 LIMITS = (DAMAGE, SAFETY, TILT)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Structure:
-    """Facts on a structure, and the verdict that follows. Drifts [-]; numbers of joints, and of columns fallen or loose, since the start."""
+    """Facts on a structure, and the verdict that follows. Drifts [-]; numbers of joints, and of columns fallen or
+    loose, since the start.
+    """
 
     verdict: str = field(init=False)
     leans: bool = field(init=False)

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
 
-The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that line. YADE's loader
-stops before it, so the file also opens with `O.load`, without the monitors' earlier rows (samples.py). The binary format keeps every bit of every number.
+The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
+line. YADE's loader stops before it, so the file also opens with `O.load`, without the monitors' earlier rows
+(samples.py). The binary format keeps every bit of every number.
 
-YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each such class, with its namespace, before
-the first object of it; a file that names other classes than a run writes is refused before YADE reads it. `sha256` finds damage, not forgery.
+YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
+such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
+refused before YADE reads it. `sha256` finds damage, not forgery.
 """
 import hashlib
 import json
@@ -40,7 +42,9 @@ def save(path, identity, progress):
 
 
 def load(path, identity):
-    """Load the saved scene into YADE; returns `progress` as saved. Raises RunError when the file is damaged or has another identity."""
+    """Load the saved scene into YADE; returns `progress` as saved. Raises RunError when the file is damaged or has
+    another identity.
+    """
     path = Path(path)
     require_regular(path)
     _require_own(path)
@@ -90,4 +94,6 @@ def _require_same(path, saved, wanted):
         there, here = saved.get(key), wanted.get(key)
         if there != here:
             difference = f"{key} is {there} there and {here} here"
-            raise RunError(f"{path}: checkpoint of another run: {difference}; use the same options, another --out, or no --resume")
+            raise RunError(
+                f"{path}: checkpoint of another run: {difference}; use the same options, another --out, or no --resume"
+            )

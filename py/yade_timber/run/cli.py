@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script's name. Needs no YADE."""
+"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script's name. Needs
+no YADE.
+"""
 import argparse
 import re
 from pathlib import Path
@@ -24,21 +26,37 @@ class _Parser(argparse.ArgumentParser):
         """{option: value} of a command line (as sys.argv). Raises RunError."""
         arguments, unknown = self.parse_known_args(with_then(argv[1:]))
         if unknown:
-            match = close(unknown[0].partition("=")[0], self._option_string_actions) if unknown[0].startswith("--") else None
+            match = (
+                close(unknown[0].partition("=")[0], self._option_string_actions)
+                if unknown[0].startswith("--")
+                else None
+            )
             self.error(f"unrecognized arguments: {' '.join(unknown)}" + (f"; did you mean '{match}'?" if match else ""))
         town = {"town": arguments.town} if "town" in arguments else {}
         return {**read_arguments(RunOptions, arguments), **town}
 
 
 def parser(script, file=None):
-    """ArgumentParser of the run script of that name. file: kind of its input file, house or town; None: the script gives house and loads"""
+    """ArgumentParser of the run script of that name. file: kind of its input file, house or town; None: the script
+    gives house and loads
+    """
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
-    about = f"Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of --out."
+    about = (
+        f"Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of --out."
+    )
     made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
     made._negative_number_matcher = NUMBER
-    offered = {each: field for each, field in options(RunOptions).items() if each != "house" and (file or each not in BY_SCRIPT)}
+    offered = {
+        each: field
+        for each, field in options(RunOptions).items()
+        if each != "house" and (file or each not in BY_SCRIPT)
+    }
     if file:
-        made.add_argument(file, metavar=file.upper(), help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"])
+        made.add_argument(
+            file,
+            metavar=file.upper(),
+            help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"],
+        )
     for group in ("main", *GROUPS):
         place = made if group == "main" else made.add_argument_group(GROUPS[group])
         add_options(place, [field for field in offered.values() if field.metadata["group"] == group])
@@ -46,7 +64,9 @@ def parser(script, file=None):
 
 
 def read(house, earthquake, snow, argv):
-    """RunOptions of a script that gives house and loads. argv: command line (as sys.argv). Raises RunError, RecordError."""
+    """RunOptions of a script that gives house and loads. argv: command line (as sys.argv). Raises RunError,
+    RecordError.
+    """
     script = Path(argv[0]).stem
     return _checked(scripted(script, house, earthquake, snow, **parser(script).parse(argv)))
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Start of a run: the command line of a script -> a Run.
 
-With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the background, and the user has
-the prompt. The other modules are imported inside `launch`, so that Ctrl-C during their import ends in a line, too.
+With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
+background, and the user has the prompt. The other modules are imported inside `launch`, so that Ctrl-C during their
+import ends in a line, too.
 """
 import signal
 import sys
@@ -12,10 +13,11 @@ from ..base.interrupt import deferred_interrupt
 
 
 def launch(read, ensemble, argv=None):
-    """Run what `read(cli, argv)` returns: (Scenario or TownPlan, RunOptions); returns the Run or TownRun, or the result of
-    `ensemble(scenario, options)` where one is asked for.
+    """Run what `read(cli, argv)` returns: (Scenario or TownPlan, RunOptions); returns the Run or TownRun, or the result
+    of `ensemble(scenario, options)` where one is asked for.
 
-    Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the signal's number.
+    Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the
+    signal's number.
     """
     print_anything()
     try:
@@ -36,7 +38,11 @@ def launch(read, ensemble, argv=None):
         remedy = "continue with --resume" if options.checkpoint > 0 else "nothing was saved (--checkpoint 0)"
         leave(f"stopped by {signal.Signals(stop.number).name} at {stop.time:.2f} s; {remedy}", 128 + stop.number)
     except KeyboardInterrupt:  # before the first step, or while results and pictures are written
-        remedy = f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}" if options else ""
+        remedy = (
+            f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}"
+            if options
+            else ""
+        )
         leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 
@@ -50,7 +56,10 @@ def _run(session, scenario, options):
     if not has_prompt():
         return session.complete(scenario, options)
     started = session.start(scenario, options)
-    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to {options.folder} at the end")
+    print(
+        f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to"
+        f" {options.folder} at the end"
+    )
     return started
 
 

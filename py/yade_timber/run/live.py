@@ -26,7 +26,8 @@ class LiveRun(Run):
     """A run that can be paused, saved, loaded and changed by the user."""
 
     def start(self, folder_lock):
-        """Run in the background, with a view where there is a display. The results follow at the last step, also after pauses.
+        """Run in the background, with a view where there is a display. The results follow at the last step, also after
+        pauses.
 
         folder_lock: ExitStack with the lock of the folder of the results, closed when they are written
         """
@@ -42,7 +43,9 @@ class LiveRun(Run):
         threading.Thread(target=self._watch, daemon=True).start()
 
     def _record_frames(self):
-        """Append an engine that calls `record_frame` in the step that leads to each frame, behind RestSkipper, whose step may lead to one."""
+        """Append an engine that calls `record_frame` in the step that leads to each frame, behind RestSkipper, whose
+        step may lead to one.
+        """
         global live
         live = self
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
@@ -69,7 +72,9 @@ class LiveRun(Run):
         with self._folder_lock:
             try:
                 if self.steps > 0 and not self.is_loaded():
-                    raise RunError(f"{self.options.folder}: another scene was loaded before the end of the run; it has no results")
+                    raise RunError(
+                        f"{self.options.folder}: another scene was loaded before the end of the run; it has no results"
+                    )
                 self.write()
             except InputError as problem:
                 print(f"error: {problem}", file=sys.stderr)

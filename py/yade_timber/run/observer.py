@@ -111,14 +111,24 @@ def break_row(entry, model):
     """Values of a JointBreak in the order of breaks.csv."""
     joint = model.joints[entry.joint]
     cause = "shear" if joint.ks == 0 else entry.cause  # of a wall: tension and compression are directions of its drift
-    return entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, cause, entry.force
+    return (
+        entry.time,
+        joint.name,
+        joint.kind,
+        storey_of(joint, model),
+        "+".join(sides_of(joint)),
+        entry.spring,
+        cause,
+        entry.force,
+    )
 
 
 # --- states -----------------------------------------------------------------------------------------------------------
 
 
 def placements():
-    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a body that was removed."""
+    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a body that was removed.
+    """
     position, orientation = compiled.packed_placements()
     return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
 
@@ -130,7 +140,9 @@ def joint_loads():
 
 
 def largest_so_far():
-    """[(load [-], pull [N], shear [N], opening [m])] of the joints: the largest values so far, none before the first sample."""
+    """[(load [-], pull [N], shear [N], opening [m])] of the joints: the largest values so far, none before the first
+    sample.
+    """
     monitor = find_engine(yw.StructureMonitor)
     return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
 
@@ -138,11 +150,16 @@ def largest_so_far():
 def contact_points():
     """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
     pair, position, force = compiled.packed_contacts()
-    return np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(force, "f4").reshape(-1, 3)
+    return (
+        np.frombuffer(pair, "i4").reshape(-1, 2),
+        np.frombuffer(position, "f4").reshape(-1, 3),
+        np.frombuffer(force, "f4").reshape(-1, 3),
+    )
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural modes.
+    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural
+    modes.
 
     known: `progress` of a checkpoint
     """
@@ -166,12 +183,18 @@ class Observer:
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def fall(self):
-        """Time at which the fall of a house that has collapsed begins: a storey drift passes 1/10, or a floor is down [s]; None for one that stands."""
+        """Time at which the fall of a house that has collapsed begins: a storey drift passes 1/10, or a floor is down
+        [s]; None for one that stands.
+        """
         monitor = find_engine(yw.HouseMonitor)
-        return float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime) else None
+        return (
+            float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime) else None
+        )
 
     def joint_peaks(self):
-        """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those before the fall began."""
+        """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those
+        before the fall began.
+        """
         return largest_so_far() if self.fall() is None else self.upright[1]
 
     def state(self):

@@ -15,7 +15,9 @@ TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 """Shortest wall time between two states of the bar, on a terminal and in a log file. [s]"""
 
 O = yw.Omega()
-tqdm.monitor_interval = 0  # no thread that refreshes bars: at the end of a run the process with one thread is copied (pictures/copies.py)
+tqdm.monitor_interval = (
+    0  # no thread that refreshes bars: at the end of a run the process with one thread is copied (pictures/copies.py)
+)
 
 
 class Progress:
@@ -24,7 +26,10 @@ class Progress:
     def __init__(self, scenario, log, quiet=False):
         self.log = log
         refresh = TERMINAL_REFRESH if sys.stderr.isatty() else LOG_REFRESH
-        self.bar = tqdm(total=scenario.duration, initial=O.time, desc=scenario.name, bar_format=BAR, mininterval=refresh, disable=quiet)
+        self.bar = tqdm(
+            total=scenario.duration, initial=O.time, desc=scenario.name, bar_format=BAR, mininterval=refresh,
+            disable=quiet,
+        )
         self.shown = len(log.events)
 
     def __enter__(self):
@@ -44,5 +49,7 @@ class Progress:
         known = self.log.survey.joints
         broken = np.array([joint.isBroken for joint in joints[:len(known.damaged)]], bool) & ~known.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        self.bar.set_postfix_str(f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(known, broken), of='/')}", refresh=False)
+        self.bar.set_postfix_str(
+            f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(known, broken), of='/')}", refresh=False
+        )
         self.bar.update(min(O.time, self.bar.total) - self.bar.n)

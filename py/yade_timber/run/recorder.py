@@ -22,7 +22,9 @@ class Recorder:
     def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
         version = versions()["package"]
-        self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints, motion=observer.describe_motion(), run=run)
+        self.frames = frames.Frames(
+            title, scenario.name, model.name, version, elements, joints, motion=observer.describe_motion(), run=run
+        )
         self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 
@@ -44,7 +46,9 @@ class Recorder:
         self.times = self.times[:np.searchsorted(self.times, time + O.dt / 2)]
 
     def resume(self):
-        """Take over the recorded frames up to the present time. Raises RunError when they are missing, of another run, or end earlier; OSError."""
+        """Take over the recorded frames up to the present time. Raises RunError when they are missing, of another run,
+        or end earlier; OSError.
+        """
         earlier = frames.load(self.path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
         if earlier.run != self.frames.run or earlier.position.shape[1:] != (len(self.frames.elements.name), 3):
             raise RunError(f"{self.path}: frames of another run than the checkpoint; {REMEDY}")
@@ -55,7 +59,10 @@ class Recorder:
             frame_log.log_frames(self.log, earlier)
         self._cut(O.time)
         if len(self.times) < expected:
-            raise RunError(f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are needed; {REMEDY}")
+            raise RunError(
+                f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are needed;"
+                f" {REMEDY}"
+            )
         self.save()
 
     def save(self):

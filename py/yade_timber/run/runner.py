@@ -42,13 +42,17 @@ class PhysicsError(RunError):
 
 
 class Run:
-    """A scenario in YADE, its RunOptions, and its progress. The number of steps is duration / dt; a collapse may end the run earlier."""
+    """A scenario in YADE, its RunOptions, and its progress. The number of steps is duration / dt; a collapse may end
+    the run earlier.
+    """
 
     def __init__(self, scenario, options):
         self.scenario, self.options = scenario, options
         self.origin = made_from(options)
         self.steps = round(scenario.duration / scenario.dt)
-        self.chunk = frames.steps_between(scenario.dt)  # steps between two frames, and between checks of signals and checkpoint times
+        self.chunk = frames.steps_between(
+            scenario.dt
+        )  # steps between two frames, and between checks of signals and checkpoint times
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
         self.signal = None
@@ -79,7 +83,9 @@ class Run:
             self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
-        """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not, unless the run may start anew."""
+        """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not,
+        unless the run may start anew.
+        """
         try:
             self._load()
         except RunError:
@@ -113,13 +119,17 @@ class Run:
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
-        self.recorder = None if self.options.no_frames else Recorder(self.frames_path, self.scenario, self.model, titled, run)
+        self.recorder = (
+            None if self.options.no_frames else Recorder(self.frames_path, self.scenario, self.model, titled, run)
+        )
 
     def _export(self):
         try:
             export_scene(self.options.export)
         except OSError as problem:
-            raise RunError(f"{self.options.named('export')} {self.options.export}: cannot be written: {problem.strerror}") from None
+            raise RunError(
+                f"{self.options.named('export')} {self.options.export}: cannot be written: {problem.strerror}"
+            ) from None
 
     def report(self, text):
         """Print a line, unless the run is quiet."""
@@ -146,7 +156,9 @@ class Run:
 
     @contextmanager
     def _stop_signals(self):
-        """Stop signals end the run after the present chunk; further ones have no effect, so that Ctrl-C may be pressed twice."""
+        """Stop signals end the run after the present chunk; further ones have no effect, so that Ctrl-C may be pressed
+        twice.
+        """
         before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
         try:
             yield
@@ -166,15 +178,15 @@ class Run:
     def next_stop(self):
         """Step of the next frame.
 
-        The last checkpoint is one step before the end, and the last step is a chunk of its own: energies and contact points are known
-        only after a step, so a resumed run always has one to make.
+        The last checkpoint is one step before the end, and the last step is a chunk of its own: energies and contact
+        points are known only after a step, so a resumed run always has one to make.
         """
         left = self.steps - O.iter
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
 
     def after_chunk(self):
-        """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises PhysicsError, and Interrupted
-        after a signal."""
+        """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises
+        PhysicsError, and Interrupted after a signal."""
         self.check()
         if self.collapse_ends_it():
             self.steps = O.iter
@@ -205,7 +217,9 @@ class Run:
             self.recorder.take(time, last)
 
     def advance(self, step):
-        """Advance to that step. Unlike `O.run`, `O.step` raises errors here, reuses the OpenMP threads, and does not wait in slices of 40 ms."""
+        """Advance to that step. Unlike `O.run`, `O.step` raises errors here, reuses the OpenMP threads, and does not
+        wait in slices of 40 ms.
+        """
         since = time.perf_counter()
         try:
             while O.iter < step:
@@ -221,7 +235,9 @@ class Run:
         return O.iter // every > self.last_saved // every
 
     def save(self):
-        """Save a checkpoint now, unless checkpoints are switched off. The frames are saved first: frames after a checkpoint can be dropped."""
+        """Save a checkpoint now, unless checkpoints are switched off. The frames are saved first: frames after a
+        checkpoint can be dropped.
+        """
         if self.options.checkpoint > 0:
             try:
                 if self.recorder:
@@ -229,15 +245,22 @@ class Run:
                 progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
                 checkpoint.save(self.checkpoint_path, self.identity, progress)
             except OSError as problem:
-                remedy = "the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists() else "there is no earlier one"
-                fault = f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
+                remedy = (
+                    "the previous checkpoint is intact, continue with --resume"
+                    if self.checkpoint_path.exists()
+                    else "there is no earlier one"
+                )
+                fault = (
+                    f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
+                )
                 raise RunError(f"{self.options.folder}: {fault}") from None
             self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self, cut_off=None):
-        """Write results and pictures of the scene as it is now, and print their names. Raises PhysicsError, after writing, for energy from nothing.
+        """Write results and pictures of the scene as it is now, and print their names. Raises PhysicsError, after
+        writing, for energy from nothing.
 
         cut_off: reason why the run ends before its duration. The last frame is then that of the last chunk.
         """
@@ -265,18 +288,26 @@ class Run:
                 written.append(self.frames_path)
             return written + summary.write(self.options.folder, found, tables, self.observer.model)
         except OSError as problem:
-            raise RunError(f"{self.options.folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
+            raise RunError(
+                f"{self.options.folder}: the results cannot be written ({problem.strerror}); repeat the command with"
+                " --resume"
+            ) from None
 
     def _pictures(self):
         try:
             return draw(self.options.folder, self.options.views, self.options.report)
         except OSError as problem:
-            fault = f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes them"
+            fault = (
+                f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes"
+                " them"
+            )
             raise RunError(f"{self.options.folder}: {fault}") from None
 
 
 def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run in its folder; returns their paths. Raises RunError, OSError."""
+    """Write pictures and player (views) and the report (page) of a run in its folder; returns their paths. Raises
+    RunError, OSError.
+    """
     written = all_pictures.write(folder) if views else []
     if page:
         from ..pictures import report  # here: matplotlib takes 0.3 s
@@ -286,12 +317,17 @@ def draw(folder, views, page):
 
 
 def clear(options, *more):
-    """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises RunError."""
+    """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises
+    RunError.
+    """
     try:
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
             remove(options.folder / name)
     except OSError as problem:
-        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with {options.named('out')}") from None
+        raise RunError(
+            f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
+            f" {options.named('out')}"
+        ) from None
 
 
 def title(scenario, model):

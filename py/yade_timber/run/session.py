@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a folder."""
+"""A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a
+folder.
+"""
 import os
 from contextlib import ExitStack, contextmanager
 
@@ -25,7 +27,9 @@ def complete(scenario, options):
 
 
 def complete_town(plan, options):
-    """Run a town to its end, on all processors unless YADE's -j says otherwise; returns the TownRun. Raises InputError, runner.Interrupted."""
+    """Run a town to its end, on all processors unless YADE's -j says otherwise; returns the TownRun. Raises InputError,
+    runner.Interrupted.
+    """
     if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
         compiled.set_thread_count(len(os.sched_getaffinity(0)))
     with ExitStack() as stack:
@@ -59,6 +63,9 @@ def reserved(options):
     prepare_folder(folder, options.named("out"))
     with locked(folder) as free:
         if not free:
-            raise RunError(f"{folder}: another process computes a run there; wait for it, or choose another folder with {options.named('out')}")
+            raise RunError(
+                f"{folder}: another process computes a run there; wait for it, or choose another folder with"
+                f" {options.named('out')}"
+            )
         remove_parts(folder)
         yield

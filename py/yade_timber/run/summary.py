@@ -34,7 +34,8 @@ O = yw.Omega()
 
 
 def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
-    """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s: wall time of its steps so far [s];
+    """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s:
+    wall time of its steps so far [s];
     cut_off: reason why the run ends before its duration. Raises RunError for energies that are not finite.
 
     residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
@@ -55,26 +56,31 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
         record=record(scenario),
-        dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse, cut_off=cut_off or created_too_much(energy),
+        dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
+        cut_off=cut_off or created_too_much(energy),
         steps=O.iter, wall_s=round(wall_s, 3), skipped_s=round(skipper.skipped if skipper else 0.0, 3),
         real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None,
         threads=compiled.thread_count(), elements=len(O.bodies), joints=survey.count_all(),
         broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
         columns=survey.count_columns(state),
         leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection),
-        tilt_time_s=tilt, tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None, collapse_time_s=collapse,
+        tilt_time_s=tilt, tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None,
+        collapse_time_s=collapse,
         fallen_structures=[name for name, facts in structures.items() if facts.collapsed],
         leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
         peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**versions()),
-        structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="", made_from=made_from,
-    )  # fmt: skip
+        structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
+        made_from=made_from,
+    )
     return judged(draft)
 
 
 def judged(draft):
-    """The Summary with verdict and sentences. The main structure has the drifts and the collapse of the HouseMonitor's samples, others those of the frames."""
+    """The Summary with verdict and sentences. The main structure has the drifts and the collapse of the HouseMonitor's
+    samples, others those of the frames.
+    """
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
     main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
@@ -107,7 +113,13 @@ def record(scenario):
 def part_of_record(part, scale):
     """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
     pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
-    return PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6), scale=scale * part.scale, pga_gal=pga)
+    return PartOfRecord(
+        source=part.source,
+        start_s=round(part.start, 6),
+        duration_s=round(part.duration, 6),
+        scale=scale * part.scale,
+        pga_gal=pga,
+    )
 
 
 def recorded_history(monitor):
@@ -124,9 +136,10 @@ def last_energies(history):
 def energy_balance(terms):
     """The part `energy` [J] from the terms of `queries.energy`.
 
-    input: work of the ground motion and potential energy released by gravity since the start. residual: stored, kinetic and dissipated energy minus
-    the input; residual_fraction: its absolute value over the input, None without input. created: negative dissipation of single contact points and
-    joints, as a positive number; contained in `dissipated`. Raises RunError for numbers that are not finite.
+    input: work of the ground motion and potential energy released by gravity since the start. residual: stored, kinetic
+    and dissipated energy minus the input; residual_fraction: its absolute value over the input, None without input.
+    created: negative dissipation of single contact points and joints, as a positive number; contained in `dissipated`.
+    Raises RunError for numbers that are not finite.
     """
     terms = {"ground_motion": 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
     supplied, residual = terms["ground_motion"] - terms["gravity"], queries.energy_residual(terms)
@@ -147,20 +160,28 @@ def energy_balance(terms):
 
 
 def solver():
-    """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had converged, and the largest change of a pair
-    in the last sweep of one, as twice its kinetic energy [J]."""
+    """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had
+    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]."""
     forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
     computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
     mean = round(forces.sweepsDone / max(1, computed), 3)
-    return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged, worst_change_j=forces.worstChange)
+    return Solver(
+        sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
+        worst_change_j=forces.worstChange,
+    )
 
 
 def created_too_much(energy):
-    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy: Energy"""
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy:
+    Energy
+    """
     if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
         return None
     share = energy.created / energy.input if energy.input > 0 else math.inf
-    return f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible: {CREATED:g}); try a smaller --dt"
+    return (
+        f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible:"
+        f" {CREATED:g}); try a smaller --dt"
+    )
 
 
 def _time(value):

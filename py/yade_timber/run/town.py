@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A town in this YADE process: a Run for each lot, in a scene and a folder of its own, on all threads.
 
-The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data stay in the processor's cache:
+The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
+stay in the processor's cache:
 time and memory per element do not depend on the number of houses.
 """
 import signal
@@ -31,7 +32,9 @@ O = yw.Omega()
 
 
 class TownRun:
-    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, RunOptions), one a lot; options: of the town"""
+    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, RunOptions), one a lot;
+    options: of the town
+    """
 
     def __init__(self, town, plans, options):
         self.town, self.options = town, options
@@ -52,7 +55,10 @@ class TownRun:
             for _, lot_options in plans:
                 remove_parts(lot_options.folder)
         except OSError as problem:
-            raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with {options.named('out')}") from None
+            raise RunError(
+                f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
+                f" {options.named('out')}"
+            ) from None
 
     @contextmanager
     def _of(self, number):
@@ -69,7 +75,9 @@ class TownRun:
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
         handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.options.quiet) as progress:
+        with TownProgress(
+            self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.options.quiet
+        ) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
@@ -82,7 +90,9 @@ class TownRun:
         self.signal = number
 
     def _first_steps(self):
-        """The first step of each lot, in which its engines check the scene; returns the numbers of the lots that have more."""
+        """The first step of each lot, in which its engines check the scene; returns the numbers of the lots that have
+        more.
+        """
         active = []
         for number in range(len(self.runs)):
             with self._of(number) as run:
@@ -131,7 +141,13 @@ class TownRun:
         for lot, run in zip(self.town.lots, self.runs):
             self.report(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.report(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
+        self.report(
+            sentence(
+                recording.summary(
+                    self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)}
+                )
+            )
+        )
         self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def report(self, text):
@@ -146,12 +162,17 @@ class TownRun:
             write_text(written[0], self.table())
             if self.options.no_frames:
                 return written
-            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in zip(self.town.lots, self.runs)]
+            recorded = [
+                (lot.name, lot.axes, lot.origin(run.model), run.recorder.frames)
+                for lot, run in zip(self.town.lots, self.runs)
+            ]
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
         except OSError as problem:
-            raise RunError(f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume") from None
+            raise RunError(
+                f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume"
+            ) from None
 
     def table(self):
         """Text of houses.csv."""
@@ -162,12 +183,28 @@ class TownRun:
             place = lot.name, found.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
             times = ["" if time is None else time for time in (found.tilt_time_s, found.collapse_time_s)]
             joints, sheets = found.joints_and_sheets
-            rows.append((*place, found.verdict, found.diagnosis.iw, drift, residual, *times, *joints, *sheets, round(run.wall_s, 3), sentence(found)))
+            rows.append(
+                (
+                    *place,
+                    found.verdict,
+                    found.diagnosis.iw,
+                    drift,
+                    residual,
+                    *times,
+                    *joints,
+                    *sheets,
+                    round(run.wall_s, 3),
+                    sentence(found),
+                )
+            )
         return csv_text(COLUMNS, rows)
 
 
-COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]", "peak drift [-]", "residual drift [-]",
-           "tilt [s]", "collapse [s]", "broken joints", "joints", "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
+COLUMNS = (
+    "lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]",
+    "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints", "broken wall sheets",
+    "wall sheets", "computing time [s]", "sentence",
+)
 """Of houses.csv."""
 
 

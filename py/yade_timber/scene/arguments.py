@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Checks of what users pass to the package's functions: one line that names the argument, its value and the admissible form."""
+"""Checks of what users pass to the package's functions: one line that names the argument, its value and the admissible
+form.
+"""
 import math
 import numbers
 import reprlib
@@ -14,7 +16,8 @@ def shown(value):
 
 
 def refuse(error, name, value, form):
-    """Raise an error such as "snow: density = 'heavy': it must be a finite number [kg/m3]". name: "function: argument"."""
+    """Raise an error such as "snow: density = 'heavy': it must be a finite number [kg/m3]". name: "function: argument".
+    """
     raise error(f"{name} = {shown(value)}: it must be {form}") from None
 
 
@@ -70,7 +73,11 @@ def numbers_of_shape(name, value, shape, form):
         array = np.array(value, float, ndmin=len(shape))
     except (TypeError, ValueError):
         refuse(TypeError, name, value, form)
-    if array.ndim != len(shape) or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape)) or not np.isfinite(array).all():
+    if (
+        array.ndim != len(shape)
+        or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape))
+        or not np.isfinite(array).all()
+    ):
         refuse(ValueError, name, value, form)
     return array
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Assignment to attributes of the package's classes.
 
-YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both for
-the classes that it is given: unknown names are refused, and after a refused value the object is as before. `updateAttrs` of
-all classes sets what the attributes themselves would set. Numbers of a scene are finite, unless the class's own value is not.
+YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both
+for the classes that it is given: unknown names are refused, and after a refused value the object is as before.
+`updateAttrs` of all classes sets what the attributes themselves would set. Numbers of a scene are finite, unless the
+class's own value is not.
 """
 import difflib
 import math
@@ -94,14 +95,20 @@ def _is_finite(value):
     """Whether no number of a value, such as a vector or a list of them, is infinite or NaN."""
     if isinstance(value, (float, np.floating)):
         return math.isfinite(value)
-    return not hasattr(value, "__len__") or isinstance(value, (str, dict)) or all(_is_finite(value[k]) for k in range(len(value)))
+    return (
+        not hasattr(value, "__len__")
+        or isinstance(value, (str, dict))
+        or all(_is_finite(value[k]) for k in range(len(value)))
+    )
 
 
 def _refuse_shape_in_scene(shape, name):
     """Boxes, contacts and mass of a body in the scene would remain those of the old geometry."""
     for body in yw.Omega().bodies:
         if body.shape == shape:
-            raise ValueError(f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape to the body")
+            raise ValueError(
+                f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape to the body"
+            )
 
 
 def _assign(self, attribute, name, value):
@@ -174,7 +181,8 @@ def _initialiser(construct):
 
 @contextmanager
 def _named_errors(cls, attributes):
-    """Context in which several attributes are set: errors of YADE and Boost name the attribute and its admissible form."""
+    """Context in which several attributes are set: errors of YADE and Boost name the attribute and its admissible form.
+    """
     try:
         yield
     except (AttributeError, *CONVERSION_ERRORS):
@@ -200,7 +208,9 @@ def _unknown(cls, name):
     """Message about a name that a class does not have."""
     known = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
     near = difflib.get_close_matches(name, known, 1, 0.5)
-    return f"{cls.__name__} has no attribute {name}" + (f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}")
+    return f"{cls.__name__} has no attribute {name}" + (
+        f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}"
+    )
 
 
 def _wrong_type(cls, attribute, name, value):

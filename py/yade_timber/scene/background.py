@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Changes to a scene while YADE computes it in the background.
 
-YADE's containers are not locked: a body that is erased within a step ends the process. A scene that is replaced within a step
-blocks it for ever if the step runs Python code. `O.pause()` returns before the step ends. `guard` lets such changes wait for
-the end of the step. It also refuses a body's shape, material or state that the package's engines cannot deal with.
+YADE's containers are not locked: a body that is erased within a step ends the process. A scene that is replaced within
+a step blocks it for ever if the step runs Python code. `O.pause()` returns before the step ends. `guard` lets such
+changes wait for the end of the step. It also refuses a body's shape, material or state that the package's engines
+cannot deal with.
 """
 import threading
 from contextlib import contextmanager
@@ -14,10 +15,23 @@ from yade.minieigenHP import Vector3
 from ..plugin import compiled
 
 BODY_METHODS = (
-    "append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember",
+    "append",
+    "appendClumped",
+    "clump",
+    "addToClump",
+    "releaseFromClump",
+    "erase",
+    "insertAtId",
+    "replace",
+    "clear",
+    "deleteClumpBody",
+    "deleteClumpMember",
 )
 INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
-SCENE_METHODS = ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp", "switchScene", "switchToScene")
+SCENE_METHODS = (
+    "reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp", "switchScene",
+    "switchToScene",
+)
 BODY_PARTS = ("shape", "material", "state")
 
 O = yw.Omega()
@@ -109,7 +123,9 @@ def _until_started(run):
 
 
 def _checked(name, part):
-    """Property of a body that is set between two steps; elements in the scene are checked, and keep their part if it is refused."""
+    """Property of a body that is set between two steps; elements in the scene are checked, and keep their part if it is
+    refused.
+    """
 
     def set_part(body, value):
         with between_steps():
@@ -127,7 +143,9 @@ def _checked(name, part):
 
 
 def _with_momentum(part):
-    """Property angVel of a state whose angular momentum follows when it is set: the integrator computes velocities from momenta."""
+    """Property angVel of a state whose angular momentum follows when it is set: the integrator computes velocities from
+    momenta.
+    """
 
     def set_velocity(state, value):
         with between_steps():
@@ -141,7 +159,9 @@ def _with_momentum(part):
 def _check(body, name):
     """Raise an error if an element of the scene cannot be computed with its new part."""
     if body.shape is None:
-        raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out")
+        raise ValueError(
+            f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out"
+        )
     compiled.check_replaced_part(body)
     if name in ("shape", "material"):  # functors, stiffness and friction of its contacts are those of the old part
         for interaction in body.intrs():

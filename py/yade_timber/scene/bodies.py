@@ -71,7 +71,9 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
 
 
 def to_digits(corners):
-    """Corners to 13 digits of their extent: equal elements at different positions of a street get equal numbers and share their geometry. [m]"""
+    """Corners to 13 digits of their extent: equal elements at different positions of a street get equal numbers and
+    share their geometry. [m]
+    """
     digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
     return np.round(corners / digit) * digit + 0.0  # no negative zeros
 
@@ -101,18 +103,28 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     Raises
     ------
     ValueError
-        When the vertices are no corners of a convex polyhedron, or the radius is not below that of the inscribed sphere.
+        When the vertices are no corners of a convex polyhedron, or the radius is not below that of the inscribed
+        sphere.
     TypeError
         For a material of another kind.
     """
-    material = timber() if material is None else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
+    material = (
+        timber()
+        if material is None
+        else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
+    )
     fixed = arguments.flag("fixed", fixed)
     radius = 0 if radius is None else arguments.positive("radius", radius, "m")
     if 0 < radius < LEAST_RADIUS:
-        arguments.refuse(ValueError, "radius", radius, f"at least {LEAST_RADIUS:g} m: contacts carry no more than at an overlap of both radii")
+        arguments.refuse(
+            ValueError, "radius", radius,
+            f"at least {LEAST_RADIUS:g} m: contacts carry no more than at an overlap of both radii",
+        )
     name, kind = arguments.text("name", name), arguments.text("kind", kind)
     look = {} if color is None else {"color": arguments.vector("color", color)}
-    body = principal_body(arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind, **look)
+    body = principal_body(
+        arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind, **look
+    )
     body.material = material
     body.bound = yw.Aabb()
     body.dynamic = not fixed
@@ -122,7 +134,8 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
 def principal_body(vertices, density, radius, **look):
     """Body with its shape, and a state whose axes are the principal axes of inertia.
 
-    vertices (n, 3) world frame [m]; density [kg/m3]; radius [m], 0 for the default; look: name, kind, color of the shape
+    vertices (n, 3) world frame [m]; density [kg/m3]; radius [m], 0 for the default; look: name, kind, color of the
+    shape
     """
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
     raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
@@ -142,7 +155,8 @@ def principal_body(vertices, density, radius, **look):
 
 
 def scale_mass(body, factor):
-    """Multiply mass and inertia of a body by a factor [-], as for a member that carries a load along its whole volume."""
+    """Multiply mass and inertia of a body by a factor [-], as for a member that carries a load along its whole volume.
+    """
     body.state.mass *= factor
     body.state.inertia *= factor
 

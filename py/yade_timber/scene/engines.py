@@ -36,8 +36,11 @@ class ContactOptions:
         arguments.positive("engines: tolerance", self.tolerance)
 
     def loop(self):
-        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a functor."""
-        geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge, flushSupports=self.flush_supports)
+        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a "
+          "functor."""
+        geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(
+            vertexEdge=self.vertex_edge, flushSupports=self.flush_supports
+        )
         physics = [getattr(yw, ip2)(dampingRatio=self.damping_ratio) for ip2, _, _ in compiled.contact_laws()]
         laws = [getattr(yw, law2)() for _, _, law2 in compiled.contact_laws()]
         for law in laws:
@@ -83,15 +86,18 @@ def engines(
     increment : bool
         Normal force from increments (Eq. 38) instead of the closed form (Eq. 37).
     damping_ratio : float
-        Share of critical damping [-]; below 1, impacts shorter than some ten steps lose more energy than the dashpots take (docs/theory.md, section 5).
+        Share of critical damping [-]; below 1, impacts shorter than some ten steps lose more energy than the dashpots
+        take (docs/theory.md, section 5).
     sweeps : int
         Most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper.
     tolerance : float
-        Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at rest. [-]
+        Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at
+        rest. [-]
     health_check : int
         Steps between checks for finite numbers; 0: no check of scene and engines at all.
     skip_rest : int
-        Number of steps of which one is computed while scene and ground are at rest (``RestSkipper.stride``); 0: all are computed.
+        Number of steps of which one is computed while scene and ground are at rest (``RestSkipper.stride``); 0: all are
+        computed.
 
     Returns
     -------
@@ -125,16 +131,22 @@ def external_forces(gravity, ground_motion, joints):
     if any(gravity):
         chain.append(yw.UniformGravity(gravity=gravity))
     if ground_motion is not None:
-        chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion))
+        chain.append(
+            ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion)
+        )
     return chain
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):
-    """GroundMotionEngine for a `yade_timber.motion.GroundMotion`; scale [-], start: simulated time of its first sample [s]."""
+    """GroundMotionEngine for a `yade_timber.motion.GroundMotion`; scale [-], start: simulated time of its first sample
+    [s].
+    """
     if not (hasattr(motion, "dt") and hasattr(motion, "acceleration")):
         arguments.refuse(TypeError, "ground_motion", motion, "a GroundMotion, a GroundMotionEngine or None")
     acceleration = [Vector3(*a) for a in motion.acceleration]
-    scale, start = arguments.number("ground_motion_engine: scale", scale), arguments.number("ground_motion_engine: start", start, "s")
+    scale, start = arguments.number("ground_motion_engine: scale", scale), arguments.number(
+        "ground_motion_engine: start", start, "s"
+    )
     return yw.GroundMotionEngine(step=motion.dt, acceleration=acceleration, scale=scale, start=start)
 
 

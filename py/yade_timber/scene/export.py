@@ -29,14 +29,16 @@ def export_scene(path):
 
     Notes
     -----
-    ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density (mass over volume) [kg/m3],
-    radius [m], fixed, material.
+    ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density (mass
+    over volume) [kg/m3], radius [m], fixed, material.
 
-    ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name, coefficient.
+    ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name,
+    coefficient.
 
-    ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks) [N/m], strength [N]
-    (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], broken (one flag per spring), kind, name, slip (null: brittle; else the
-    parameters and the history of each spring); none of a removed body.
+    ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks)
+    [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], broken (one flag per
+    spring), kind, name, slip (null: brittle; else the parameters and the history of each spring); none of a removed
+    body.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
@@ -51,7 +53,9 @@ def export_scene(path):
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": [describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine else [],
+        "joints": (
+            [describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine else []
+        ),
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 
@@ -116,8 +120,8 @@ def describe_joint(joint):
 
 
 def describe_slip(joint, state):
-    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3) in the world and
-    largest (n,) [m]."""
+    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3)
+    in the world and largest (n,) [m]."""
     return {
         "friction_share": joint.frictionShare,
         "softening_stretch": joint.softeningStretch,

@@ -19,7 +19,8 @@ O = yw.Omega()
 
 @dataclass(frozen=True)
 class SlipLaw:
-    """Yielding springs for `connect`: elastic to the strength, then plastic, with slip in cycles (docs/theory.md, section 4).
+    """Yielding springs for `connect`: elastic to the strength, then plastic, with slip in cycles (docs/theory.md,
+    section 4).
 
     Parameters
     ----------
@@ -36,7 +37,19 @@ class SlipLaw:
     friction_share: float = 0.3
 
 
-def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="", name="", damping_ratio=0.0, slip=None):
+def connect(
+    id1,
+    id2,
+    points,
+    normal=None,
+    stiffness=(58800.0, 58800.0),
+    strength=5880.0,
+    per="spring",
+    kind="",
+    name="",
+    damping_ratio=0.0,
+    slip=None,
+):
     """Join two bodies with springs.
 
     Parameters
@@ -48,7 +61,8 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     normal : (3,) array_like, optional
         From body 1 to body 2; by default from centroid to centroid. It matters only for unequal stiffnesses.
     stiffness : (float, float)
-        Normal and tangential stiffness, > 0 and >= 0. [N/m] With 0 the springs act along the normal only, which turns with body 1.
+        Normal and tangential stiffness, > 0 and >= 0. [N/m] With 0 the springs act along the normal only, which turns
+        with body 1.
     strength : float
         Largest force P_max. [N]
     per : {"spring", "joint"}
@@ -104,7 +118,9 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
 
 
 def require_near(points, *ids):
-    """Raise ValueError for a point that is farther than a body's diagonal from each of the bodies: a slip of units or of frames."""
+    """Raise ValueError for a point that is farther than a body's diagonal from each of the bodies: a slip of units or
+    of frames.
+    """
     elements = [b for b in (O.bodies[k] for k in ids) if isinstance(b.shape, yw.RoundedPolyhedron)]
     reach = {b.id: max(v.norm() for v in b.shape.vertices) for b in elements}  # of the corners, from the centre
     for point in points if len(elements) == len(ids) else ():
@@ -168,10 +184,14 @@ def make_joint(id1, id2, springs):
 
 
 def require_ids(caller, *ids):
-    """Raise ValueError unless each id is that of a body of the scene, present or erased: YADE would read beyond its list."""
+    """Raise ValueError unless each id is that of a body of the scene, present or erased: YADE would read beyond its
+    list.
+    """
     for body in ids:
         if not isinstance(body, (int, np.integer)) or not 0 <= body < len(O.bodies):
-            raise ValueError(f"{caller}: there is no body {arguments.shown(body)}; bodies have the ids 0 ... {len(O.bodies) - 1}")
+            raise ValueError(
+                f"{caller}: there is no body {arguments.shown(body)}; bodies have the ids 0 ... {len(O.bodies) - 1}"
+            )
 
 
 def require_bodies(caller, *ids):

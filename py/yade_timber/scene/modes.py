@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Natural modes of the scene that is loaded in YADE: small vibrations about its present state, undamped, contacts sticking.
+"""Natural modes of the scene that is loaded in YADE: small vibrations about its present state, undamped, contacts
+sticking.
 
-K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point and joint spring, and
-the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A negative omega^2 is an instability.
-Contacts that do not touch have no stiffness: the scene should have settled. Yielding joints have the stiffness with which they unload.
+K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point
+and joint spring, and the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A
+negative omega^2 is an instability.
+Contacts that do not touch have no stiffness: the scene should have settled. Yielding joints have the stiffness with
+which they unload.
 
 Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
 Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
@@ -32,8 +35,8 @@ O = yw.Omega()
 
 @dataclass(frozen=True)
 class Springs:
-    """Linearised springs, P of them. body (P, 2) ids; arm (P, 2, 3) from the bodies' centres [m]; normal (P, 3); stiffness (P, 2) normal and
-    tangential [N/m]; force (P, 3) on the second body [N]. World frame."""
+    """Linearised springs, P of them. body (P, 2) ids; arm (P, 2, 3) from the bodies' centres [m]; normal (P, 3);
+    stiffness (P, 2) normal and tangential [N/m]; force (P, 3) on the second body [N]. World frame."""
 
     body: np.ndarray
     arm: np.ndarray
@@ -44,7 +47,8 @@ class Springs:
 
 @dataclass(frozen=True)
 class Mode:
-    """omega2: squared angular frequency [1/s2]; shape (N, 6): displacement [-] and rotation [1/m] of each body, zero for fixed ones;
+    """omega2: squared angular frequency [1/s2]; shape (N, 6): displacement [-] and rotation [1/m] of each body, zero
+    for fixed ones;
     mass (3,): effective modal mass east, north, up [kg]."""
 
     omega2: float
@@ -66,7 +70,8 @@ def springs():
 
 
 def natural_modes(share=0.05):
-    """Modes whose effective mass east or north is at least `share` of the free bodies' mass, the longest period first; unstable ones come first.
+    """Modes whose effective mass east or north is at least `share` of the free bodies' mass, the longest period first;
+    unstable ones come first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs.
     """
@@ -157,7 +162,10 @@ def stiffness_matrix(found, rows, count):
     normal = found.normal[:, :, None] * found.normal[:, None, :]
     kn, ks = found.stiffness[:, 0, None, None], found.stiffness[:, 1, None, None]
     tangent = kn * normal + ks * (np.eye(3) - normal)
-    ends = [np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(found.arm[:, e])], axis=2) for e in (0, 1)]  # displacement = end @ x
+    ends = [
+        np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(found.arm[:, e])], axis=2)
+        for e in (0, 1)
+    ]  # displacement = end @ x
     number = np.array([[rows.get(body, -1) for body in pair] for pair in found.body.tolist()])
     blocks, places = [], []
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
@@ -171,7 +179,8 @@ def stiffness_matrix(found, rows, count):
 
 
 def _geometric(arm, force):
-    """(P, 6, 6) stiffness of constant forces that act at points of bodies: minus the change of the torque r x f with a rotation of the body.
+    """(P, 6, 6) stiffness of constant forces that act at points of bodies: minus the change of the torque r x f with a
+    rotation of the body.
 
     Summed over a body in equilibrium it is symmetric; the symmetric part is taken.
     """

@@ -23,8 +23,9 @@ def contacts(id1, id2):
     Returns
     -------
     list of dict
-        For each point, world frame: ``position`` [m], ``normal`` (from body 1 to body 2) [-], ``overlap`` [m], ``normal_force`` (elastic and
-        dashpot, >= 0) [N], ``shear_force`` (3,) on body 2 [N]. Empty when the bodies do not touch.
+        For each point, world frame: ``position`` [m], ``normal`` (from body 1 to body 2) [-], ``overlap`` [m],
+        ``normal_force`` (elastic and dashpot, >= 0) [N], ``shear_force`` (3,) on body 2 [N]. Empty when the bodies do
+        not touch.
 
     Raises
     ------
@@ -59,10 +60,10 @@ def energy():
     Returns
     -------
     dict
-        Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the placement of bodies in
-        contact), ``elastic_joints``;
-        ``ground_motion`` (work done by it); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``, ``broken_springs``,
-        ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
+        Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the
+        placement of bodies in contact), ``elastic_joints``;
+        ``ground_motion`` (work done by it); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``,
+        ``broken_springs``, ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
         The sum of all terms but ``ground_motion``, minus ``ground_motion``, is constant.
     """
     return dict(yw.HouseMonitor().energy())
@@ -101,10 +102,11 @@ def stable_dt(safety=0.5):
 
     Notes
     -----
-    2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest eigenvalue of
-    M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs without dashpots (sweeps=0);
-    implicit contacts and joints (the default) are stable beyond it. Contacts that do not touch yet do not count: call it after a few steps,
-    or leave a safety for impacts.
+    2 / omega_max of the linearised scene (leapfrog; paper, Eq. 44 for one contact), with omega_max^2 the largest
+    eigenvalue of M^-1 K by power iteration over all contact points and joint springs. It is sharp for explicit springs
+    without dashpots (sweeps=0);
+    implicit contacts and joints (the default) are stable beyond it. Contacts that do not touch yet do not count: call
+    it after a few steps, or leave a safety for impacts.
     """
     arguments.positive("stable_dt: safety", safety)
     solver = find_engine(yw.ContactForces)

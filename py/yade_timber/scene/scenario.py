@@ -17,17 +17,21 @@ from .queries import stable_dt
 O = yw.Omega()
 
 JOINT_FACTOR = 20
-"""Largest time step over the stability limit of explicit joints. Stiff joints are implicit and stay stable at 47 times that limit. [-]"""
+"""Largest time step over the stability limit of explicit joints. Stiff joints are implicit and stay stable at 47 times
+that limit. [-]
+"""
 
 
 @dataclass
 class Scenario:
-    """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or None; snow_depth [m].
+    """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or
+    None; snow_depth [m].
 
-    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a collapse ends the run;
-    joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed
-    of the house's disturbance, None: none; options: of `engines.engines`; other_walls: OtherWalls
-    of the summary, verdict with walls of the other level.
+    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
+    collapse ends the run;
+    joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier, None for both: the
+    house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`; other_walls:
+    OtherWalls of the summary, verdict with walls of the other level.
     """
 
     name: str
@@ -83,7 +87,11 @@ def check_step(model):
 
 def law_options(law):
     """Arguments of `engines.engines` that the `law` of a house file decides."""
-    return {"vertex_edge": law["vertex_edge_contacts"], "flush_supports": law["flush_supports"], "increment": law["hertz"] == "increment"}
+    return {
+        "vertex_edge": law["vertex_edge_contacts"],
+        "flush_supports": law["flush_supports"],
+        "increment": law["hertz"] == "increment",
+    }
 
 
 def add_elements(model):
@@ -120,7 +128,8 @@ def add_joints(model, ids):
 def level_marks(model, structure):
     """Elements at the levels of a structure: [(element, level)]; level k is the top of storey k.
 
-    The floor where there is one, else the beams under the roof, or the roof; in a structure without floors the roof itself, which moves as one.
+    The floor where there is one, else the beams under the roof, or the roof; in a structure without floors the roof
+    itself, which moves as one.
     """
     kinds = ("floor", "beam", "roof") if model.of_kind("floor", group=structure) else ("roof", "beam")
     marks = []
@@ -146,7 +155,9 @@ STANDING = ("column", "brace", "wall")
 
 
 def structure_monitor(model, ids):
-    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k (recording/quantities.py)."""
+    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k
+    (recording/quantities.py).
+    """
     main, storeys = next(iter(model.storey_levels.items()))
     members = [e for e in model.elements if e.group == main and not e.fixed]
     top = max(storeys)

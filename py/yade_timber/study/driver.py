@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Starts run scripts, each in a YADE process of its own, several at a time. Needs no YADE itself.
 
-A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts the other
-tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its messages.
+A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
+the other tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its
+messages.
 """
 import json
 import os
@@ -42,7 +43,10 @@ class Task:
     def words(self):
         """Arguments of the script: the options that decide results, and those with which the driver runs it."""
         own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
-        alone = dict.fromkeys(("ensemble", "jobs", "export")) | {"report": False, "checkpoint": options(RunOptions)["checkpoint"].default}
+        alone = dict.fromkeys(("ensemble", "jobs", "export")) | {
+            "report": False,
+            "checkpoint": options(RunOptions)["checkpoint"].default,
+        }
         return replace(self.options, **own, **alone).words()
 
     @property
@@ -78,8 +82,8 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     report   called with one line for each run that ends
     retry    whether failed runs are started again
 
-    Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM, when the
-    started runs have saved their checkpoints.
+    Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM,
+    when the started runs have saved their checkpoints.
     """
     tasks = list(dict.fromkeys(tasks))
     missing = [task for task in tasks if task.is_missing(retry)]
@@ -132,8 +136,9 @@ class _Process:
             (task.folder / name).unlink(missing_ok=True)
         arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
         with open(task.folder / LOG, "w") as log:
-            self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
-                                          env={**os.environ, "OMP_NUM_THREADS": "1"})  # fmt: skip
+            self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                          start_new_session=True,
+                                          env={**os.environ, "OMP_NUM_THREADS": "1"})
 
     def has_ended(self):
         return self.child is None or self.child.poll() is not None
@@ -163,7 +168,10 @@ class _Process:
             last = next((line for line in reversed(lines) if line.strip()), f"exit status {self.child.returncode}")
             return last.strip().removeprefix("error: ")
         if self.task.summary is None:
-            return f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's Python"
+            return (
+                f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
+                " Python"
+            )
         return None
 
 

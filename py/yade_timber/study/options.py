@@ -22,7 +22,9 @@ class Parser(argparse.ArgumentParser):
     """ArgumentParser that describes itself by a docstring and reports bad input in one line."""
 
     def __init__(self, about, **settings):
-        super().__init__(description=about, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
+        super().__init__(
+            description=about, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings
+        )
 
     def error(self, message):
         self.exit(1, f"error: {' '.join(message.split())} (options: -h)\n")
@@ -95,7 +97,9 @@ def results_folder(text):
         with tempfile.TemporaryFile(dir=text):
             return Path(text)
     except (OSError, ValueError) as problem:
-        raise argparse.ArgumentTypeError(f"'{str(text)[:80]}': no results can be written there: {getattr(problem, 'strerror', None) or problem}") from None
+        raise argparse.ArgumentTypeError(
+            f"'{str(text)[:80]}': no results can be written there: {getattr(problem, 'strerror', None) or problem}"
+        ) from None
 
 
 # --- options that studies share ---------------------------------------------------------------------------------------
@@ -103,7 +107,10 @@ def results_folder(text):
 
 def add_driver_options(parser, folder):
     """Options of every study: folder of the runs and number of processes."""
-    parser.add_argument("--out", type=results_folder, default=folder, metavar="DIR", help="folder that holds a folder for each run (default %(default)s)")
+    parser.add_argument(
+        "--out", type=results_folder, default=folder, metavar="DIR",
+        help="folder that holds a folder for each run (default %(default)s)",
+    )
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
 
 
@@ -122,9 +129,13 @@ def run_options(arguments):
 
 
 def run_of(script, house, earthquake, snow, given):
-    """RunOptions of a run script with options of `run_options`; runs without an earthquake get none of the motion. house, earthquake, snow: of the script"""
+    """RunOptions of a run script with options of `run_options`; runs without an earthquake get none of the motion.
+    house, earthquake, snow: of the script
+    """
     motion = () if earthquake else options(MotionRequest)
-    return scripted(script, house, earthquake, snow, **{name: value for name, value in given.items() if name not in motion})
+    return scripted(
+        script, house, earthquake, snow, **{name: value for name, value in given.items() if name not in motion}
+    )
 
 
 def selected(text, known, option):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no YADE itself."""
+"""Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no
+YADE itself.
+"""
 import subprocess
 import tempfile
 from pathlib import Path
@@ -15,13 +17,18 @@ TIME = 3.0
 
 
 def check_own_weight(house, snow, scripts):
-    """The result of the run as a sentence. house: name or file; snow: depth [m], None: the house's own; scripts: folder of the run scripts.
+    """The result of the run as a sentence. house: name or file; snow: depth [m], None: the house's own; scripts: folder
+    of the run scripts.
 
     Raises RunError without YADE, and when the run fails.
     """
     with tempfile.TemporaryDirectory() as folder:
-        options = RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True, out=Path(folder))
-        done = subprocess.run([*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        options = RunOptions(
+            house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True, out=Path(folder)
+        )
+        done = subprocess.run(
+            [*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL, capture_output=True, text=True
+        )
         if done.returncode:
             lines = [line for line in done.stderr.splitlines() if line.strip()]
             raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Phrases for summaries and events: English, Japanese, and the lines of the report. Text is output only. Needs no YADE."""
+"""Phrases for summaries and events: English, Japanese, and the lines of the report. Text is output only. Needs no YADE.
+"""

@@ -9,7 +9,10 @@ CONVERGED = 1e-6
 """Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
-ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity", "step": "time step"}
+ORIGIN = {
+    "none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
+    "step": "time step",
+}
 """Words of pictures/provenance.py."""
 
 
@@ -17,7 +20,8 @@ ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Reco
 
 
 def sentence(summary):
-    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run first its outcomes.
+    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run
+    first its outcomes.
 
     Of a town: the numbers of its houses by verdict.
     """
@@ -48,7 +52,9 @@ def unconverged(summary):
 
 
 def weight(summary):
-    """Damage before the shaking, which an event describes; without an earthquake the cause of the damage. Empty for a house without damage."""
+    """Damage before the shaking, which an event describes; without an earthquake the cause of the damage. Empty for a
+    house without damage.
+    """
     if summary.earthquake:
         return next((own_weight(event.facts) for event in summary.events if event.kind == "own_weight"), "")
     return f"damaged by {its_weight(summary.snow)}" if summary.main.verdict != verdict.UNDAMAGED else ""
@@ -60,13 +66,18 @@ def its_weight(has_snow):
 
 
 def ensemble(summary):
-    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ' of a run that is shown for an ensemble, else empty."""
+    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ' of a run that is shown for
+    an ensemble, else empty.
+    """
     if not summary.ensemble:
         return ""
     outcomes, drifts = summary.ensemble.outcomes, summary.ensemble.peak_drift_standing
     numbers = ", ".join(f"{number} {state}" for state, number in outcomes.items())
     standing = " in those that stand" * (verdict.COLLAPSED in outcomes)
-    return f"{place_in_ensemble(summary.ensemble)} ({numbers}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
+    return (
+        f"{place_in_ensemble(summary.ensemble)} "
+        f"({numbers}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
+    )
 
 
 def place_in_ensemble(place):
@@ -77,18 +88,28 @@ def place_in_ensemble(place):
 def town(summary):
     """'Town harbour: 6 houses, 3 undamaged, 2 unsafe, 1 collapsed'."""
     counts = [f"{summary.verdicts.count(state)} {state}" for state in verdict.STATES if state in summary.verdicts]
-    return "; ".join(filter(None, (f"Town {summary.model}: {len(summary.verdicts)} houses, {', '.join(counts)}", record(summary))))
+    return "; ".join(
+        filter(None, (f"Town {summary.model}: {len(summary.verdicts)} houses, {', '.join(counts)}", record(summary)))
+    )
 
 
 def outcome(summary):
     """Verdict on the main structure, with its peak storey drift."""
     if summary.collapsed:
         tilt, end = summary.tilt_time_s, f"collapsed at {summary.collapse_time_s:.1f} s"
-        return end if tilt is None else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s"
+        return (
+            end
+            if tilt is None
+            else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s"
+        )
     drift, storey, direction = summary.largest_drift()
     peak = f"{directed(drift, direction)} in {storey_name(storey)}" if drift >= SMALL else ratio(drift)
     limit = verdict.passed(drift)
-    meaning = f"beyond the {limit.name} of {ratio(limit.drift)}" if limit else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
+    meaning = (
+        f"beyond the {limit.name} of {ratio(limit.drift)}"
+        if limit
+        else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
+    )
     lean = " and leans at the end" if summary.main.leans else ""
     return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}"
 
@@ -96,7 +117,11 @@ def outcome(summary):
 def other_walls(summary):
     """'with walls of the level design collapsed' where the verdict depends on the level of the walls."""
     other = summary.walls and summary.walls.other
-    return f"with walls of the level {other.level} {other.verdict}" if other and other.verdict != summary.main.verdict else ""
+    return (
+        f"with walls of the level {other.level} {other.verdict}"
+        if other and other.verdict != summary.main.verdict
+        else ""
+    )
 
 
 def residual(summary):
@@ -113,7 +138,9 @@ def residual(summary):
 
 def structures(summary):
     """Verdicts on the structures other than the main one, unless they are undamaged."""
-    return ", ".join(structure(name, facts, summary) for name, facts in summary.others if facts.verdict != verdict.UNDAMAGED)
+    return ", ".join(
+        structure(name, facts, summary) for name, facts in summary.others if facts.verdict != verdict.UNDAMAGED
+    )
 
 
 def structure(name, facts, summary):
@@ -132,7 +159,9 @@ def joints(summary):
 
 
 def broken_of(joints, sheets, of=" of "):
-    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of: between two numbers"""
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of:
+    between two numbers
+    """
     walls = f" and {sheets[0]}{of}{counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
     return f"{joints[0]}{of}{joints[1]} joints{walls} broken"
 
@@ -182,15 +211,28 @@ def first_break(facts):
 def own_weight(facts):
     """'damaged before the shaking, by its own weight: 12 joints broken, peak drift 1/45'."""
     main = next(iter(facts.structures), None)
-    parts = [("" if name == main else f"{name}: ") + _damage(one) for name, one in facts.structures.items() if one.verdict != verdict.UNDAMAGED]
+    parts = [
+        ("" if name == main else f"{name}: ") + _damage(one)
+        for name, one in facts.structures.items()
+        if one.verdict != verdict.UNDAMAGED
+    ]
     return f"damaged before the shaking, by {its_weight(facts.snow)}: {'; '.join(parts)}"
 
 
 def _damage(facts):
     if facts.collapsed:
         return "collapsed"
-    counts = ((facts.broken, "joint", "broken"), (facts.partly_broken, "joint", "partly broken"), (facts.columns_lost, "column", "lost"))
-    return ", ".join([*(f"{counted(number, noun)} {state}" for number, noun, state in counts if number), f"peak drift {ratio(facts.peak_drift)}"])
+    counts = (
+        (facts.broken, "joint", "broken"),
+        (facts.partly_broken, "joint", "partly broken"),
+        (facts.columns_lost, "column", "lost"),
+    )
+    return ", ".join(
+        [
+            *(f"{counted(number, noun)} {state}" for number, noun, state in counts if number),
+            f"peak drift {ratio(facts.peak_drift)}",
+        ]
+    )
 
 
 def snow_fallen(facts):
@@ -210,7 +252,9 @@ PHRASES = {
     "collapse": lambda facts: "collapse: a floor has come down by half a storey",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",
-    "columns_lost": lambda facts: f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or without a joint",
+    "columns_lost": lambda facts: (
+        f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or without a joint"
+    ),
     "snow_fallen": snow_fallen,
     "shaking_begins": lambda facts: "the shaking begins",
     "strongest_shaking": lambda facts: "strongest shaking",

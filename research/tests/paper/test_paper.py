@@ -2,8 +2,8 @@
 # runner: python
 """The paper's fourteen runs against the golden file of their summaries (on request: ctest -L paper; hours).
 
-YADE_TIMBER_UPDATE_GOLDEN=1 writes the file. Runs are kept in results/ in the working directory, so that a stopped test continues; those
-made by another version of the package are repeated.
+YADE_TIMBER_UPDATE_GOLDEN=1 writes the file. Runs are kept in results/ in the working directory, so that a stopped test
+continues; those made by another version of the package are repeated.
 """
 import datetime
 import json
@@ -21,8 +21,8 @@ GOLDEN = Path(__file__).resolve().with_name("paper_runs.json")
 LEFT_OUT = ("wall_s", "real_time_factor", "threads", "made_from", "quantities", "events", "weight", "diagnosis")
 """Keys that depend on the machine or the version of the package, and long ones that no test reads."""
 STILL_ATOL = 1e-6
-"""Tolerance of peak drifts in runs without an earthquake [-], 4e-9 to 8e-6. With an earthquake the motion is chaotic: a change of 1e-13 m in
-the vertices changed peak drifts by up to 55 %."""
+"""Tolerance of peak drifts in runs without an earthquake [-], 4e-9 to 8e-6. With an earthquake the motion is chaotic: a
+change of 1e-13 m in the vertices changed peak drifts by up to 55 %."""
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The paper's claims in short runs: B and C stand under snow, A collapses in strong shaking. The label `paper` has the complete runs.
+"""The paper's claims in short runs: B and C stand under snow, A collapses in strong shaking. The label `paper` has the
+complete runs.
 
-The shipped house A stands under snow (claim S1 does not hold); it collapses if no column end is supported (research/claims/claims.md).
+The shipped house A stands under snow (claim S1 does not hold); it collapses if no column end is supported
+(research/claims/claims.md).
 """
 import math
 
@@ -19,7 +21,9 @@ START, END = 16.6, 26.0
 
 
 PINNED = ("plumb.drift=1e-3", "structures.main.stack[1].width=0.105", "structures.main.columns[1].section=0.105")
-"""Changes of house A: columns as wide as foundation and beams. Without support for flush members the joints alone keep them upright."""
+"""Changes of house A: columns as wide as foundation and beams. Without support for flush members the joints alone keep
+them upright.
+"""
 
 
 def monitored(house, snow=0.0, motion=None, duration=1.0, until=lambda monitor: False):
@@ -40,7 +44,8 @@ def test_braced_houses_stand_still_under_snow(house):
 
 @pytest.mark.parametrize("supported", [True, False])
 def test_house_a_collapses_under_snow_only_without_supported_column_ends(supported, tmp_path):
-    """Supported column ends of width b keep a frame of height h upright up to a drift of b/h = 3 to 4 %, for any load."""
+    """Supported column ends of width b keep a frame of height h upright up to a drift of b/h = 3 to 4 %, for any load.
+    """
     house = tmp_path / "pinned.yaml"
     settings = (*PINNED, f"law.flush_supports={str(supported).lower()}")
     house.write_text(yaml.safe_dump(changed_house("A", settings=settings), sort_keys=False))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
-"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong. Robustness."""
+"""Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong.
+Robustness.
+"""
 import json
 import runpy
 from pathlib import Path

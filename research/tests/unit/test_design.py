@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The two-level design: balance, orthogonality, resolution, strings of confounded interactions. All numbers are exact."""
+"""The two-level design: balance, orthogonality, resolution, strings of confounded interactions. All numbers are exact.
+"""
 
 from itertools import combinations
 
@@ -51,6 +52,8 @@ def test_the_first_half_is_of_resolution_three_and_the_second_its_fold_over():
 
 
 def test_twelve_factors_have_as_few_confounded_interactions_as_possible():
-    """The best 2^(12-7) design of resolution IV has 38 words of length 4 (Chen, Sun, Wu 1993); each word confounds three pairs of pairs."""
+    """The best 2^(12-7) design of resolution IV has 38 words of length 4 (Chen, Sun, Wu 1993); each word confounds
+    three pairs of pairs.
+    """
     confounded = sum(len(pairs) * (len(pairs) - 1) // 2 for pairs in design.strings(12).values())
     assert confounded == 3 * 38 and len(design.empty_words(12)) == 4

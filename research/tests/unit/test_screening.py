@@ -26,7 +26,8 @@ COUNT = len(FACTORS)
 MOTIONS = [cells.synthetic(3, 15.0, 29.0), cells.synthetic(0, 15.0, 29.0)]
 
 
-# --- houses of the cells ------------------------------------------------------------------------------------------------
+# --- houses of the cells
+# ------------------------------------------------------------------------------------------------
 
 
 def described(folder, house, **second):
@@ -96,7 +97,8 @@ def test_braces_of_c_lean_the_other_way(tmp_path):
     assert turned == names[1]
 
 
-# --- batch --------------------------------------------------------------------------------------------------------------
+# --- batch
+# --------------------------------------------------------------------------------------------------------------
 
 
 def test_plan_and_table(tmp_path):
@@ -124,7 +126,8 @@ def test_unchanged_houses_are_not_written_again(tmp_path):
     assert house.stat().st_mtime_ns == before
 
 
-# --- responses ----------------------------------------------------------------------------------------------------------
+# --- responses
+# ----------------------------------------------------------------------------------------------------------
 
 
 def summary(ns=0.02, ew=0.01, lean=0.01, springs=0, collapsed=False, west=(0, 0), lost=0):
@@ -168,7 +171,9 @@ def test_number_of_claims():
 
 
 def test_collect():
-    """Missing runs become NaN; cells and motions without results are left out; runs without an earthquake count under every motion."""
+    """Missing runs become NaN; cells and motions without results are left out; runs without an earthquake count under
+    every motion.
+    """
     planned = [entry for entry in cells.plan([*MOTIONS, cells.synthetic(9, 15.0, 29.0)], 4e-4) if entry.cell in (2, 3, 4)]
     missing = {(3, "modelB_quake", "seed0")}
     known = [entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing for entry in planned]
@@ -179,7 +184,8 @@ def test_collect():
     assert not np.isnan(results.values["S2"]).any()
 
 
-# --- effects ------------------------------------------------------------------------------------------------------------
+# --- effects
+# ------------------------------------------------------------------------------------------------------------
 
 LEVELS = design.levels(COUNT)
 MAINS = {0: 0.8, 5: -0.3, 11: 0.1}
@@ -212,7 +218,9 @@ def test_effects_are_recovered():
 
 
 def test_missing_cells():
-    """Some missing cells: least squares, still exact without noise. The first half: main effects, confounded with interactions. Few cells: nothing."""
+    """Some missing cells: least squares, still exact without noise. The first half: main effects, confounded with
+    interactions. Few cells: nothing.
+    """
     most = [k for k in range(32) if k not in (4, 9)]
     response = synthetic()[:, most]
     response[0, 6] = np.nan
@@ -225,7 +233,9 @@ def test_missing_cells():
 
 
 def test_errors_come_from_the_motions():
-    """One effect differs between the motions: the error of the mean is s / sqrt(n). The bootstrap with 2000 resamples errs by 2 %; allowed 5 %."""
+    """One effect differs between the motions: the error of the mean is s / sqrt(n). The bootstrap with 2000 resamples
+    errs by 2 %; allowed 5 %.
+    """
     own = np.array([0.1, 0.5, 0.3, 0.9, 0.2])
     result = found(LEVELS[:, 3] * own[:, None] / 2, typical=np.mean)
     errors = {effect.factors: effect.error for effect in result}
@@ -243,7 +253,8 @@ def test_an_effect_within_chance_does_not_stand_out():
     assert all(effect.chance == pytest.approx(0.2) for effect in result)
 
 
-# --- tables and picture -------------------------------------------------------------------------------------------------
+# --- tables and picture
+# -------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -267,7 +278,9 @@ def test_report(results, tmp_path):
 
 
 def test_report_of_half_a_design(results, tmp_path):
-    """No column is without a factor: a dash in its place, and no word of a second kind of errors. The picture has rows of factors only."""
+    """No column is without a factor: a dash in its place, and no word of a second kind of errors. The picture has rows
+    of factors only.
+    """
     half = Results(list(range(16)), results.motions, {name: shape[:, :16] for name, shape in results.values.items()})
     report.write(half, tmp_path)
     text = (tmp_path / "screening.md").read_text()

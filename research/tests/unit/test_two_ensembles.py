@@ -50,7 +50,9 @@ def test_fisher_by_hand():
 
 
 def test_equal_distributions_agree_and_others_differ():
-    """A median 1.5 times as large at a scatter of 10 %, and 15 collapses instead of 1, are found in 16 runs; the same distribution gives none."""
+    """A median 1.5 times as large at a scatter of 10 %, and 15 collapses instead of 1, are found in 16 runs; the same
+    distribution gives none.
+    """
     same = two_ensembles.rows(two_ensembles.compare("A", *ensembles()))
     assert {row[-1] for row in same} == {"no difference shown", "no test"}
     found = dict(((row[1], row[6]), row[-1]) for row in two_ensembles.rows(two_ensembles.compare("A", *ensembles(1.5))))

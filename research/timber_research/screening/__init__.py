@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Screening of the paper's open choices: a designed set of house variants (cells), each run under several motions. Needs no YADE.
+"""Screening of the paper's open choices: a designed set of house variants (cells), each run under several motions.
+Needs no YADE.
 
     cells.py      design -> house files and the rows of a batch table
     responses.py  summaries of a cell under a motion -> numbers

@@ -12,7 +12,9 @@ from .responses import RESPONSES
 
 @dataclass(frozen=True)
 class Results:
-    """cells: numbers of those with results; motions: names; values: {response: (motions, cells), NaN where a run is missing}."""
+    """cells: numbers of those with results; motions: names; values: {response: (motions, cells), NaN where a run is
+    missing}.
+    """
 
     cells: list
     motions: list
@@ -24,7 +26,9 @@ class Results:
         return SIGNS[self.cells]
 
     def typical(self, name):
-        """(cells,) value of a response over the motions: mean of shares, median of others; NaN where a motion is missing."""
+        """(cells,) value of a response over the motions: mean of shares, median of others; NaN where a motion is
+        missing.
+        """
         return RESPONSES[name].typical(self.values[name])
 
     def effects(self, name):
@@ -33,7 +37,9 @@ class Results:
 
 
 def collect(planned, summaries):
-    """Results of the planned runs. summaries: of each of them, None for a run that is not done. Cells and motions without any result are left out."""
+    """Results of the planned runs. summaries: of each of them, None for a run that is not done. Cells and motions
+    without any result are left out.
+    """
     done = [(entry, summary) for entry, summary in zip(planned, summaries, strict=True) if summary is not None]
     motions = list(dict.fromkeys(entry.motion for entry, _ in done if entry.motion))
     found = {}

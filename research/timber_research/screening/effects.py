@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Effects of factors and of their interactions on a response, with standard errors from the motions.
 
-An effect is the mean of the cells at the factor's second level minus that at the first. The complete design is orthogonal; for a part of
-its cells, effects are those of a least-squares fit, as far as the cells determine it: main effects first, then interactions.
+An effect is the mean of the cells at the factor's second level minus that at the first. The complete design is
+orthogonal; for a part of its cells, effects are those of a least-squares fit, as far as the cells determine it: main
+effects first, then interactions.
 
-Two estimates of chance are made: the scatter of the motions, and the effects of the columns without a factor, which also contain
-interactions of three factors. An effect stands out when it exceeds both.
+Two estimates of chance are made: the scatter of the motions, and the effects of the columns without a factor, which
+also contain interactions of three factors. An effect stands out when it exceeds both.
 """
 import math
 from dataclasses import dataclass
@@ -28,7 +29,8 @@ TINY = 1e-9
 class Effect:
     """kind: MAIN, INTERACTION or EMPTY; word: of its column; factors: numbers of the factors, or pairs of them.
 
-    value, error: effect and its standard error by the motions, in the response's unit; chance: root mean square of the EMPTY effects, NaN without them.
+    value, error: effect and its standard error by the motions, in the response's unit; chance: root mean square of the
+    EMPTY effects, NaN without them.
     """
 
     kind: str
@@ -50,7 +52,9 @@ class Effect:
 
     @property
     def is_tested(self):
-        """Whether it may stand out: it is that of a choice, it has an error, and the response is not the same in all cells and motions."""
+        """Whether it may stand out: it is that of a choice, it has an error, and the response is not the same in all
+        cells and motions.
+        """
         return self.kind != EMPTY and not math.isnan(self.error) and max(abs(self.value), self.error) > TINY
 
 
@@ -100,7 +104,9 @@ def _fit(cells, wanted):
 
 
 def _errors(values, inverse, typical):
-    """Standard errors of the effects: bootstrap over the motions, with the factor sqrt(n / (n - 1)) for small n; NaN for a single motion."""
+    """Standard errors of the effects: bootstrap over the motions, with the factor sqrt(n / (n - 1)) for small n; NaN
+    for a single motion.
+    """
     motions = len(values)
     if motions < 2:
         return np.full(len(inverse), np.nan)

@@ -4,7 +4,8 @@
     git apply scripts/examples/own_law/pad_law.patch && scripts/setup
     yade -n -x scripts/examples/own_law/own_law.py [--out DIR]
 
-Writes own_law.png: the force at a contact point of blocks at rest beside the law, and the height of a block that falls 5 mm.
+Writes own_law.png: the force at a contact point of blocks at rest beside the law, and the height of a block that falls
+5 mm.
 """
 import argparse
 import sys
@@ -67,7 +68,13 @@ def plot(points, path):
     for name, law, colour in (("Hertz", yt.Law2_ManifoldGeom_TimberPhys_Hertz(), ORANGE), ("pad", pad(), BLUE)):
         time, height = fall(law)
         right.plot(1e3 * time, 1e3 * height, color=colour, label=name)
-    right.set(xlabel="time [ms]", ylabel="height of the lower face [mm]", title="A block lands after 5 mm", xlim=(20, 120), ylim=(-0.4, 1))
+    right.set(
+        xlabel="time [ms]",
+        ylabel="height of the lower face [mm]",
+        title="A block lands after 5 mm",
+        xlim=(20, 120),
+        ylim=(-0.4, 1),
+    )
     right.legend()
     figure.savefig(path, dpi=150)
 

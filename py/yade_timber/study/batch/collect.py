@@ -15,8 +15,16 @@ RESULTS = {
     "collapse_time_s": "collapse_time_s",
     "tilt_time_s": "tilt_time_s",
     "tilt_direction": "tilt_direction",
-    **{f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}" for storey in (1, 2) for direction in ("ns", "ew")},
-    **{f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}" for storey in (1, 2) for direction in ("ns", "ew")},
+    **{
+        f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}"
+        for storey in (1, 2)
+        for direction in ("ns", "ew")
+    },
+    **{
+        f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}"
+        for storey in (1, 2)
+        for direction in ("ns", "ew")
+    },
     "joints": "joints.total",
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
@@ -36,7 +44,9 @@ RESULTS = {
 
 
 def write_runs(rows, folder):
-    """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for empty cells."""
+    """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for
+    empty cells.
+    """
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
     found = [_result(row, task_of(row, folder), columns) for row in rows]
     write_text(folder / RUNS, csv_text(list(found[0]) if found else ["run"], [result.values() for result in found]))

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parameter tables: a line with the names of the columns, then one line per run. Two formats are read.
 
-Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the line above;
-columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty cell is the default.
+Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the
+line above;
+columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty cell is the
+default.
 Relative paths are relative to the table's folder.
 """
 
@@ -31,7 +33,9 @@ NO_EARTHQUAKE = "none"
 class HouseChanges:
     """Columns that change the house of a row."""
 
-    set: str = option(str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1")
+    set: str = option(
+        str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"
+    )
     braces: str = option(str, "names of braces and walls to add to the house, separated by ;")
     strength: float = option(float, "factor on the strength of all joints (default 1)", default=1.0)
 
@@ -43,7 +47,10 @@ COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
 
 DESCRIPTION = "description"
 
-MIXED = "the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the values here by blanks alone"
+MIXED = (
+    "the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
+    " values here by blanks alone"
+)
 """Remedy for a table with blanks in the first line and commas in others."""
 
 
@@ -66,14 +73,23 @@ class Row:
 
     def value(self, column):
         """The value of a column in its type, or its default. Raises RunError for text that is no such value."""
-        return read(COLUMNS[column], self.cells[column], f"{self.where(column)}:") if column in self.cells else COLUMNS[column].default
+        return (
+            read(COLUMNS[column], self.cells[column], f"{self.where(column)}:")
+            if column in self.cells
+            else COLUMNS[column].default
+        )
 
     def options(self, house=None):
         """RunOptions of scripts/house.py. house: file in place of the row's. Raises RunError."""
         files = {"house": str(house or self.house), "record": self.record, "then": self.then}
         calm = self.cells.get("record") == NO_EARTHQUAKE
         door = Door(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
-        return RunOptions(quake=not calm, door=door, **{column: self.value(column) for column in DECISIVE if column not in files}, **files)
+        return RunOptions(
+            quake=not calm,
+            door=door,
+            **{column: self.value(column) for column in DECISIVE if column not in files},
+            **files,
+        )
 
     @property
     def house(self):
@@ -91,7 +107,9 @@ class Row:
 
     @property
     def then(self):
-        """Records that follow the first, with their own factors; relative paths are relative to the table. None: no sequence."""
+        """Records that follow the first, with their own factors; relative paths are relative to the table. None: no
+        sequence.
+        """
         given = self.cells.get("then")
         return None if given is None else ";".join(self._beside(part.strip()) for part in given.split(";"))
 
@@ -100,9 +118,13 @@ class Row:
 
     @property
     def name(self):
-        """Name of the run and its folder. It follows from the content of the row, its house and its record, not from its line."""
+        """Name of the run and its folder. It follows from the content of the row, its house and its record, not from
+        its line.
+        """
         label = self.description or Path(self.cells["house"]).stem
-        content = json.dumps([sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()])
+        content = json.dumps(
+            [sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()]
+        )
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
 
     def _then_digests(self):
@@ -112,7 +134,9 @@ class Row:
 
 @lru_cache(maxsize=256)
 def _house_text(house):
-    """Content of a house file and the files it extends; None for a house with errors, which the check of the row reports."""
+    """Content of a house file and the files it extends; None for a house with errors, which the check of the row
+    reports.
+    """
     try:
         return json.dumps(load_house(house).data, sort_keys=True)
     except HouseError:
@@ -143,10 +167,15 @@ def read_table(path):
     rows, above = [], {}
     for number, cells in body:
         if len(cells) != len(heads):
-            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; {_remedy(path, number)}")
+            raise BatchError(
+                f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; {_remedy(path, number)}"
+            )
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
-        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in zip(heads, cells)}
+        above = {
+            head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
+            for head, cell in zip(heads, cells)
+        }
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
         if "house" not in rows[-1].cells:
@@ -159,7 +188,9 @@ def _lines(path):
     """[(line number, cells)] of the lines that are not empty."""
     lines = _text_lines(path)
     if lines and ";" in lines[0][1]:
-        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks")
+        raise BatchError(
+            f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks"
+        )
     separate = _csv_cells if lines and "," in lines[0][1] else str.split
     return [(number, separate(line)) for number, line in lines]
 
@@ -186,7 +217,10 @@ def _remedy(path, number):
     """Remedy for a line with too few or too many values."""
     first, line = _text_lines(path)[0][1], dict(_text_lines(path))[number]
     if "," in first:
-        return 'the first line has commas, which separate the values here, too: write decimal points (1.5) and put a value with commas in quotes ("a,b")'
+        return (
+            'the first line has commas, which separate the values here, too: write decimal points (1.5) and put a value'
+            ' with commas in quotes ("a,b")'
+        )
     if "," in line and len(line.split(",")) == len(first.split()):
         return MIXED
     return "blanks separate the columns: values contain none, * stands for a default"

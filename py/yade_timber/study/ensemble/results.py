@@ -15,7 +15,11 @@ from . import statistics
 
 ROWS = (
     ("peak drift", "largest_peak_drift", ratio),
-    *((f"  storey {k} {name}", f"peak_drift.storey{k}.{key}", ratio) for k in (1, 2, 3) for key, name in (("ns", "N-S"), ("ew", "E-W"))),
+    *(
+        (f"  storey {k} {name}", f"peak_drift.storey{k}.{key}", ratio)
+        for k in (1, 2, 3)
+        for key, name in (("ns", "N-S"), ("ew", "E-W"))
+    ),
     ("residual drift", "largest_residual_drift", ratio),
     ("broken joints", "broken.total", "{:.4g}".format),
     ("  column-beam", "broken.column_beam", "{:.4g}".format),
@@ -32,7 +36,8 @@ COLUMNS = "{:<20}{:>13}   {:<30}{}"
 
 
 def content(done, errors):
-    """Content of ensemble.json. done: {number: summary} of the finished runs; errors: {number: message} of the others."""
+    """Content of ensemble.json. done: {number: summary} of the finished runs; errors: {number: message} of the others.
+    """
     found, count = list(done.values()), len(done)
     frequency = statistics.outcomes(found)
     return {
@@ -48,24 +53,35 @@ def content(done, errors):
 
 
 def write(folder, found, done, planned):
-    """Write ensemble.json, ensemble.csv and the results of the run that is shown, its summary last; returns the paths. Raises OSError, RunError.
+    """Write ensemble.json, ensemble.csv and the results of the run that is shown, its summary last; returns the paths.
+    Raises OSError, RunError.
 
     found: `content`; planned: tasks of the runs
     """
     write_text(folder / NAME, json.dumps(found, indent=1, allow_nan=False) + "\n")
     write_text(folder / TABLE, table_text(found, done, planned))
     shown = found["shown"]
-    return [folder / NAME, folder / TABLE, *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done)))]
+    return [
+        folder / NAME,
+        folder / TABLE,
+        *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done))),
+    ]
 
 
 def table_text(found, done, planned):
-    """Text of ensemble.csv: one row a run, with all numbers of the summary and the texts that are not the same in all runs."""
+    """Text of ensemble.csv: one row a run, with all numbers of the summary and the texts that are not the same in all
+    runs.
+    """
     texts = [place for place, values in found["words"].items() if len(values) > 1 and place != "verdict"]
     header = ("run", "folder", "verdict", "error", *found["numbers"], *texts)
     rows = []
     for number, task in enumerate(planned, 1):
         summary = done.get(number)
-        known = {**statistics.words(summary), **statistics.numbers(summary)} if summary else {"error": found["errors"][number]}
+        known = (
+            {**statistics.words(summary), **statistics.numbers(summary)}
+            if summary
+            else {"error": found["errors"][number]}
+        )
         known = {place: value for place, value in known.items() if value != statistics.NONE}
         place = task.folder.relative_to(task.folder.parents[1])
         rows.append((number, place, *(known.get(column, "") for column in header[2:])))
@@ -73,15 +89,23 @@ def table_text(found, done, planned):
 
 
 def draw(found, done):
-    """The entry `ensemble` in the summary of the run that is shown: its number, the outcomes, the ranges over all runs."""
+    """The entry `ensemble` in the summary of the run that is shown: its number, the outcomes, the ranges over all runs.
+    """
     standing = [summary.largest_drift()[0] for summary in done.values() if not summary.collapsed]
     failed = {"failed": len(found["errors"])} if found["errors"] else {}
     outcomes = {**{state: known["runs"] for state, known in found["outcomes"].items()}, **failed}
-    return Ensemble(run=found["shown"], runs=found["runs"], outcomes=outcomes, peak_drift_standing=[min(standing), max(standing)] if standing else None)
+    return Ensemble(
+        run=found["shown"],
+        runs=found["runs"],
+        outcomes=outcomes,
+        peak_drift_standing=[min(standing), max(standing)] if standing else None,
+    )
 
 
 def show(folder, run, summary):
-    """Copy the results of a run into the folder of the ensemble, with another summary; returns the paths. Raises OSError, RunError."""
+    """Copy the results of a run into the folder of the ensemble, with another summary; returns the paths. Raises
+    OSError, RunError.
+    """
     written = []
     for table in sorted(run.glob("*.csv")):
         with written_whole(folder / table.name) as part:
@@ -96,17 +120,26 @@ def show(folder, run, summary):
     return [*written, summary.write(folder)]
 
 
-# --- lines for the terminal ---------------------------------------------------------------------------------------------
+# --- lines for the terminal
+# ---------------------------------------------------------------------------------------------
 
 
 def lines(found, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
     count = len(found["finished"])
-    heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m", *map(_outcome, found["outcomes"].items())]
+    heads = [
+        f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m",
+        *map(_outcome, found["outcomes"].items()),
+    ]
     heads += [f"failed: {counted(len(found['errors']), 'run')}"] if found["errors"] else []
-    rows = [_row(label, found["numbers"][place], text, count) for label, place, text in ROWS if place in found["numbers"]]
+    rows = [
+        _row(label, found["numbers"][place], text, count) for label, place, text in ROWS if place in found["numbers"]
+    ]
     number = found["shown"]
-    reason = f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of the {shown.verdict} ones"
+    reason = (
+        f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of"
+        f" the {shown.verdict} ones"
+    )
     return [*heads, COLUMNS.format("", "median", "lowest to highest", "").rstrip(), *rows, reason]
 
 
@@ -118,4 +151,6 @@ def _outcome(item):
 
 def _row(label, known, text, count):
     part = f"in {counted(known['runs'], 'run')}" if known["runs"] < count else ""
-    return COLUMNS.format(label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])), part).rstrip()
+    return COLUMNS.format(
+        label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])), part
+    ).rstrip()

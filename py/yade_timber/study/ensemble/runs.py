@@ -14,15 +14,21 @@ FEWEST = 2
 
 
 def tasks(script, options):
-    """Tasks of the runs of an ensemble, the first one undisturbed. script: name without .py; options: RunOptions of the ensemble"""
-    return [Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None)) for k in range(1, options.ensemble + 1)]
+    """Tasks of the runs of an ensemble, the first one undisturbed. script: name without .py; options: RunOptions of the
+    ensemble
+    """
+    return [
+        Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
+        for k in range(1, options.ensemble + 1)
+    ]
 
 
 def complete(script, options):
     """Run what is missing of an ensemble, and write its results.
 
     script: path of the run script; options: RunOptions.
-    Raises RunError, also when some runs have failed, and KeyboardInterrupt after a signal, when the started runs have saved their checkpoints.
+    Raises RunError, also when some runs have failed, and KeyboardInterrupt after a signal, when the started runs have
+    saved their checkpoints.
     """
     if not script.is_file():
         raise RunError(f"--ensemble: {script}: no such script, which the runs start")
@@ -57,6 +63,8 @@ def _write(options, planned, done, errors):
         if options.report:
             written += report_page.write(options.folder)
     except OSError as problem:
-        raise RunError(f"{options.folder}: the results cannot be written ({problem.strerror}); repeat the command") from None
+        raise RunError(
+            f"{options.folder}: the results cannot be written ({problem.strerror}); repeat the command"
+        ) from None
     shown = done[content["shown"]]
     return "\n".join([*results.lines(content, shown), "written: " + ", ".join(map(str, written))])

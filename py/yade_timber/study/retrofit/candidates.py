@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Strengthening measures of a house: a brace or a wall in a free bay, double fittings in a group of joints, snow cleared from the roofs."""
+"""Strengthening measures of a house: a brace or a wall in a free bay, double fittings in a group of joints, snow
+cleared from the roofs.
+"""
 import math
 from dataclasses import dataclass
 
@@ -32,7 +34,9 @@ AS_IT_IS = Candidate("as_it_is", "house as it is")
 
 
 def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
-    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]; group: of GROUPS. Raises HouseError."""
+    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]; group:
+    of GROUPS. Raises HouseError.
+    """
     description = load_house(house)
     model = build_house(description, check=False)
     measures = in_bays if group == "bay" else in_walls
@@ -60,7 +64,8 @@ def fittings(description, model):
 
 
 def _doubled(name, group):
-    """Value of the column `set`: twice the number of fittings, and of the strength where the group has one of its own."""
+    """Value of the column `set`: twice the number of fittings, and of the strength where the group has one of its own.
+    """
     strength = "" if group.get("strength") is None else f";joints.{name}.strength={2 * group['strength']:g}"
     return f"joints.{name}.number={2 * group.get('number', 1):g}{strength}"
 
@@ -71,11 +76,16 @@ def in_bays(model, names):
 
 
 def in_walls(model, names):
-    """A measure for each line of columns in a storey, 'main.brace1.EW.y0': braces or walls in all its free bays at once."""
+    """A measure for each line of columns in a storey, 'main.brace1.EW.y0': braces or walls in all its free bays at
+    once.
+    """
     lines = {}
     for name in names:
         lines.setdefault(bay_line(name), []).append(name)
-    return [Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),)) for line, bays in lines.items()]
+    return [
+        Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),))
+        for line, bays in lines.items()
+    ]
 
 
 def bay_line(name):
@@ -85,14 +95,19 @@ def bay_line(name):
 
 
 def bay_text(model, name):
-    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall; 'plywood wall: ...'."""
+    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall; 'plywood wall:
+    ...'.
+    """
     xs, ys = bay_ends(model, name)
     along = bay_parts(name)[2]
-    return f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m {'east' if along == 'x' else 'north'}"
+    return (
+        f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m {'east' if along == 'x' else 'north'}"
+    )
 
 
 def line_text(model, name, bays=1):
-    """'brace: main, storey 1, south wall' of a brace or wall by name; 'braces in 4 bays: ...' of several in one line."""
+    """'brace: main, storey 1, south wall' of a brace or wall by name; 'braces in 4 bays: ...' of several in one line.
+    """
     structure, storey, along, *_ = bay_parts(name)
     measure = f"{SHEATHING} wall" if wall_parts(name) else "brace"
     number = f"s in {bays} bays" if bays > 1 else ""
@@ -100,7 +115,11 @@ def line_text(model, name, bays=1):
     at = ys[0] if along == "x" else xs[0]
     lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
     low, high = ("south", "north") if along == "x" else ("west", "east")
-    side = low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
+    side = (
+        low
+        if at < min(lines) + 0.01
+        else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
+    )
     return f"{measure}{number}: {structure}, storey {storey}, {side} wall"
 
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Statistics of a ranking: selection of finalists, their tests under motions of their own, Holm's correction. Needs no YADE.
+"""Statistics of a ranking: selection of finalists, their tests under motions of their own, Holm's correction. Needs no
+YADE.
 
-The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is compared with the house
-as it is under the same motions. The first motions select the finalists, the others test them. A dropped measure has no test, and costs the
-finalists no significance: the motions that chose them do not test them.
+The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is
+compared with the house as it is under the same motions. The first motions select the finalists, the others test them. A
+dropped measure has no test, and costs the finalists no significance: the motions that chose them do not test them.
 """
 import math
 from dataclasses import dataclass
@@ -37,7 +38,10 @@ def rounds(motions, count):
     """[(motions so far, measures in the round)]: rounds of the selection, then the test under all other motions."""
     number = min(selections(count), (motions - LEAST_TESTS) // ROUND)
     ratio = count / FINALISTS
-    return [*((ROUND * (k + 1), math.ceil(count / ratio ** (k / number) - 1e-9)) for k in range(number)), (motions, min(count, FINALISTS))]
+    return [
+        *((ROUND * (k + 1), math.ceil(count / ratio ** (k / number) - 1e-9)) for k in range(number)),
+        (motions, min(count, FINALISTS)),
+    ]
 
 
 def cost(motions, count):
@@ -66,7 +70,9 @@ def signed_rank(differences):
 
 
 def exact_sign(fewer, more):
-    """Two-sided p of McNemar's exact test: under `fewer` motions only one of two houses collapses, under `more` only the other."""
+    """Two-sided p of McNemar's exact test: under `fewer` motions only one of two houses collapses, under `more` only
+    the other.
+    """
     return float(stats.binomtest(fewer, fewer + more).pvalue) if fewer + more else 1.0
 
 
@@ -93,7 +99,9 @@ def holm(values, count):
 
 @dataclass
 class Entry:
-    """A measure in the race. runs: {motion: row of runs.csv}; dropped: number of motions after which it was dropped, or None; failed: error."""
+    """A measure in the race. runs: {motion: row of runs.csv}; dropped: number of motions after which it was dropped, or
+    None; failed: error.
+    """
 
     candidate: object
     runs: dict
@@ -103,7 +111,9 @@ class Entry:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A measure and the house as it is under the same motions. differences (M,) of the responses; collapses, house_collapses (M,) bool."""
+    """A measure and the house as it is under the same motions. differences (M,) of the responses; collapses,
+    house_collapses (M,) bool.
+    """
 
     differences: np.ndarray
     collapses: np.ndarray
@@ -118,15 +128,20 @@ class Comparison:
     def by_collapses(self):
         """Whether collapses are compared: in half of the pairs or more, a house has collapsed, and no drift is known.
 
-        Which of the two houses has is of no influence, so that this choice does not change how often equal houses are found different.
+        Which of the two houses has is of no influence, so that this choice does not change how often equal houses are
+        found different.
         """
         return 2 * int((self.collapses | self.house_collapses).sum()) >= len(self.differences)
 
     @property
     def p(self):
-        """Two-sided p of a paired test: McNemar's exact test of the collapses, or Wilcoxon's signed-rank test of the responses."""
+        """Two-sided p of a paired test: McNemar's exact test of the collapses, or Wilcoxon's signed-rank test of the
+        responses.
+        """
         if self.by_collapses:
-            return exact_sign(int((self.collapses & ~self.house_collapses).sum()), int((self.house_collapses & ~self.collapses).sum()))
+            return exact_sign(
+                int((self.collapses & ~self.house_collapses).sum()), int((self.house_collapses & ~self.collapses).sum())
+            )
         return signed_rank(self.differences)
 
     @property
@@ -154,7 +169,9 @@ def select(entries, house, keep):
 
 @dataclass(frozen=True)
 class Result:
-    """Row of the ranking. comparison: of a finalist under the motions of the test, else of the selection; p: corrected, None if dropped."""
+    """Row of the ranking. comparison: of a finalist under the motions of the test, else of the selection; p: corrected,
+    None if dropped.
+    """
 
     entry: Entry
     comparison: Comparison
@@ -188,12 +205,19 @@ class Result:
 
 
 def ranking(entries, house, tests):
-    """Results, the best first: the finalists, then the dropped measures, the last dropped first. tests: names of the motions of the test"""
+    """Results, the best first: the finalists, then the dropped measures, the last dropped first. tests: names of the
+    motions of the test
+    """
     finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
     compared = {id(entry): compare(entry, house, tests) for entry in finalists}
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
-    results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))) for entry in entries]
-    return sorted(results, key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf), result.comparison.mean))
+    results = [
+        _result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))) for entry in entries
+    ]
+    return sorted(
+        results,
+        key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf), result.comparison.mean),
+    )
 
 
 def _result(entry, comparison, p):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a ranking: pilot runs that choose the strength of the motions, rounds of a batch that select finalists, and their test.
+"""Runs of a ranking: pilot runs that choose the strength of the motions, rounds of a batch that select finalists, and
+their test.
 
 A stopped ranking continues.
 """
@@ -28,7 +29,8 @@ FINEST = 1.2
 
 @dataclass
 class Ranking:
-    """A ranking in a folder. motions: [(name, cells)], the first ones for the selection; same: cells of all runs; scripts: folder of the run scripts;
+    """A ranking in a folder. motions: [(name, cells)], the first ones for the selection; same: cells of all runs;
+    scripts: folder of the run scripts;
     jobs: runs at a time."""
 
     folder: Path
@@ -55,20 +57,29 @@ class Ranking:
         return [name for name, _ in self.motions[selection:]]
 
     def check(self):
-        """Check all rows before the first run: each candidate under the first motion, the house as it is under all. Raises BatchError."""
-        rows = self._rows([(AS_IT_IS, motion) for motion in self.motions] + [(candidate, self.motions[0]) for candidate in self.candidates])
+        """Check all rows before the first run: each candidate under the first motion, the house as it is under all.
+        Raises BatchError.
+        """
+        rows = self._rows(
+            [(AS_IT_IS, motion) for motion in self.motions]
+            + [(candidate, self.motions[0]) for candidate in self.candidates]
+        )
         check_rows(rows, self.folder)
 
     def choose_scale(self, report=print):
-        """Scale the motions so that about half of the pilots bring the house as it is down; returns a sentence about it.
+        """Scale the motions so that about half of the pilots bring the house as it is down; returns a sentence about
+        it.
 
-        The factor is halved or doubled until the answer lies between two factors, then their geometric mean is tried. report: called with one
-        line after each factor. Raises RunError when a run fails.
+        The factor is halved or doubled until the answer lies between two factors, then their geometric mean is tried.
+        report: called with one line after each factor. Raises RunError when a run fails.
         """
         pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
         while scale not in shares:
             shares[scale] = self._pilot(pilots, scale) / len(pilots)
-            report(f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of {len(pilots)} runs")
+            report(
+                f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of"
+                f" {len(pilots)} runs"
+            )
             if abs(shares[scale] - 0.5) < 0.2:
                 break
             low, high = (low, scale) if shares[scale] > 0.5 else (scale, high)
@@ -79,7 +90,10 @@ class Ranking:
         scale = min(shares, key=lambda one: (abs(shares[one] - 0.5), one if shares[one] > 0.5 else -one))
         self.motions = [(name, {**cells, "scale": f"{scale:g}"}) for name, cells in self.motions]
         fallen = f"{shares[scale] * len(pilots):.0f} of the first {len(pilots)}"
-        return f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses another strength."
+        return (
+            f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses"
+            " another strength."
+        )
 
     def _pilot(self, pilots, scale):
         """Number of pilots, scaled, under which the house as it is collapses."""
@@ -88,7 +102,8 @@ class Ranking:
         return sum(bool(run["collapsed"]) for run in house.runs.values())
 
     def run(self, report=print):
-        """All rounds. report: called with one line after each. Raises RunError when a run of the house as it is fails."""
+        """All rounds. report: called with one line after each. Raises RunError when a run of the house as it is fails.
+        """
         racing, pairs, before = self.entries, [], 0
         for number, (done, count) in enumerate(self.plan, 1):
             racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
@@ -100,8 +115,8 @@ class Ranking:
             before = done
 
     def _run(self, pairs, house):
-        """Run [(Entry, motion)] and store the runs; returns the rows of runs.csv. house: Entry of the house as it is. Raises RunError after a run that
-        was stopped."""
+        """Run [(Entry, motion)] and store the runs; returns the rows of runs.csv. house: Entry of the house as it is.
+        Raises RunError after a run that was stopped."""
         rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
         run_rows(rows, self.folder, self.scripts, self.jobs)
         found = write_runs(rows, self.folder)
@@ -111,16 +126,24 @@ class Ranking:
             if run["status"] == "done":
                 entry.runs[motion] = run
             elif entry is house:
-                raise RunError(f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to compare with")
+                raise RunError(
+                    f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to compare"
+                    " with"
+                )
             else:
                 entry.failed = run["error"] or run["status"]
         return found
 
     def _rows(self, pairs):
         """Rows of a batch table for [(candidate, motion)], written to the folder."""
-        cells = [{**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"} for candidate, (name, motion) in pairs]
+        cells = [
+            {**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"}
+            for candidate, (name, motion) in pairs
+        ]
         columns = [column for column in (*COLUMNS, "description") if any(column in row for row in cells)]
-        write_text(self.folder / TABLE, csv_text(columns, [[row.get(column, "") for column in columns] for row in cells]))
+        write_text(
+            self.folder / TABLE, csv_text(columns, [[row.get(column, "") for column in columns] for row in cells])
+        )
         return read_table(self.folder / TABLE)
 
     def task(self, entry, motion):
