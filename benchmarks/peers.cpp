@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Time per pair and step of this kernel, Bullet and ODE (Google Benchmark), with the contact points found by each.
 ///   timber          manifold, elastic law and contact solver, with cached candidates; the pair vibrates as in a house
-///   at rest timber points   contact points only timber cold     contact points from an empty cache Bullet contact
-///   points, boxes as boxes;  Bullet hulls: boxes as convex hulls;  Bullet cold: new manifold in each step ODE contact
-///   points; ODE has no cache
+///                   at rest
+///   timber points   contact points only
+///   timber cold     contact points from an empty cache
+///   Bullet          contact points, boxes as boxes;  Bullet hulls: boxes as convex hulls;  Bullet cold: new manifold
+///                                                                                          in each step
+///   ODE             contact points; ODE has no cache
 #include "bullet_pair.hpp"
 #include "ode_pair.hpp"
 #include "timber_pair.hpp"

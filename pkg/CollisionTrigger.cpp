@@ -64,10 +64,11 @@ void CollisionTrigger::takeSnapshots()
 void CollisionTrigger::action()
 {
 	if (!dynamic_cast<Collider*>(collider.get()))
-		throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
+		throw std::invalid_argument("CollisionTrigger.collider: a "
+		                            "Collider is required");
 	lastStep = scene->iter;
-	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty
-	        || scene->doSort; // doSort: bodies were added
+	// DoSort: bodies were added
+	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort;
 	if (!changed && !mayHaveLeftBox()) return;
 	collider->scene = scene;
 	const OneThread serial;

@@ -2,12 +2,12 @@
 /// Runs the collider only when a body may have left its bounding box.
 ///
 /// * The boxes of RoundedPolyhedron are larger than the body by a margin (Bo1_RoundedPolyhedron_Aabb), as the skin of a
-/// Verlet list.
+///   Verlet list.
 /// * After each run of the collider, a snapshot stores the pose and the margin of each body.
 /// * In each step, the motion since the snapshot is bounded: displacement of the centre plus displacement of the
-/// surface by rotation.
+///   surface by rotation.
 /// * The collider runs again if a bound exceeds a margin, if bodies were added or erased, or if interactions were
-/// reset.
+///   reset.
 /// * Boxes of other shapes have no margin: any motion of these bodies starts the collider.
 #pragma once
 #include <pch.hpp>

@@ -94,7 +94,9 @@ void ContactForces::checkPlacements() const
 	for (const ContactPair& pair : pairs)
 		if (pair.placed > 0 && pair.phys->placedOverlap > timber::largestPlacedOverlap)
 			throw std::runtime_error("bodies " + std::to_string(pair.id1) + " and "
-			        + std::to_string(pair.id2) + " were placed with an overlap of "
+			        + std::to_string(pair.id2)
+			        + " "
+			          "were placed with an overlap of "
 			        + std::to_string(1000 * pair.phys->placedOverlap) + " mm: at most "
 			        + std::to_string(1000 * timber::largestPlacedOverlap) + " mm; move one of them");
 }
@@ -113,9 +115,8 @@ void ContactForces::findIslands()
 
 void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
 {
-	if (bodies[id1].inverseMass > 0)
-		sums.add(id1, -f.onB,
-		        f.torqueA); // a fixed body may belong to several islands, which other threads solve
+	// A fixed body may belong to several islands, which other threads solve
+	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA);
 	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
 }
 
@@ -234,8 +235,8 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(
 
 Real ContactForces::largestEigenvalue() const
 {
-	const Scene& now
-	        = *Omega::instance().getScene(); // an engine of a loaded scene has no scene before its first step
+	// An engine of a loaded scene has no scene before its first step
+	const Scene& now = *Omega::instance().getScene();
 	const std::vector<timber::SolverBody> masses = placements(now);
 	return timber::largestEigenvalue(masses, linearSprings(now, masses));
 }

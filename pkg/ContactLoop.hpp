@@ -2,14 +2,13 @@
 /// The loop over interactions, without the pairs that cannot be in contact.
 ///
 /// * The wrapped InteractionLoop runs when the collider has run, or when interactions were added or erased. It creates
-/// geometry and physics,
-///   erases interactions, and selects the functors of each pair.
+///   geometry and physics, erases interactions, and selects the functors of each pair.
 /// * In all other steps, these functors are called directly.
 /// * A pair is skipped as long as the approach of its bodies since the collider ran (CollisionTrigger) is less than
-/// their separation.
+///   their separation.
 /// * The result is that of the InteractionLoop, bit for bit.
 /// * Pairs of two fixed bodies have neither geometry nor physics. If one of the bodies is freed, the InteractionLoop
-/// runs.
+///   runs.
 /// * Without a CollisionTrigger, or with shapes other than RoundedPolyhedron, the InteractionLoop runs in each step.
 #pragma once
 #include <pch.hpp>

@@ -64,9 +64,8 @@ namespace {
 	void updateMass(Interaction& I, const Body& b1, const Body& b2)
 	{
 		const Real mass = timber::reduced(massOf(b1), massOf(b2));
-		if (math::isfinite(mass))
-			static_cast<ManifoldPhys*>(I.phys.get())->mass
-			        = mass; // else both are fixed: no contact force acts
+		// Else both are fixed: no contact force acts
+		if (math::isfinite(mass)) static_cast<ManifoldPhys*>(I.phys.get())->mass = mass;
 	}
 
 	bool boundsOverlap(const Body& b1, const Body& b2)
@@ -180,8 +179,8 @@ void Ip2_ElementMat_ElementMat_SnowPhys::go(
 	SnowPhys* phys = physToUpdate<SnowPhys>(*I, *m1, *m2);
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	updateMass(*I, b1, b2);
-	static_cast<SnowPhys*>(I->phys.get())->stiffness
-	        = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // with the masses of now
+	// With the masses of now
+	static_cast<SnowPhys*>(I->phys.get())->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
 	if (phys)
 		setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction,
 		        static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);

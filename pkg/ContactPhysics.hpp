@@ -35,10 +35,10 @@ class ManifoldPhys : public IPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
-	long materialChanges = -1; ///< sum of ElementMat::changes when the attributes were taken from the materials;
-	                           ///< -1: unknown, they were loaded
-	Real placedEnergy = 0, placedOverlap = 0; ///< of bodies that were placed in contact, in this step only: of all
-	                                          ///< springs [J], of the deepest point [m]
+	/// Sum of ElementMat::changes when the attributes were taken from the materials; -1: unknown, they were loaded.
+	long materialChanges = -1;
+	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
+	Real placedEnergy = 0, placedOverlap = 0;
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const

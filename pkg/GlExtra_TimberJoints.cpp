@@ -9,8 +9,8 @@ namespace yade {
 YADE_PLUGIN((GlExtra_TimberJoints));
 
 namespace {
-	const Vector3r blue(0, 0.45, 0.70), yellow(0.94, 0.89, 0.26), red(0.84, 0.37, 0),
-	        amber(0.90, 0.62, 0); // Okabe and Ito 2008
+	// Okabe and Ito 2008
+	const Vector3r blue(0, 0.45, 0.70), yellow(0.94, 0.89, 0.26), red(0.84, 0.37, 0), amber(0.90, 0.62, 0);
 
 	Vector3r loadColor(Real load)
 	{
@@ -53,10 +53,13 @@ namespace {
 void GlExtra_TimberJoints::validate() const
 {
 	if (!(size > 0))
-		throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
+		throw std::invalid_argument("GlExtra_TimberJoints.size = "
+		                            ""
+		        + std::to_string(size) + ": it must be > 0");
 	if (!(cross > 0))
-		throw std::invalid_argument(
-		        "GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
+		throw std::invalid_argument("GlExtra_TimberJoints.cross = "
+		                            ""
+		        + std::to_string(cross) + ": it must be > 0");
 }
 
 void GlExtra_TimberJoints::render()

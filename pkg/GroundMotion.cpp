@@ -32,8 +32,9 @@ Vector3r GroundMotionEngine::at(Real time) const
 Real GroundMotionEngine::peakBetween(Real from, Real until) const
 {
 	Real peak = math::max(at(from).norm(), at(until).norm());
+	// Linear between samples
 	for (Real k = math::max(Real(0), math::ceil((from - start) / step));
-	        k < acceleration.size() && start + k * step < until; ++k) // linear between samples
+	        k < acceleration.size() && start + k * step < until; ++k)
 		peak = math::max(peak, math::abs(scale) * acceleration[size_t(k)].norm());
 	return peak;
 }

@@ -26,8 +26,8 @@ class HealthCheck : public GlobalEngine {
 		bool isCurrent(const Body&) const;
 	};
 	std::vector<boost::optional<CheckedBody>> checkedBodies; ///< by id, as those of the scene at the last check
-	std::vector<const void*> checkedParts,
-	        parts; ///< of the engines (findParts): at the last check of the scene, and in this step
+	/// Of the engines (findParts): at the last check of the scene, and in this step.
+	std::vector<const void*> checkedParts, parts;
 	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
 

@@ -13,8 +13,9 @@ struct JointEnergies {
 };
 
 /// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which
-/// at least one is free. bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of
-/// Newmark's term of the others, added to [J].
+/// at least one is free.
+/// bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of Newmark's term of the
+/// others, added to [J].
 void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
         std::vector<TimberJoint*>& found, Real& lost);
 

@@ -34,8 +34,8 @@ namespace {
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 {
 	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
-		throw std::invalid_argument(
-		        "JointEngine.append: joint: it must be a TimberJoint with anchors1 and anchors2");
+		throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and "
+		                            "anchors2");
 	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
@@ -71,7 +71,8 @@ void JointEngine::checkJoints() const
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
 			refuse(k,
 			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)
-			                + ": they must be ids of two bodies");
+			                + ": "
+			                  "they must be ids of two bodies");
 	}
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
-/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp.
+/// kernel/joint_law.hpp. Yielding springs:
+/// kernel/slip_law.hpp.
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>

@@ -18,8 +18,9 @@ boost::python::tuple packedJoints(const shared_ptr<JointEngine>&);
 boost::python::tuple packedContacts();
 
 /// (pairs, values) of the linearised springs of all contact points and joints: bytes of int32 (n, 2), body ids [-], and
-/// of float64 (n, 14): arms from both centres of mass [m], unit normal [-], normal and tangential stiffness [N/m],
-/// force on the second body [N]; world frame.
+/// of float64 (n, 14):
+/// arms from both centres of mass [m], unit normal [-], normal and tangential stiffness [N/m], force on the second body
+/// [N]; world frame.
 boost::python::tuple packedSprings();
 
 } // namespace yade

@@ -17,7 +17,8 @@ void checkContacts(const Scene&);
 void checkStep(const Scene&);
 
 /// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their
-/// functors, in order. parts: out.
+/// functors, in order.
+/// parts: out.
 void findParts(const Scene&, std::vector<const void*>& parts);
 
 /// Shape, material, state and mass of a body are those that the package's engines can deal with. Throws

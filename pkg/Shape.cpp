@@ -57,7 +57,8 @@ void RoundedPolyhedron::validate() const
 {
 	if (!(radius >= 0 && std::isfinite(radius)))
 		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius)
-		        + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
+		        + ": it must be >= "
+		          "0 (0 takes 10 % of the shortest edge)");
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
@@ -98,18 +99,18 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 	const RoundedPolyhedron* shape = roundedShape(b);
 	if (!shape) return 0;
 	const State& s = *b.state;
+	// In one step
 	const Real displacement = dt
-	        * (s.vel.norm()
-	                + timber::rotationSpeed(
-	                        s.ori.conjugate() * s.angVel, shape->geometry->halfExtents)); // in one step
+	        * (s.vel.norm() + timber::rotationSpeed(s.ori.conjugate() * s.angVel, shape->geometry->halfExtents));
 	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
 }
 
 void Bo1_RoundedPolyhedron_Aabb::validate() const
 {
 	if (!(margin >= 0 && std::isfinite(margin)))
-		throw std::invalid_argument(
-		        "Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
+		throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = "
+		                            ""
+		        + std::to_string(margin) + ": it must be >= 0");
 }
 
 void Bo1_RoundedPolyhedron_Aabb::go(

@@ -54,7 +54,8 @@ inline const RoundedPolyhedron* roundedShape(const Body& b)
 }
 
 /// Margin of an element's bounding box on all sides: `margin` [m], or more for a fast body, so that it stays in its box
-/// for several steps. 0 for other shapes, whose boxes are made elsewhere. dt: time step [s]. Returns [m].
+/// for several steps.
+/// 0 for other shapes, whose boxes are made elsewhere. dt: time step [s]. Returns [m].
 Real boxMargin(const Body& b, Real margin, Real dt);
 
 class Bo1_RoundedPolyhedron_Aabb : public BoundFunctor {

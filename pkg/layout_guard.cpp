@@ -16,8 +16,8 @@ struct Field {
 	std::string owner; ///< YADE class, as in yade.wrapper
 	std::string attribute; ///< its attribute
 	std::string pointee; ///< class pointed to, empty for a plain value
-	std::function<py::object(const py::object&, long)>
-	        read; ///< value, or the address pointed to, `shift` bytes beside the member
+	/// Value, or the address pointed to, `shift` bytes beside the member.
+	std::function<py::object(const py::object&, long)> read;
 	std::function<void(const py::object&, const py::object&)> write;
 };
 

@@ -67,7 +67,9 @@ void checkReplacedPart(const yade::Body& body)
 void setThreadCount(int count)
 {
 	if (count < 1)
-		throw std::invalid_argument("set_thread_count: count = " + std::to_string(count) + ": it must be >= 1");
+		throw std::invalid_argument("set_thread_count: count = "
+		                            ""
+		        + std::to_string(count) + ": it must be >= 1");
 	timber::setThreadCount(count);
 }
 

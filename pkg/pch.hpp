@@ -2,9 +2,10 @@
 // Precompiled header, forced in front of every plugin source: YADE's headers, without their Python bindings.
 //
 // Each YADE class defines its bindings (pyRegisterClass) inline, and each file that includes it compiles them again: 40
-// s a file. The running YADE has bound the classes already. A declaration is enough, and makes it the class's key
-// function, so that the vtable comes from YADE's library, too. Bindings of members that are newer than the host are
-// dropped with the rest.
+// s a file.
+// The running YADE has bound the classes already. A declaration is enough, and makes it the class's key function, so
+// that the vtable comes from YADE's library, too. Bindings of members that are newer than the host are dropped with the
+// rest.
 #pragma once
 
 #include <lib/serialization/Serializable.hpp>

@@ -26,21 +26,23 @@ constexpr double smallestSize = 1e-6, largestSize = 1e6;
 constexpr double planarShare = 1e-6;
 
 /// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. It is used only if the
-/// faces do not close with a smaller value. [-] Larger: more warped input is accepted and the core deviates more from
-/// it; smaller: it is refused.
+/// faces do not close with a smaller value. [-]
+/// Larger: more warped input is accepted and the core deviates more from it; smaller: it is refused.
 constexpr double warpShare = 1e-3;
 
 /// Corners closer to their face's plane than this fraction of the polyhedron's size are in it but for rounding. [-]
-/// Mass properties of bodies with other faces are those of the convex hull. Larger: mass properties of warped faces
-/// depend on their diagonals; smaller: those of rotated boxes change in their last digits.
+/// Mass properties of bodies with other faces are those of the convex hull.
+/// Larger: mass properties of warped faces depend on their diagonals; smaller: those of rotated boxes change in their
+/// last digits.
 constexpr double roundingShare = 1e-11;
 
 // --- contact points ---
 
 /// Two positions closer than this coincide: a vertex above the border of a face, a crossing at the end of an edge, two
 /// vertices. [m] It is below any construction tolerance and far above rounding errors, so that flush contacts do not
-/// depend on rounding. Larger: a member slides farther beyond a border before it loses the support of a face; smaller:
-/// rounding decides about flush contacts.
+/// depend on rounding.
+/// Larger: a member slides farther beyond a border before it loses the support of a face; smaller: rounding decides
+/// about flush contacts.
 constexpr double flushTolerance = 1e-4;
 
 /// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this. [-]
@@ -64,21 +66,22 @@ constexpr double candidateSkin = 8e-3;
 constexpr double restSkin = candidateSkin / 40;
 constexpr int restInterval = 100; ///< [updates]
 static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance,
-        "the skin must cover the distance of a flush support from a corner");
+        "the skin must cover the distance of a flush "
+        "support from a corner");
 
 /// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs
-/// about five updates, and many such pairs have none (vertex-edge contacts, which are off by default). Larger:
-/// separated pairs are recognised later; smaller: more tests.
+/// about five updates, and many such pairs have none (vertex-edge contacts, which are off by default).
+/// Larger: separated pairs are recognised later; smaller: more tests.
 constexpr int axisInterval = 24;
 
 /// Candidates: the crossing of two edges is extrapolated to first order in the motion if the sine of their angle
-/// exceeds this; otherwise the distance of the edges decides alone. [-] Larger: more candidates; smaller: the shift of
-/// a crossing exceeds the first-order bound.
+/// exceeds this; otherwise the distance of the edges decides alone. [-]
+/// Larger: more candidates; smaller: the shift of a crossing exceeds the first-order bound.
 constexpr double crossingSine = 0.2;
 
 /// Minimum radius of the region in which the motion of a pair is bounded, in skins. [-] It limits the rotation between
-/// two searches to its inverse, 0.04 rad. Larger: a search after smaller rotations; smaller: the small-angle bounds of
-/// the search no longer hold.
+/// two searches to its inverse, 0.04 rad.
+/// Larger: a search after smaller rotations; smaller: the small-angle bounds of the search no longer hold.
 constexpr double minRegionSkins = 25;
 
 /// Largest overlap with which bodies may be placed. [m] Loaded members of a house overlap by less than 0.1 mm.
@@ -109,13 +112,15 @@ constexpr double roundingTolerance = 1e-8;
 constexpr double thresholdDrop = 0.25;
 
 /// Duration of the longest impact whose velocity of separation is bounded, in steps. [-] Longer ones are resolved by
-/// the steps: the restitution is right to 10 % at 20 steps for a critical dashpot. Larger: points of a face that touch
-/// together keep the restitution of a single one at smaller steps; smaller: less accurate impacts.
+/// the steps: the restitution is right to 10 % at 20 steps for a critical dashpot.
+/// Larger: points of a face that touch together keep the restitution of a single one at smaller steps; smaller: less
+/// accurate impacts.
 constexpr double impactSteps = 20;
 
 /// Time for which the separation after a touch is bounded, in durations of the undamped impact. [-] Damped impacts that
-/// act alone take at most one. Larger: the velocity at which contacts with other loads separate is bounded for longer;
-/// smaller: impacts end without their restitution.
+/// act alone take at most one.
+/// Larger: the velocity at which contacts with other loads separate is bounded for longer; smaller: impacts end without
+/// their restitution.
 constexpr double impactDurations = 1.5;
 
 /// Velocity by which other contacts and forces press the surfaces together within the duration of an impact, or a step
@@ -125,8 +130,9 @@ constexpr double impactDurations = 1.5;
 constexpr double impactLoadShare = 1;
 
 /// Softness s of the bound of an impact. [-] Points of an edge have nearly the same equation and bounds that differ by
-/// some per cent. Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single
-/// point; 0: their impulses move from one point to another by 1e-4 a sweep.
+/// some per cent.
+/// Larger: faces whose points share the impulse leave up to s times the touch speed faster than a single point; 0:
+/// their impulses move from one point to another by 1e-4 a sweep.
 constexpr double reboundSoftness = 0.02;
 
 /// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff
@@ -137,7 +143,8 @@ constexpr int jointInterval = 4;
 constexpr double slidingRounding = 1e-9;
 
 /// Most iterations of Newton's method for the hardening of a contact in a visit of its point [-], and the relative
-/// change of the impulse that ends them [-]. Two or three suffice but for overlaps that grow a thousandfold.
+/// change of the impulse that ends them [-].
+/// Two or three suffice but for overlaps that grow a thousandfold.
 constexpr int hardeningSteps = 40;
 constexpr double hardeningTolerance = 1e-6;
 
@@ -150,18 +157,19 @@ constexpr double hardeningShare = 0.1;
 constexpr double roundingOverlap = 1e-9;
 
 /// Product of the step and a joint's highest frequency above which its springs get Newmark's term. [-] Explicit springs
-/// are stable below 2, several joints of a member together below less. Larger: stiff joints of a member limit the step;
-/// smaller: more joints take part in the sweeps.
+/// are stable below 2, several joints of a member together below less.
+/// Larger: stiff joints of a member limit the step; smaller: more joints take part in the sweeps.
 constexpr double stiffPhase = 1;
 
 /// Convergence threshold of the impulses of stiff joints, as a share of the tolerance of the sweeps. [-] Their errors
-/// change elastic forces by (h omega)^2 times as much. Larger: joints with h omega above 10 gain energy; smaller: more
-/// sweeps.
+/// change elastic forces by (h omega)^2 times as much.
+/// Larger: joints with h omega above 10 gain energy; smaller: more sweeps.
 constexpr double stiffJointShare = 1e-3;
 
 /// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
-/// modes vary only with it. Larger: slower convergence in a collapse, and a damping ratio of an earlier placement;
-/// smaller: longer steps, 2 us for each computation.
+/// modes vary only with it.
+/// Larger: slower convergence in a collapse, and a damping ratio of an earlier placement; smaller: longer steps, 2 us
+/// for each computation.
 constexpr double modeAngle = 0.05;
 
 } // namespace timber

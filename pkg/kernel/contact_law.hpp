@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Contact laws at one contact point (paper, sections 2.3 and 3.1): elastic forces, dashpot constants, sliding of the
-/// tangential spring. contact_solver.hpp applies the dashpots and Coulomb's limit of the total force. Adapters:
-/// Law2_ManifoldGeom_TimberPhys_Hertz, Law2_ManifoldGeom_SnowPhys_Linear (pkg/ContactPhysics.hpp), by elasticPair().
+/// tangential spring.
+/// contact_solver.hpp applies the dashpots and Coulomb's limit of the total force.
+/// Adapters: Law2_ManifoldGeom_TimberPhys_Hertz, Law2_ManifoldGeom_SnowPhys_Linear (pkg/ContactPhysics.hpp), by
+/// elasticPair().
 /// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and
 /// pushes the bodies apart. Joints have the opposite convention (joint_law.hpp).
 #pragma once
@@ -34,19 +36,19 @@ struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
 	static constexpr double power = 1.5; ///< q [-]
+	/// [N] (Eq. 37).
 	template <class Number> Number force(Number n) const
 	{
 		return Number(4. / 3 * modulus) * sqrt(Number(radius) * n) * n;
-	} ///< [N] (Eq. 37)
+	}
+	/// [N/m] (Eq. 39).
 	template <class Number> Number stiffness(Number n) const
 	{
 		return Number(2 * modulus) * sqrt(Number(radius) * n);
-	} ///< [N/m] (Eq. 39)
+	}
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
-	double overlapOf(double energy) const
-	{
-		return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4);
-	} ///< inverse of energy() [m]
+	/// Inverse of energy() [m]
+	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); }
 };
 
 /// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].
@@ -81,8 +83,8 @@ template <class Number>
 }
 
 /// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic
-/// energy can compress. A stiff contact stops a fast light member within the step. mass: equivalent [kg], speed: of
-/// closing, >= 0 [m/s], h: step [s]; returns [m].
+/// energy can compress. A stiff contact stops a fast light member within the step.
+/// mass: equivalent [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
 template <class Law> double approachOverlap(const Law& law, double mass, double speed, double h)
 {
 	assert(mass > 0 && speed >= 0 && h > 0);
@@ -92,7 +94,8 @@ template <class Law> double approachOverlap(const Law& law, double mass, double 
 /// Effective overlap of a new point: explained by its approach in the last step, or paid for by the energy released
 /// with other points of the pair in that step (a vertex that slides over a border transfers its load to the crossing
 /// edges). Patterns that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the full
-/// force at once would create energy. overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
+/// force at once would create energy.
+/// overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
 template <class Law> double initialOverlap(const Law& law, double overlap, double approach, double energy)
 {
 	assert(overlap > 0 && approach >= 0 && std::isfinite(energy));
@@ -108,7 +111,8 @@ template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number s
 }
 
 /// Rotates a tangential force with the contact: by the rotation vector [rad] of the bodies' mean spin, then into the
-/// plane normal to n. The magnitude is preserved.
+/// plane normal to n.
+/// The magnitude is preserved.
 template <class Number>
 [[gnu::always_inline]] inline Vec3Of<Number> rotatedShear(
         const Vec3Of<Number>& shear, const Vec3& rotation, const Vec3Of<Number>& normal)

@@ -50,8 +50,8 @@ namespace {
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
-		if (input.form == NormalForm::Increment)
-			record.impact = ImpactState::over(); // its force is no function of the overlap
+		// Its force is no function of the overlap
+		if (input.form == NormalForm::Increment) record.impact = ImpactState::over();
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
 		return record.normalStored;
 	}
@@ -324,8 +324,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 
 		const Vec after = bodies.velocity<Number>(armA, armB),
 		          mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
-		const Number separation = after.dot(axes[0]),
-		             way = Number(-h / 2) * separation; // closing way to the middle of the step
+		// Closing way to the middle of the step
+		const Number separation = after.dot(axes[0]), way = Number(-h / 2) * separation;
 		const Number room = max(none, Number(Number(pair.overlapLimit) - n)),
 		             normalLaw
 		        = energyAfter<Number>(record.get(&PointRecord::energy), e, K, n, room, way, pair.power);
@@ -333,8 +333,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
 
 		const Number shearStiffness = Number(pair.shearRatio) * K;
-		const Vec slip = Number(h / 2) * (after - separation * axes[0]),
-		          ahead = shear - shearStiffness * slip; // spring in the middle of the step
+		// Spring in the middle of the step
+		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip;
 		const auto sliding
 		        = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
 		const Vec spring = select(sliding, shear, ahead);

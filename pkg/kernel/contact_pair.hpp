@@ -20,8 +20,9 @@ struct ElasticInput {
 	BodyKinematics a, b;
 	double h; ///< length of the step [s]
 	NormalForm form = NormalForm::Closed;
-	bool placedInContact = false; ///< the pair is new and its bodies were placed as they are: new points have their
-	                              ///< whole overlap, not initialOverlap()
+	/// The pair is new and its bodies were placed as they are: new points have their whole overlap, not
+	/// initialOverlap().
+	bool placedInContact = false;
 };
 
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.

@@ -15,8 +15,8 @@ template <class Number> struct PointSprings {
 	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
 	Number stiffness = 0.; ///< K_n [N/m]
 	Number normalForce = 0.; ///< elastic normal force e_n [N]
-	Number energy = 0.; ///< U(n) of the normal spring; beyond the limit, where the force is constant, it grows
-	                    ///< linearly [J]
+	/// U(n) of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
+	Number energy = 0.;
 	Vec3Of<Number> shearForce = Vec3Of<Number>::Constant(Number(0.)); ///< elastic tangential force e_s [N]
 };
 
@@ -24,9 +24,8 @@ template <class Number> struct PointSprings {
 struct PointHistory : PointSprings<double> {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
-	double normalStored = 0,
-	       shearStored
-	        = 0; ///< A: work of the bodies on the springs that these have neither returned nor dissipated [J]
+	/// A: work of the bodies on the springs that these have neither returned nor dissipated [J]
+	double normalStored = 0, shearStored = 0;
 	ImpactState impact;
 };
 

@@ -192,7 +192,8 @@ bool ContactSolver::activateChanged(double threshold)
 }
 
 /// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with
-/// those of contacts. Returns whether another sweep is needed.
+/// those of contacts.
+/// Returns whether another sweep is needed.
 bool ContactSolver::sweepOnce(double threshold, bool forwards)
 {
 	bool changed = false;
@@ -273,8 +274,8 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold);
 		++result.sweeps;
 		if (changed) continue;
-		const double next = squaredThreshold(
-		        tolerance, firstChanges); // the impulses of the warm start may have been much larger
+		// The impulses of the warm start may have been much larger
+		const double next = squaredThreshold(tolerance, firstChanges);
 		if (next < thresholdDrop * threshold) {
 			threshold = next;
 			changed = activateChanged(threshold);

@@ -4,15 +4,16 @@
 /// Each of the four points of a face has a critical dashpot for the mass of the whole pair (Eqs. 41-43). On a light
 /// slender member their rates add up to 1e5 /s, and explicit dashpots (Eqs. 17, 18) are unstable above some 1e-5 s.
 /// Springs of heavily loaded light members are too stiff for the step as well. Both are therefore implicit here:
-/// dashpots by the theta method, springs by Newmark's method. Normal and tangential impulse p of a point obey, each in
-/// its direction,
+/// dashpots by the theta method, springs by Newmark's method.
+/// Normal and tangential impulse p of a point obey, each in its direction,
 ///     p = h e - h C ((1 - theta) v + theta v') - beta h2 K (v' - v)                            (1)
 ///     theta = 1/2 + x / (12 + 2 x),   x = a h C
 ///     beta  = y / (4 y + 2),          y = a h2 K
 /// theta tends to 1/2 (second order) for slow dashpots and to 1 (strong damping) for fast ones; the exact decay exp(-x)
 /// has this theta to 1 %. beta is negligible for springs that the step resolves (leapfrog) and 1/4 for stiff ones. N
-/// springs on one member are stable if N y (1/4 - beta) = N y / (8 y + 4) < 1: up to eight at any step. Let u be the
-/// current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then (1) is
+/// springs on one member are stable if N y (1/4 - beta) = N y / (8 y + 4) < 1: up to eight at any step.
+/// Let u be the current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then
+/// (1) is
 ///     p = f p0 + b - M u                                                                        (2)
 ///     M = D / (1 + a D),   f = a M,   b = (h e + Q v) / (1 + a D)
 ///     D = theta h C + beta h2 K,   Q = beta h2 K - (1 - theta) h C
@@ -27,15 +28,16 @@
 /// (impact.hpp) separates at most with the velocity w,
 ///     impact      p_w = (w - b + s (w - u_n0)) / (a (1 + s))                                    (6)
 /// with the small softness s: exact for a point alone, b = u_n0; several points of a pair, whose bounds contradict each
-/// other, share the impulse. After the sweeps, a point that acts alone in its pair and separates more slowly than w
-/// gets the velocity w, as far as (5) admits: the step has not resolved its spring. With several points w is a bound
-/// only: their dashpots add up, and dissipate more than (2) of impact.hpp. A spring that hardens has the force F(n) =
-/// F_1(n) + c n^q with a linear F_1, and the dashpot C(n) ~ n^((q-1)/2). A point that closes by d = -h v' - 0.1 n_0, v'
-/// = b + a p, adds the difference between the force at the next placement and its linear extrapolation, and that of the
-/// dashpot for the part of d that the velocity v before the step does not explain. Otherwise a light member that is
-/// struck would move through its contact within a step:
+/// other, share the impulse.
+/// After the sweeps, a point that acts alone in its pair and separates more slowly than w gets the velocity w, as far
+/// as (5) admits: the step has not resolved its spring. With several points w is a bound only: their dashpots add up,
+/// and dissipate more than (2) of impact.hpp.
+/// A spring that hardens has the force F(n) = F_1(n) + c n^q with a linear F_1, and the dashpot C(n) ~ n^((q-1)/2). A
+/// point that closes by d = -h v' - 0.1 n_0, v' = b + a p, adds the difference between the force at the next placement
+/// and its linear extrapolation, and that of the dashpot for the part of d that the velocity v before the step does not
+/// explain. Otherwise a light member that is struck would move through its contact within a step:
 ///     hardening   p = (2) + (1 - a M_n) (beta_d h (F(n_0 + d) - F(n_0) - K_n d) + (C(n_0 + (d + h v) / 2) - C_n) d)
-///     (7)
+///                                                                                           (7)
 /// with d > 0, h v <= 0, d + h v >= 0, d at most the overlap left until the force is constant, and beta_d of the
 /// hardening part's secant stiffness.
 ///
@@ -44,8 +46,9 @@
 /// grows, and it is the derivative of a convex function of p_n. All normal impulses together minimise the sum of these
 /// functions and of the kinetic energy p^T A p / 2 + p^T u_0: a convex function that grows without bound, hence with a
 /// minimum. A visit is its exact minimisation in one coordinate, and sweeps over the coordinates converge to the
-/// minimum. Friction (4) is not the derivative of an energy: a wedged body may have several solutions, or none. Then
-/// the sweeps end at their limit with impulses that obey (3) to (6) point by point, and ContactForces counts the step.
+/// minimum.
+/// Friction (4) is not the derivative of an energy: a wedged body may have several solutions, or none. Then the sweeps
+/// end at their limit with impulses that obey (3) to (6) point by point, and ContactForces counts the step.
 ///
 /// Mass-weighted velocities: W = M^1/2 V for the velocities and spins V of a pair, M^-1 = R R^T (Cholesky). A row of J
 /// gives a component of the relative velocity at a point, u = J V. An impulse p changes u by (J R) (J R)^T p:
@@ -55,13 +58,17 @@
 ///
 /// Glossary (n: normal, s: tangential)
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse; a_s: the
-///     largest one [1/kg] a_ns       column         tangential velocity change by a unit normal impulse [1/kg] A_n, A_s
-///     energy         accounts of the springs (PointHistory) [J] b          base           velocity of separation
-///     without the point's own impulse [m/s] b_n, b_s   bias           in (2): impulse of the elastic force and of the
-///     velocity before the step [N s] beta       -              Newmark's parameter [-] c          hardening      c
-///     n_0^q: part of the normal force that hardens [N] C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N
-///     s/m] D          -              weight of the velocity after the step [kg] e_n, e_s   elastic force  of the
-///     springs at the placement of the step [N] f_n, f_s   factor         share of the current impulse that remains [-]
+///                               largest one [1/kg]
+///     a_ns       column         tangential velocity change by a unit normal impulse [1/kg]
+///     A_n, A_s   energy         accounts of the springs (PointHistory) [J]
+///     b          base           velocity of separation without the point's own impulse [m/s]
+///     b_n, b_s   bias           in (2): impulse of the elastic force and of the velocity before the step [N s]
+///     beta       -              Newmark's parameter [-]
+///     c          hardening      c n_0^q: part of the normal force that hardens [N]
+///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]
+///     D          -              weight of the velocity after the step [kg]
+///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
+///     f_n, f_s   factor         share of the current impulse that remains [-]
 ///     h          length         of the step [s]
 ///     K_n, K_s   stiffness      of the springs (Eqs. 39, 40) [N/m]
 ///     M_n, M_s   mass           effective mass of bodies, spring and dashpot together [kg]
@@ -72,9 +79,10 @@
 ///     s          reboundSoftness of (6) [-]
 ///     theta      -              weight of the velocity after the step [-]
 ///     u, v, v'   velocity       of B relative to A: current, before and after the step; u_0: after all forces but
-///     those of contacts [m/s] w          rebound        largest velocity of separation of an impact [m/s] x          -
-///     a h C: decay rate of the dashpot times h [-] y          -              a h2 K: square of the spring's natural
-///     frequency times h [-]
+///                               those of contacts [m/s]
+///     w          rebound        largest velocity of separation of an impact [m/s]
+///     x          -              a h C: decay rate of the dashpot times h [-]
+///     y          -              a h2 K: square of the spring's natural frequency times h [-]
 ///
 /// Joints (joint_modes.hpp) are visited before the first sweep over the pairs, in every fourth sweep (jointInterval),
 /// and whenever no pair changes any more.
@@ -83,9 +91,9 @@
 ///     1. begin(), addPair() and addJoint() list the pairs and the damped joints;
 ///     2. prepareContacts() (contact_pair.hpp) prepares the points of each pair, prepareJoint() each joint;
 ///     3. solve(): warm start with the impulses of the last step, sweeps over the pairs and joints, restitution of
-///     points that act alone;
+///       points that act alone;
 ///     4. storeForces() (contact_pair.hpp) stores forces, history and energies of the points; jointImpulse() gives the
-///     impulse of a joint.
+///       impulse of a joint.
 #pragma once
 #include "contact_step.hpp"
 #include "joint_modes.hpp"
@@ -100,8 +108,9 @@ struct SolverPair {
 	int bodyA, bodyB;
 	PointRecord* points;
 	size_t count; ///< of points
-	double squaredChange; ///< of the impulses in the last visit, over the equivalent mass: changes matter by their
-	                      ///< effect on light members [J]
+	/// Of the impulses in the last visit, over the equivalent mass: changes matter by their effect on light members
+	/// [J]
+	double squaredChange;
 	long sweep; ///< of the last visit
 };
 
@@ -132,10 +141,10 @@ public:
 	/// times the root mean square of the island's impulses, each over the root of its equivalent mass [-]
 	/// (firstSweepShare of that in the first sweep). Where the island rests the root mean square of the first
 	/// sweep's changes is smaller and takes its place, down to restTolerance times that of the impulses, or
-	/// roundingTolerance times that of the momenta. A joint counts as one point. A small fixed number of sweeps
-	/// would suffice for a standing house. In an impact between heavy and light members the remaining error of the
-	/// warm start would create energy. Fixed bodies are only read: they may belong to several islands, which other
-	/// threads solve.
+	/// roundingTolerance times that of the momenta. A joint counts as one point.
+	/// A small fixed number of sweeps would suffice for a standing house. In an impact between heavy and light
+	/// members the remaining error of the warm start would create energy.
+	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
 	Convergence solve(double tolerance = 0);
 
 	bool isExplicit() const { return maxSweeps == 0; }
@@ -167,8 +176,8 @@ private:
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
-	double momentum
-	        = 0; ///< sum of the squared mass-weighted velocities of the island's bodies after all other forces [J]
+	/// Sum of the squared mass-weighted velocities of the island's bodies after all other forces [J]
+	double momentum = 0;
 
 	void startBody(int k);
 	void finishBodies();

@@ -147,8 +147,8 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 	for (int i = 0; i < 3; ++i)
 		column[i] = product<Number>(rows, 0, i);
 	const Number half = (across[0] - across[2]) / Number(2.),
-	             largest
-	        = (across[0] + across[2]) / Number(2.) + sqrt(Number(half * half + across[1] * across[1])); // a_s
+	             // A_s
+	        largest = (across[0] + across[2]) / Number(2.) + sqrt(Number(half * half + across[1] * across[1]));
 	const ImplicitDirection<Number> normal(
 	        Number(h) * p.normalDamping, Number(h * h) * p.normalStiffness, column[0]);
 	const ImplicitDirection<Number> shear(Number(h) * p.shearDamping, Number(h * h) * p.shearStiffness, largest);

@@ -10,8 +10,8 @@ namespace timber {
 /// Normal impulse that returns the energy A_n: p_A of (5). base: b [m/s].
 inline double energyImpulse(const PointStep& c, double base)
 {
-	const double sum = c.before[0] + base,
-	             root = std::sqrt(sum * sum + 8 * c.response() * c.energy); // p (sum + a p) = 2 A_n
+	// P (sum + a p) = 2 A_n
+	const double sum = c.before[0] + base, root = std::sqrt(sum * sum + 8 * c.response() * c.energy);
 	return sum > 0 ? 4 * c.energy / (sum + root) : (root - sum) / (2 * c.response());
 }
 
@@ -26,8 +26,8 @@ inline double reboundImpulse(const PointStep& c, double base)
 /// Normal spring that hardens, F(n) = F_1(n) + c n^q with a linear F_1, and its dashpot, over a closing displacement d
 /// > 0. [m]
 struct Hardening {
-	double force; ///< c (n_0 + d)^q - c n_0^q (1 + q d / n_0): by which the force exceeds its linear extrapolation
-	              ///< [N]
+	/// C (n_0 + d)^q - c n_0^q (1 + q d / n_0): by which the force exceeds its linear extrapolation [N]
+	double force;
 	double slope; ///< its derivative by d [N/m]
 	double damping; ///< C(n_0 + middle) - C_n [N s/m]
 	double dampingSlope; ///< its derivative by middle [N s/m2]
@@ -37,8 +37,8 @@ struct Hardening {
 	{
 		const double q = c.power, stretch = 1 + d / c.overlap, share = 1 + middle / c.overlap;
 		const double power = powerOf(stretch, q);
-		const double root = q == 1.5 ? std::sqrt(std::sqrt(share))
-		                             : std::pow(share, (q - 1) / 2); // C ~ K^1/2 ~ n^((q-1)/2)
+		// C ~ K^1/2 ~ n^((q-1)/2)
+		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : std::pow(share, (q - 1) / 2);
 		force = c.hardening * (power - 1 - q * (stretch - 1));
 		slope = c.hardening * q / c.overlap * (power / stretch - 1);
 		damping = c.damping * (root - 1);
@@ -47,8 +47,9 @@ struct Hardening {
 };
 
 /// Normal impulse of a point whose spring hardens within the step: (7). linear: p by (2) [N s]; way: closing
-/// displacement d for it, > 0 [m]. In the unknown d, (7) is d + h a (1 - a M_n) more(d) = way, whose left side
-/// increases: Newton's method within bounds.
+/// displacement d for it, > 0 [m].
+/// In the unknown d, (7) is d + h a (1 - a M_n) more(d) = way, whose left side increases: Newton's method within
+/// bounds.
 inline double hardenedImpulse(const PointStep& c, double linear, double way)
 {
 	const double h = c.length, a = c.response(), factor = h * a * (1 - a * c.mass[0]),
@@ -59,10 +60,11 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 		const Hardening spring(c, d, exceeds ? (d - closing) / 2 : 0);
 		const double y = a * h * h * (K + spring.force / d), beta = y / (4 * y + 2);
 		const double more = beta * h * spring.force + spring.damping * d;
-		if (k == 0 && way - factor * more > c.room)
-			return linear + (factor / (h * a)) * more; // the force is constant at the end
-		const double slope = beta * h * spring.slope + spring.damping
-		        + (exceeds ? spring.dampingSlope * d / 2 : 0); // of `more` by d
+		// The force is constant at the end
+		if (k == 0 && way - factor * more > c.room) return linear + (factor / (h * a)) * more;
+		// Of `more` by d
+		const double slope
+		        = beta * h * spring.slope + spring.damping + (exceeds ? spring.dampingSlope * d / 2 : 0);
 		const double excess = d + factor * more - way, newton = d - excess / (1 + factor * slope), last = d;
 		(excess > 0 ? high : low) = d;
 		d = newton > low && newton < high ? newton : (low + high) / 2;
@@ -72,8 +74,9 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 }
 
 /// Normal impulse (3): the least of what springs and dashpots give, (2) or (7), of what the energy (5) and the impact
-/// (6) admit. un: u_n [m/s]; linear: p_n by (2) [N s]. As a function of the velocity b without the point's impulse it
-/// is continuous and does not increase.
+/// (6) admit. un: u_n [m/s];
+/// linear: p_n by (2) [N s]. As a function of the velocity b without the point's impulse it is continuous and does not
+/// increase.
 [[gnu::always_inline]] inline double normalImpulse(PointStep& c, double un, double linear)
 {
 	const double a = c.response(), base = un - a * c.impulse[0];
@@ -99,10 +102,10 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	const auto responseTo = [&](double t, double s) {
 		return PointStep::Quad { 0, a[0] * t + a[1] * s, a[1] * t + a[2] * s, 0 };
 	};
-	const PointStep::Quad own = responseTo(p[1], p[2]),
-	                      sum = c.before + u - responseTo(before[1], before[2]); // v + velocity without the impulse
-	const double square2 = p[1] * own[1] + p[2] * own[2],
-	             linear = p[1] * sum[1] + p[2] * sum[2]; // 2 work = share (linear + share square2)
+	// V + velocity without the impulse
+	const PointStep::Quad own = responseTo(p[1], p[2]), sum = c.before + u - responseTo(before[1], before[2]);
+	// 2 work = share (linear + share square2)
+	const double square2 = p[1] * own[1] + p[2] * own[2], linear = p[1] * sum[1] + p[2] * sum[2];
 	if (square2 > 0 && share * (linear + share * square2) > 2 * c.shearEnergy) {
 		const double root = std::sqrt(linear * linear + 8 * square2 * c.shearEnergy);
 		share = linear > 0 ? 4 * c.shearEnergy / (linear + root) : (root - linear) / (2 * square2);
@@ -113,8 +116,8 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 /// One visit. velocity: change of the pair's weighted velocities, in-out. Returns the squared change of the impulse.
 [[gnu::always_inline]] inline double visitPoint(PointStep& c, PairVector& velocity)
 {
-	PointStep::Quad u = c.velocity + velocity.dots(c.rows),
-	                p = c.factor * c.impulse + c.bias - c.mass * u; // (8), (2)
+	// (8), (2)
+	PointStep::Quad u = c.velocity + velocity.dots(c.rows), p = c.factor * c.impulse + c.bias - c.mass * u;
 	const double pn = normalImpulse(c, u[0], p[0]);
 	const PointStep::Quad slip = (pn - c.impulse[0]) * c.column; // caused by the change of the normal impulse
 	p -= c.mass * slip; // (4)

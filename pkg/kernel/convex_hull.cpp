@@ -14,9 +14,9 @@ namespace timber {
 
 // Convex hull of n points, n <= 4 maxVertices:
 //   1. For each pair of points: skip the pair if no supporting plane can contain it (maySupport). This leaves about the
-//   edges.
+//     edges.
 //   2. For each third point: the plane through the three points is supporting if no point is outside by more than the
-//   tolerance. The points
+//     tolerance. The points
 //      within the tolerance of the plane are the corners of a face.
 //   3. Sets of corners contained in another set are caused by rounding and are dropped.
 //   4. Sort the corners of each face; find the edges from pairs of faces; check that the surface is closed.
@@ -30,11 +30,12 @@ namespace {
 
 	void checkSize(double extent)
 	{
-		if (extent == 0 || (smallestSize <= extent && extent <= largestSize))
-			return; // 0: checkDistinct has the better message
+		// 0: checkDistinct has the better message
+		if (extent == 0 || (smallestSize <= extent && extent <= largestSize)) return;
 		std::ostringstream what;
-		what << "the vertices extend over " << extent << " m: a polyhedron has " << smallestSize << " to "
-		     << largestSize << " m";
+		what << "the vertices extend over "
+		        ""
+		     << extent << " m: a polyhedron has " << smallestSize << " to " << largestSize << " m";
 		throw PolyhedronError(what.str());
 	}
 
@@ -44,7 +45,10 @@ namespace {
 			for (size_t l = k + 1; l < points.size(); ++l)
 				if ((points[k] - points[l]).norm() <= tolerance)
 					throw PolyhedronError("vertices " + std::to_string(k) + " and "
-					        + std::to_string(l) + " are the same point " + toText(points[k]));
+					        + std::to_string(l)
+					        + " are "
+					          "the same point "
+					        + toText(points[k]));
 	}
 
 	using Vec2 = Eigen::Vector2d;
@@ -70,8 +74,8 @@ namespace {
 		for (const Vec3& point : points) {
 			const Vec3 x = point - points[a];
 			const Vec2 w(e1.dot(x), e2.dot(x));
-			if (w.squaredNorm() <= 64 * tolerance * tolerance)
-				continue; // too near the line to exclude a plane
+			// Too near the line to exclude a plane
+			if (w.squaredNorm() <= 64 * tolerance * tolerance) continue;
 			const double beyondRight = -cross(right, w), beyondLeft = -cross(w, left);
 			if (right.isZero(0)) right = left = w;
 			else if (beyondRight > 0 && beyondLeft > 0) {
@@ -112,8 +116,8 @@ namespace {
 	private:
 		const std::vector<Vec3>& points;
 		const double tolerance;
-		int lastAbove = 0,
-		    lastBelow = 0; ///< the last points found outside a plane: they are likely outside the next one
+		/// The last points found outside a plane: they are likely outside the next one.
+		int lastAbove = 0, lastBelow = 0;
 
 		/// Whether a point is outside the plane by more than twice the tolerance, so that rounding does not
 		/// matter.
@@ -244,6 +248,7 @@ namespace {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
 			if (back == faceLeftOf.end())
 				throw OpenSurface("the faces do not close around the edge between vertices "
+				                  ""
 				        + std::to_string(ends.first) + " and " + std::to_string(ends.second));
 			if (ends.first < ends.second)
 				edges.push_back(

@@ -9,9 +9,9 @@ namespace timber {
 
 // Search of the candidates:
 //   1. Find the axis of the largest gap between the cores. A pair far apart has no candidates; its margin is what
-//   remains of the gap.
+//     remains of the gap.
 //   2. Rough search, with the motion bounded about the smaller body: where are features close? Vertices and faces alone
-//   answer this
+//     answer this
 //      if there are any.
 //   3. Centre the region of contact on these positions. The bound of the motion is smallest there.
 //   4. Final search with this region: all pairs of features that can come into contact within the margin.
@@ -87,8 +87,8 @@ namespace {
 			size_t first; ///< index of the first
 			Vec3s tail, direction, outward;
 			Lanes length; ///< [m]
-			Lanes depth; ///< distance along the axis behind the vertex of B closest to A; infinite in
-			             ///< unused lanes [m]
+			/// Distance along the axis behind the vertex of B closest to A; infinite in unused lanes [m]
+			Lanes depth;
 		};
 		std::vector<EdgeBatch> edgesB;
 
@@ -162,8 +162,8 @@ namespace {
 			const Vec3s position = tail + c.alongA * direction;
 			const Lanes motion = motionBound<Lanes>(position),
 			            range = Lanes(std::max(pair.contactDistance(), pair.depthLimit())) + motion;
-			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation))
-			        / c.sine; // shift of the crossing along the edges
+			// Shift of the crossing along the edges
+			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation)) / c.sine;
 			const auto inside = [&](Lanes at, Lanes length) {
 				return logicalAnd(at >= -slack, at <= length + slack);
 			};
@@ -268,8 +268,8 @@ void searchCandidates(const ShapePair& pair, double skin, CandidateCache& cache)
 	cache.supportA = projectionInterval(pair.a.core, cache.axis).max;
 	cache.candidates.clear();
 	cache.rotation = pair.rotation;
-	cache.margin = std::max(skin,
-	        gap - pair.contactDistance() - skin); // the skin covers the reach of a flush support beyond a border
+	// The skin covers the reach of a flush support beyond a border
+	cache.margin = std::max(skin, gap - pair.contactDistance() - skin);
 	cache.coresMayOverlap = gap <= skin;
 	centreOnSmallerBody(pair, cache);
 	if (gap < pair.contactDistance() + 2 * skin) {

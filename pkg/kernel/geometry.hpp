@@ -18,8 +18,9 @@ template <class Number> Number signedDistance(const HalfSpace& plane, const Vec3
 }
 
 /// Whether the projection of x onto the face's plane lies in the face. limit: tolerance beyond its sides (negative:
-/// inside them) [m]. Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This
-/// changes nothing at a right angle, and keeps the projection near an acute corner.
+/// inside them) [m].
+/// Beyond a side, the distance from the bevel planes is limited to sqrt(2) times as much. This changes nothing at a
+/// right angle, and keeps the projection near an acute corner.
 template <class Number> auto projectsOntoFace(const Face& face, const Vec3Of<Number>& x, Number limit)
 {
 	const Number zero = 0.;

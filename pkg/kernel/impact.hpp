@@ -11,11 +11,12 @@
 /// at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
 /// An impact of a few steps, or of a fraction of one, is not resolved by them: the solver bounds its velocity of
 /// separation by w = e times the touch speed (contact_solver.hpp (6)), for its duration and as long as the bound acts.
-/// The steps resolve longer ones. A contact that is pressed together by more than the touch speed within the duration,
-/// or within a longer step, is a loaded one, without a bound.
+/// The steps resolve longer ones.
+/// A contact that is pressed together by more than the touch speed within the duration, or within a longer step, is a
+/// loaded one, without a bound.
 ///
-/// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law
-/// (Hertz: 1.5) [-].
+/// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz:
+/// 1.5) [-].
 #pragma once
 #include <limits>
 
@@ -26,11 +27,11 @@ constexpr double noRebound = std::numeric_limits<double>::infinity();
 
 /// State of a point's impact.
 struct ImpactState {
-	double timeLeft = -1; ///< for which the separation is bounded; 0: the impact is over; < 0: the surfaces have
-	                      ///< not touched yet [s]
+	/// For which the separation is bounded; 0: the impact is over; < 0: the surfaces have not touched yet [s]
+	double timeLeft = -1;
 	double rebound = noRebound; ///< w [m/s]
-	double load
-	        = 0; ///< velocity by which other contacts and forces may press the surfaces together in a step [m/s]
+	/// Velocity by which other contacts and forces may press the surfaces together in a step [m/s]
+	double load = 0;
 
 	static ImpactState over() { return { 0, noRebound, 0 }; }
 	bool isPending() const { return timeLeft < 0; }

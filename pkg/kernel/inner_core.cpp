@@ -16,8 +16,8 @@ namespace {
 
 	constexpr int maxSteps = 1000; ///< of the search for the inscribed sphere; some twenty suffice
 
-	constexpr long double sphereRounding
-	        = 1e-15L; ///< of the radius of the inscribed sphere, as a share of the size
+	/// Of the radius of the inscribed sphere, as a share of the size.
+	constexpr long double sphereRounding = 1e-15L;
 
 	using LongVec4 = Eigen::Matrix<long double, 4, 1>;
 	using LongMat4 = Eigen::Matrix<long double, 4, 4>;
@@ -75,8 +75,8 @@ namespace {
 	/// The triangles around each point, counter-clockwise seen from outside.
 	std::vector<std::vector<int>> trianglesAround(const std::vector<Triangle>& triangles, size_t pointCount)
 	{
-		std::vector<std::map<int, std::pair<int, int>>> turns(
-		        pointCount); // of a point: from an edge to the triangle left of it and its next edge
+		// Of a point: from an edge to the triangle left of it and its next edge
+		std::vector<std::map<int, std::pair<int, int>>> turns(pointCount);
 		for (size_t t = 0; t < triangles.size(); ++t)
 			for (int k = 0; k < 3; ++k)
 				turns[triangles[t][k]][triangles[t][(k + 1) % 3]]

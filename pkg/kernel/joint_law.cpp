@@ -80,14 +80,13 @@ void springForces(const JointStiffness& stiffness, const JointPlacement& placeme
 			// with unequal stiffnesses the force is not along the stretch: it acts on both bodies at the
 			// anchor of B
 			const Vec3s torqueA = end.cross(f.force), torqueB = -armB.cross(f.force);
-			sums.add<Lanes>(laneCount, f.force, torqueA, torqueB, f.energy,
-			        sqrt(square)); // broken springs add zeros
+			// Broken springs add zeros
+			sums.add<Lanes>(laneCount, f.force, torqueA, torqueB, f.energy, sqrt(square));
 			largestSquared = max(largestSquared, square);
 		};
 		const Vec3 worldNormal = placement.axesA * normal;
-		if (k.normal == k.shear)
-			add(isotropicForce<Lanes>(
-			        k.shear, stretch, worldNormal)); // branches of their own: no force goes through memory
+		// Branches of their own: no force goes through memory
+		if (k.normal == k.shear) add(isotropicForce<Lanes>(k.shear, stretch, worldNormal));
 		else add(springForce<Lanes>(k, stretch, worldNormal));
 	}
 	double largest = 0;

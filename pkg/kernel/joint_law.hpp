@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Breakable joint: springs between two bodies, each anchored in both (paper, sections 2.4 and 3.2). Adapter:
-/// JointEngine (pkg/JointEngine.hpp). Signs: the normal points from body A to body B; forces act on A, B gets the
-/// opposite. Contacts have the opposite convention (contact_law.hpp). A step:
+/// JointEngine (pkg/JointEngine.hpp).
+/// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite
+/// convention (contact_law.hpp).
+/// A step:
 ///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has
-///     packed;
+///       packed;
 ///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
 ///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes
-///     the forces again.
+///       the forces again.
 #pragma once
 #include "kinematics.hpp"
 #include <vector>
@@ -82,15 +84,17 @@ struct JointForce {
 };
 
 /// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their
-/// stretches and forces; total: out.
+/// stretches and forces;
+/// total: out.
 void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
         SpringLanes* first, const SpringLanes* end, JointForce& total);
 
 /// Strength of a joint (section 3.2).
 struct JointStrength {
 	double strength; ///< P_max [N]
-	bool perJoint; ///< whether P_max is that of the joint: all springs break when the sum of their forces exceeds
-	               ///< it; else of each spring
+	/// Whether P_max is that of the joint: all springs break when the sum of their forces exceeds it; else of each
+	/// spring.
+	bool perJoint;
 };
 bool isOverloaded(const JointStrength& limit, const JointForce& force);
 

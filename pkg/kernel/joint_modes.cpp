@@ -131,9 +131,8 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	result.spread = spreadOf(springs, result.centre);
 	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
-	result.frequencies = solver.eigenvalues()
-	                             .cwiseMax(0)
-	                             .cwiseSqrt(); // rounding may make the eigenvalue of a free rotation negative
+	// Rounding may make the eigenvalue of a free rotation negative
+	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
 	return result;
 }

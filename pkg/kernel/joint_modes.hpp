@@ -4,31 +4,33 @@
 /// contact_solver.hpp). Adapter: ContactForces.
 ///
 /// Two bodies that are connected by one joint, and free otherwise, have six vibration modes: translations and rotations
-/// of B relative to A. Let w be the relative velocity and spin at the joint's centre, P the impulse and angular impulse
-/// on B, R the response, so that dw = R P, and K the stiffness of the unbroken springs. The modes z_k, columns of Z,
-/// have the frequencies omega_k, with
+/// of B relative to A.
+/// Let w be the relative velocity and spin at the joint's centre, P the impulse and angular impulse on B, R the
+/// response, so that dw = R P, and K the stiffness of the unbroken springs. The modes z_k, columns of Z, have the
+/// frequencies omega_k, with
 ///     Z^T R Z = 1,   K = Z omega^2 Z^T                                                          (1)
 /// The damping matrix D = 2 zeta Z omega Z^T gives each mode the damping ratio zeta, rotations of a slender member
-/// about its end included. (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations
-/// some thirty times less.) About the centroid of the springs' ends, forces do not rotate and torques do not move: K is
-/// block diagonal.
+/// about its end included.
+/// (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations some thirty times less.)
+/// About the centroid of the springs' ends, forces do not rotate and torques do not move: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and
 /// the dissipated energy h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w), as a
 /// mass beta h2 K would. In terms of the modes, P = Z q, eta = Z^T w, these are six scalars:
 ///     q = -x (eta + eta') - g (eta' - eta),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2
-///     (2)
+///                                                                                           (2)
 /// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass of Newmark's term has the energy sum
 /// g eta'^2 / 2, at most the work that the bodies have done on the joint and that is neither returned nor dissipated
-/// (the account N). The rest of that work is dissipated. With the current twist u, in which q0 acts already, eta' = Z^T
-/// u + q - q0, and a visit of the joint is
+/// (the account N). The rest of that work is dissipated.
+/// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
 ///     q = s (q0 - Z^T u) - r Z^T w,   s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)    (3)
 /// Newmark's term may put back what it has stored and no more, whatever the modes: q is shortened to
 ///     q^T (eta + eta') / 2 <= N                                                                 (4)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so
-/// that no impulse has to be kept from step to step. Z is fixed in the axes of A. It is reused while springs, masses
-/// and moments of inertia are the same and the bodies have turned against each other by less than modeAngle: (2) holds
-/// for any Z, and Z decides with (1) about the damping ratio and the convergence of (3) only.
+/// that no impulse has to be kept from step to step.
+/// Z is fixed in the axes of A. It is reused while springs, masses and moments of inertia are the same and the bodies
+/// have turned against each other by less than modeAngle: (2) holds for any Z, and Z decides with (1) about the damping
+/// ratio and the convergence of (3) only.
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
@@ -44,9 +46,11 @@
 ///     r        shareBefore   weight of the modal velocity before the step [-]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
 ///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current
-///     [m/s, rad/s] x        decay         decay rate of the mode times h [-] y        -             square of the
-///     mode's frequency times h [-] Z        modes         in the axes of A [kg^1/2, kg^1/2 m] zeta     ratio damping
-///     ratio [-]
+///                            [m/s, rad/s]
+///     x        decay         decay rate of the mode times h [-]
+///     y        -             square of the mode's frequency times h [-]
+///     Z        modes         in the axes of A [kg^1/2, kg^1/2 m]
+///     zeta     ratio         damping ratio [-]
 #pragma once
 #include "constants.hpp"
 #include "joint_law.hpp"
@@ -116,8 +120,8 @@ struct ModalConstraint {
 	long sweep; ///< of the last visit
 	double stored; ///< N: in-out [J]
 	double dissipated; ///< in the step, after finishModes() [J]
-	double thresholdShare; ///< of the convergence threshold of the sweeps: squared changes are compared with this
-	                       ///< share of it [-]
+	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
+	double thresholdShare;
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 

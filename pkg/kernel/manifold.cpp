@@ -13,12 +13,12 @@ namespace timber {
 
 // Update of a manifold:
 //   1. Early out: the pair had no points, and the cached separating axis shows a gap. Return the gap as safe
-//   displacement.
+//     displacement.
 //   2. Search the candidate features again if the pair has moved beyond the margin of the last search
-//   (feature_search.cpp).
+//     (feature_search.cpp).
 //   3. If the cores may overlap, find the axis of least overlap (separating_axis.cpp).
 //   4. Test the candidates: vertices against one face, or edge against edge, in SIMD batches; other patterns one by
-//   one.
+//     one.
 //   5. Deep contact without a point: add one point in the overlap region, along the axis of least overlap.
 //   6. No points at all: look for a separating axis for step 1 of the next update.
 // All geometry is in the frame of A until a point is stored.
@@ -39,8 +39,8 @@ namespace {
 		std::vector<ContactPoint>& points;
 
 		/// Coincident vertices, and vertices above each other's borders, are found as several pairs of features
-		/// but are one contact. Crossings of edges keep a distance from vertices (edgeEdgeContact) and are
-		/// never duplicates.
+		/// but are one contact.
+		/// Crossings of edges keep a distance from vertices (edgeEdgeContact) and are never duplicates.
 		bool isDuplicate(const ContactPoint& next) const
 		{
 			const FeatureKind kind = next.id.kind();
@@ -158,9 +158,10 @@ namespace {
 		                logicalAnd(c.alongB > end, c.alongB < b.get(&Edge::length) - end)));
 		if (!any(valid)) return valid;
 		contact.normal = select(c.normal.dot(a.get(&Edge::outward)) < zero, Vec(-c.normal), c.normal);
-		valid = logicalAnd(valid,
-		        contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward)))
-		                < zero); // otherwise on the far side of B
+		valid = logicalAnd(
+		        // Otherwise on the far side of B
+		        valid,
+		        contact.normal.dot(Vec(broadcast<Number>(pair.rotation) * b.get(&Edge::outward))) < zero);
 		contact.pointA = tailA + c.alongA * directionA;
 		contact.distance = contact.normal.dot(Vec(tailB + c.alongB * directionB - contact.pointA));
 		return logicalAnd(valid,
@@ -191,8 +192,8 @@ namespace {
 		const double along = (x - tail).dot(edge.direction);
 		if (along < -flushTolerance || along > edge.length + flushTolerance) return false;
 		for (const int f : { edge.left, edge.right })
-			if (projectsOntoFace<double>(edgeBody.faces[f], x, pair.sideTolerance()))
-				return false; // vertex-face contact
+			// Vertex-face contact
+			if (projectsOntoFace<double>(edgeBody.faces[f], x, pair.sideTolerance())) return false;
 		foot = tail + along * edge.direction;
 		const Vec3 towards = foot - x;
 		const double distance = towards.norm();
@@ -239,8 +240,8 @@ namespace {
 		const Vec3 difference = pointB - pointA;
 		const double distance = difference.norm();
 		if (distance >= pair.contactDistance() || distance <= flushTolerance) return false;
-		const double slope
-		        = -flushTolerance / distance; // strictly beyond the ends of all edges: no vertex-edge contact
+		// Strictly beyond the ends of all edges: no vertex-edge contact
+		const double slope = -flushTolerance / distance;
 		return isSupportVertex(a, vertexA, difference / distance, slope)
 		        && isSupportVertex(b, vertexB, pair.rotation.transpose() * -difference / distance, slope)
 		        && pointPointContact(pointA, pointB, contact);
@@ -312,9 +313,8 @@ namespace {
 		Vec3 middle = overlapCentre(pair, pair.axis) * pair.axis;
 		for (const Vec3& across : { Vec3(pair.axis.unitOrthogonal()),
 		             Vec3(pair.rotation * (pair.rotation.transpose() * pair.axis).unitOrthogonal()) })
-			for (const Vec3& direction : { across,
-			             Vec3(pair.axis.cross(
-			                     across)) }) // mean over both bodies' frames: symmetric in A and B
+			// Mean over both bodies' frames: symmetric in A and B
+			for (const Vec3& direction : { across, Vec3(pair.axis.cross(across)) })
 				middle += 0.5 * overlapCentre(pair, direction) * direction;
 		return { middle - half, pair.axis, pair.gap };
 	}
@@ -402,8 +402,8 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 		        displacement > 0)
 			return displacement;
 	updateCandidates(cache, pair); // 2.
-	if (cache.coresMayOverlap && gapAlongCachedAxis(pair, cache) < flushTolerance)
-		findLeastOverlap(pair); // 3. a larger gap exceeds rounding errors
+	// 3. a larger gap exceeds rounding errors
+	if (cache.coresMayOverlap && gapAlongCachedAxis(pair, cache) < flushTolerance) findLeastOverlap(pair);
 	PointCollector collector(pair, rotationA, poseA.position, points);
 	testCandidates(pair, cache.candidates, collector); // 4.
 	const FeatureId cores { FeatureKind::CoreCore, 0, 0 };

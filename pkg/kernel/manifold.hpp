@@ -3,11 +3,13 @@
 /// of its contact points.
 ///
 /// Each point connects a feature of core A with a feature of core B. Its overlap is r_A + r_B - distance of the
-/// features. Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they
-/// cross inside both. A face resting on a face thus has a point per supported vertex and per crossing of border edges.
+/// features.
+/// Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they cross inside
+/// both.
+/// A face resting on a face thus has a point per supported vertex and per crossing of border edges.
 /// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none,
-/// one point in the overlap region is used instead, so that the pair is always pushed apart. Flush members have
-/// vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
+/// one point in the overlap region is used instead, so that the pair is always pushed apart.
+/// Flush members have vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
 #pragma once
 #include "polyhedron.hpp"
 #include <cassert>
@@ -66,8 +68,9 @@ struct Patterns {
 /// Candidate features of a pair and the relative motion for which they are complete, as the skin of a Verlet list.
 /// The sum of two terms must not exceed `margin`: the displacement of B at `centre`, where the bodies are close, and
 /// the rotation of B times `regionRadius`. A slender member rocking on its end thus keeps its candidates although its
-/// far end moves a lot. The cache never changes a result: an empty one gives the same manifold. It is reset if the
-/// bodies or the patterns change.
+/// far end moves a lot.
+/// The cache never changes a result: an empty one gives the same manifold. It is reset if the bodies or the patterns
+/// change.
 struct CandidateCache {
 	unsigned long serialA = 0, serialB = 0; ///< of the bodies
 	Patterns patterns;
@@ -104,8 +107,10 @@ struct CandidateCache {
 };
 
 /// Finds the contact points with overlap > 0, sorted by id. The vertices of the bodies are in their body frames; poses
-/// are finite. points (in-out): those of the last update; non-empty means the pair was in contact. Returns a safe
-/// displacement: how far the bodies can move relative to each other before there can be a point; 0: unknown. [m]
+/// are finite.
+/// points (in-out): those of the last update; non-empty means the pair was in contact.
+/// Returns a safe displacement: how far the bodies can move relative to each other before there can be a point; 0:
+/// unknown. [m]
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
         const Patterns& patterns, CandidateCache& cache, std::vector<ContactPoint>& points);
 

@@ -23,8 +23,8 @@ struct Face {
 	HalfSpace plane;
 	std::vector<int> corners; ///< vertex indices, counter-clockwise seen from outside
 	std::vector<HalfSpace> sidePlanes; ///< through corners k and k+1; normal in the face, outwards
-	std::vector<HalfSpace>
-	        bevelPlanes; ///< through corner k; normal: bisector of the normals of its two side planes
+	/// Through corner k; normal: bisector of the normals of its two side planes.
+	std::vector<HalfSpace> bevelPlanes;
 };
 
 struct Edge {
@@ -43,9 +43,10 @@ struct Polyhedron {
 
 	/// Polyhedron with these corners [m]; each point must be a corner of the convex hull.
 	/// Points within a tolerance of a plane form one face (planarShare; up to warpShare if the faces do not close
-	/// otherwise). Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are
-	/// not finite; an extent outside smallestSize ... largestSize; coincident points; coplanar points; a point that
-	/// is not a corner.
+	/// otherwise).
+	/// Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are not finite;
+	/// an extent outside smallestSize ... largestSize; coincident points; coplanar points; a point that is not a
+	/// corner.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
 	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if it is empty, flat
 	/// or unbounded.

@@ -79,7 +79,8 @@ Vec3Of<Number> freeRotation(
 }
 
 /// Upper bound of |w x x| over the points x of a body: of their speed due to the spin w [m/s]. It is small for a
-/// slender member that spins about its axis. spin: in the body's frame; span: largest |x| along each axis [m].
+/// slender member that spins about its axis.
+/// spin: in the body's frame; span: largest |x| along each axis [m].
 inline double rotationSpeed(const Vec3& spin, const Vec3& span)
 {
 	const Vec3 w = spin.cwiseAbs();
@@ -89,8 +90,8 @@ inline double rotationSpeed(const Vec3& spin, const Vec3& span)
 }
 
 /// Upper bound of the displacement of a body's points due to its rotation: |(R - I) x| = 2 |q x x| at a point x, q the
-/// vector part of the rotation's quaternion. rotation: of the body, in its own frame; span: largest |x| along each axis
-/// [m]. Returns [m].
+/// vector part of the rotation's quaternion.
+/// rotation: of the body, in its own frame; span: largest |x| along each axis [m]. Returns [m].
 inline double rotationDisplacement(const Quat& rotation, const Vec3& span)
 {
 	return 2 * rotationSpeed(rotation.vec(), span);

@@ -16,11 +16,11 @@ struct ShapePair {
 	Mat3 rotation;
 	Vec3 translation;
 	Patterns patterns;
-	double gap
-	        = 0; ///< between the cores; < 0: they overlap (deep contact); 0 if they are known to be separated [m]
+	/// Between the cores; < 0: they overlap (deep contact); 0 if they are known to be separated [m]
+	double gap = 0;
 	Vec3 axis = Vec3::Zero(); ///< of least overlap, unit, from A to B; only in deep contact
-	int supportFaceA = -1,
-	    supportFaceB = -1; ///< faces of A towards B and of B towards A along the axis; only in deep contact
+	/// Faces of A towards B and of B towards A along the axis; only in deep contact.
+	int supportFaceA = -1, supportFaceB = -1;
 
 	bool isDeep() const { return gap < 0; }
 	/// Distance of the cores at which the rounded surfaces touch. [m]

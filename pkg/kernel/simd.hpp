@@ -22,8 +22,8 @@ constexpr int laneCount = 2;
 
 struct Lanes {
 	typedef double Vector __attribute__((vector_size(laneCount * sizeof(double))));
-	typedef std::int64_t Mask __attribute__((
-	        vector_size(laneCount * sizeof(double)))); ///< each lane: all bits set (true) or none (false)
+	/// Each lane: all bits set (true) or none (false).
+	typedef std::int64_t Mask __attribute__((vector_size(laneCount * sizeof(double))));
 
 	Vector v;
 

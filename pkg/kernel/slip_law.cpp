@@ -18,9 +18,11 @@ const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>&
 		if (!(std::isfinite(point.stretch) && std::isfinite(point.force))) return "finite";
 		if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
 		if (&point == &points.back() ? point.force != 0 : !(point.force > 0))
-			return "of forces > 0, the last one 0";
+			return "of forces > 0, the last "
+			       "one 0";
 		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch))
-			return "nowhere steeper than kn";
+			return "nowhere "
+			       "steeper than kn";
 		last = point;
 	}
 	return nullptr;
@@ -96,8 +98,8 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 		histories.plastic[i] = f.history.plastic;
 		histories.largest[i] = f.history.largest;
 		total.force += force;
-		total.torqueA += end.cross(
-		        force); // the force is not along the stretch: it acts on both bodies at the anchor of B
+		// The force is not along the stretch: it acts on both bodies at the anchor of B
+		total.torqueA += end.cross(force);
 		total.torqueB -= armB.cross(force);
 		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
 		total.sum += force.norm();

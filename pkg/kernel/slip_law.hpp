@@ -11,10 +11,10 @@
 ///     s(R) = R - y(R)          slack of the slip part [m], which does not fall
 ///
 /// Friction part (share phi): elastic and perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p
-/// moves along e (radial return). It gives parallelogram loops, which dissipate energy in every cycle. Slip part (share
-/// 1 - phi): acts along d with the elastic stretch x = max(0, r - s), a nail in a hole that has widened to s. It has no
-/// force within the slack (pinching) and returns on the same line to the backbone. At constant R it is conservative: it
-/// dissipates as R grows.
+/// moves along e (radial return). It gives parallelogram loops, which dissipate energy in every cycle.
+/// Slip part (share 1 - phi): acts along d with the elastic stretch x = max(0, r - s), a nail in a hole that has
+/// widened to s. It has no force within the slack (pinching) and returns on the same line to the backbone. At constant
+/// R it is conservative: it dissipates as R grows.
 ///
 ///     force      = phi k e + (1 - phi) k x d / r
 ///     stored     = k/2 (phi e^2 + (1 - phi) x^2)
@@ -22,13 +22,14 @@
 ///
 /// Balance. Friction part: e.dd = e.de + y |dp|, because dp is parallel to e and |e| = y while it yields. Slip part: on
 /// the backbone x = y and R = s + y, so that y dR = y dy + y ds; elsewhere s is constant. Both dissipate at no negative
-/// rate. First loading along a line gives the backbone. At d_u all work is dissipated: the area under it.
+/// rate.
+/// First loading along a line gives the backbone. At d_u all work is dissipated: the area under it.
 ///
 /// Update for a straight path from the previous to the new stretch, whose largest length is at an end:
 ///     1. R grows to r; y, s and P follow in closed form;
 ///     2. radial return of e to y(R);
 ///     3. dissipated energy k (phi m |dp| + (1 - phi) dP), with m = dP / ds the mean elastic limit while s grows, else
-///     y.
+///       y.
 /// Radial paths: forces and history do not depend on the length of the steps. Energies do not, either, but for a step
 /// that begins below R and ends beyond R where y changes. Other paths: error of first order in forces (radial return),
 /// of second order in the energy balance.
@@ -42,7 +43,8 @@
 /// turn with the other body. The results differ by the rotation of the bodies relative to each other since p arose.
 ///
 /// Sources: joints of timber-frame houses as elements with slip: Nakagawa, Ohta, Tsuchimoto and Kawai, J. Wood Sci. 56
-/// (2010) 284-292; radial return: Simo and Hughes, Computational Inelasticity (1998), section 3.3.
+/// (2010) 284-292;
+/// radial return: Simo and Hughes, Computational Inelasticity (1998), section 3.3.
 #pragma once
 #include "joint_law.hpp"
 

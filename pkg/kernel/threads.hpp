@@ -2,10 +2,9 @@
 /// Parallel loops. Results do not depend on the number of threads, nor on their use.
 ///
 /// * The calling thread takes items until none is left, and then waits only for items that another thread has begun: a
-/// thread that the
-///   system does not run at the moment delays nothing.
+///   thread that the system does not run at the moment delays nothing.
 /// * Idle threads spin for some microseconds, then sleep. Those of OpenMP spin for milliseconds and take the processor
-/// from other work.
+///   from other work.
 /// * thread_choice.hpp decides by measured time whether the loops of a step use more than one thread.
 #pragma once
 

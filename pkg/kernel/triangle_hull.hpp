@@ -12,7 +12,8 @@ using Triangle = std::array<int, 3>; ///< point indices, counter-clockwise seen 
 using LongVec3 = Eigen::Matrix<long double, 3, 1>;
 
 /// Triangles of the convex hull of points about the origin; a closed surface. Those of coplanar points are one of their
-/// possible triangulations. Empty if the points are coplanar.
+/// possible triangulations.
+/// Empty if the points are coplanar.
 std::vector<Triangle> hullTriangles(const std::vector<LongVec3>& points);
 
 /// The same of points anywhere.

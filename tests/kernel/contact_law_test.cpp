@@ -136,8 +136,8 @@ TEST(ShearSpring, IgnoresApproach)
 	for (int trial = 0; trial < 100; ++trial) {
 		Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
 		spring.step(1e-3, 1e-3, Vec3::Zero(), Vec3::Zero(), randomDirection(random));
-		EXPECT_LT(spring.state.shearForce.norm(),
-		        1e-12 * timberLaw.force(1e-3)); // cancellation of the approach speed
+		// Cancellation of the approach speed
+		EXPECT_LT(spring.state.shearForce.norm(), 1e-12 * timberLaw.force(1e-3));
 	}
 }
 
@@ -152,8 +152,8 @@ TEST(RotatedShear, PreservesTheMagnitudeAndFollowsTheNormal)
 		EXPECT_NEAR(result.dot(next), 0, 1e-10);
 	}
 	EXPECT_EQ(rotatedShear<double>(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()), Vec3::Zero());
-	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()),
-	        Vec3::Zero()); // no component in the plane
+	// No component in the plane
+	EXPECT_EQ(rotatedShear<double>(Vec3(0, 0, 5), Vec3::Zero(), Vec3::UnitZ()), Vec3::Zero());
 }
 
 /// A quarter of a revolution about the normal, and about an axis in the plane, in small steps.
@@ -168,8 +168,8 @@ TEST(RotatedShear, FollowsAFiniteRotation)
 			normal = small * normal;
 			shear = rotatedShear<double>(shear, axis * (M_PI / 2 / steps), normal);
 		}
-		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(),
-		        1e-3); // first order in the step: 10 (pi/2)^2 / steps
+		// First order in the step: 10 (pi/2)^2 / steps
+		EXPECT_LT((shear - about(axis, M_PI / 2) * Vec3(7, 3, 0)).norm(), 1e-3);
 	}
 }
 
@@ -234,11 +234,11 @@ TEST(ShearSpring, LosesForceWithItsStiffness)
 	spring.step(1e-3, 1e-3, { 1e-5, 0, 0 });
 	const Vec3 full = spring.state.shearForce;
 	spring.step(4e-3, 0, Vec3::Zero());
-	EXPECT_LT((spring.state.shearForce - full).norm(),
-	        1e-12 * full.norm()); // rounding: the force stays while n grows
+	// Rounding: the force stays while n grows
+	EXPECT_LT((spring.state.shearForce - full).norm(), 1e-12 * full.norm());
 	spring.step(1e-3, 0, Vec3::Zero());
-	EXPECT_LT(
-	        (spring.state.shearForce - full / 2).norm(), 1e-12 * full.norm()); // stiffness goes with sqrt(n): half
+	// Stiffness goes with sqrt(n): half
+	EXPECT_LT((spring.state.shearForce - full / 2).norm(), 1e-12 * full.norm());
 }
 
 TEST(NewPoint, OverlapIsExplainedByApproachOrEnergy)

@@ -178,8 +178,8 @@ TEST(InitialOverlap, ApproachTakesNoReleasedEnergy)
 	EXPECT_NEAR(step({ pointOf(edge, 3 * overlap) }, records, speed), law.energy(overlap / 2), rounding * whole);
 	expectOverlap(records[0], overlap, 3 * overlap);
 	records = { loaded(vertex, overlap) };
-	EXPECT_NEAR(step({ pointOf(edge, overlap / 4) }, records, speed), whole,
-	        rounding * whole); // the approach explains more than the overlap
+	// The approach explains more than the overlap
+	EXPECT_NEAR(step({ pointOf(edge, overlap / 4) }, records, speed), whole, rounding * whole);
 	expectOverlap(records[0], overlap / 4, overlap / 4);
 	records.clear();
 	EXPECT_EQ(step({ pointOf(edge, 3 * overlap) }, records, -speed), 0); // separating bodies explain none

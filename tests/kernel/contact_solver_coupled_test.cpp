@@ -69,9 +69,12 @@ Eigen::VectorXd denseSolution(const Heap& heap, double h)
 	const int count = int(heap.points.size());
 	Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * count, 6 * int(heap.bodies.size())),
 	                inverseMass = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
-	const auto cross = [](const Vec3& r) {
-		return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r)).finished();
-	}; // w -> w x r
+	const auto cross
+	        // W -> w x r
+	        = [](const Vec3& r) {
+		          return (Mat3() << Vec3::UnitX().cross(r), Vec3::UnitY().cross(r), Vec3::UnitZ().cross(r))
+		                  .finished();
+	          };
 	Eigen::VectorXd before(jacobian.cols()), free(jacobian.cols());
 	for (size_t k = 0; k < heap.bodies.size(); ++k) {
 		const SolverBody& b = heap.bodies[k];
@@ -129,8 +132,9 @@ TEST(Coupled, ConvergesToTheDenseSolution)
 		int compared = 0;
 		for (unsigned seed = 0; seed < 200 && compared < 10; ++seed) {
 			Heap heap(seed, 6, damping > 1e4 ? 3 : 10, damping, 1e9, 0);
-			for (auto& p : heap.points) { // a compressive initial guess: unlimited friction has a second
-				                      // solution, in which a point separates
+			// A compressive initial guess: unlimited friction has a second solution, in which a point
+			// separates
+			for (auto& p : heap.points) {
 				p.elasticNormal = 100 * damping;
 				p.impulse = h * p.elasticNormal * p.normal;
 			}
@@ -179,8 +183,8 @@ TEST(Coupled, TangentialImpulseCancelsTheSlipOfTheNormalOne)
 	p.friction = 1e9;
 	std::vector<HeapPoint> points { p };
 	EXPECT_LE(solveContacts(bodies, points, 1e-4, 1000, 1e-9), 30); // observed 22; 42 without coupling
-	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(),
-	        1e-2); // of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed remains
+	// Of the response (2.5, 1.5; 1.5, 2.5) / mass; 2 / x of the speed remains
+	EXPECT_LT((points[0].impulse - mass * Vec3(-0.375, 0, 0.625)).norm(), 1e-2);
 }
 
 /// Pairs are visited in the same order in all sweeps: an impulse at the first body of a row crosses the whole row in
@@ -203,13 +207,13 @@ TEST(Coupled, PairsAreVisitedInTheSameOrder)
 		return bodies;
 	};
 	const std::vector<SolverBody> one = after(1);
-	for (int k = 0; k < last;
-	        ++k) // two bodies in contact get their mean velocity: half of the impulse is transmitted
-		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5)
-		        << k; // 2 / x = 4e-6 of a relative velocity remains
+	// Two bodies in contact get their mean velocity: half of the impulse is transmitted
+	for (int k = 0; k < last; ++k)
+		// 2 / x = 4e-6 of a relative velocity remains
+		EXPECT_NEAR(one[k].newVelocity.z(), std::pow(0.5, k + 1), 1e-5) << k;
 	EXPECT_NEAR(one[last].newVelocity.z(), one[last - 1].newVelocity.z(), 1e-5);
-	EXPECT_NEAR(
-	        after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5); // 0.334 if the second sweep were in reverse order
+	// 0.334 if the second sweep were in reverse order
+	EXPECT_NEAR(after(2)[0].newVelocity.z(), (0.5 + 0.25) / 2, 1e-5);
 }
 
 /// The order of a pair's points alternates, so that no side of a face is favoured: after the second sweep the first
@@ -223,8 +227,8 @@ TEST(Coupled, OrderOfPointsAlternates)
 	solveContacts(bodies, points, 1e-4, 2);
 	const auto speed
 	        = [&](const HeapPoint& p) { return bodies[1].newVelocity.z() - bodies[1].newSpin.y() * p.armB.x(); };
-	const double other
-	        = -1.5 / 3.5; // of the responses (3.5, -1.5; -1.5, 3.5): effect of one point's impulse on the other
+	// Of the responses (3.5, -1.5; -1.5, 3.5): effect of one point's impulse on the other
+	const double other = -1.5 / 3.5;
 	EXPECT_NEAR(speed(points[0]), 0, 1e-5); // 2 / x = 6e-7 of the speed remains
 	EXPECT_NEAR(speed(points[1]), other * other * (other - 1), 1e-5);
 }
@@ -309,8 +313,8 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed remains, x = 1e4
 	}
 	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
-	std::vector<HeapPoint> points { central(1e7),
-		central(1e7) }; // the heavy one falls on the light one on the ground
+	// The heavy one falls on the light one on the ground
+	std::vector<HeapPoint> points { central(1e7), central(1e7) };
 	points[1].bodyA = 1;
 	points[1].bodyB = 2;
 	const double before = kineticEnergy(bodies);
@@ -335,8 +339,8 @@ TEST(Coupled, ALargeWarmStartDoesNotEndTheSweeps)
 			largest = std::max(largest, heap.points[k].impulse.norm());
 			error = std::max(error, (heap.points[k].impulse - pushed.points[k].impulse).norm());
 		}
-		EXPECT_LT(error, 0.05 * largest)
-		        << seed; // tolerance 1e-3 of the rms, times the number of coupled points
+		// Tolerance 1e-3 of the rms, times the number of coupled points
+		EXPECT_LT(error, 0.05 * largest) << seed;
 	}
 }
 

@@ -15,10 +15,12 @@ TEST(SinglePair, DecaysByThePadeApproximant)
 		for (const double otherMass : { 2., 1e6, 0. }) {
 			const double m = otherMass > 0 ? 1 / (1 / 3. + 1 / otherMass) : 3, h = 1e-4;
 			const double expected = -2 * (1 - x / 3) / (1 + 2 * x / 3 + x * x / 6);
+			// X amplifies rounding once
 			EXPECT_NEAR(after(otherMass, 3, 2, x * m / h, h, 1), expected, 2 * rounding * std::max(1., x))
-			        << x; // x amplifies rounding once
+			        << x;
+			// More sweeps, same result
 			EXPECT_NEAR(after(otherMass, 3, 2, x * m / h, h, 5), expected, 2 * rounding * std::max(1., x))
-			        << x; // more sweeps, same result
+			        << x;
 		}
 }
 
@@ -100,15 +102,16 @@ struct LoadedMass {
 } // namespace
 
 /// Newmark's method preserves the amplitude of an oscillation and advances its phase in a step by acos(1 - y / (2 + 2
-/// beta y)), however stiff the spring; explicit springs are unstable beyond omega h = 2.
+/// beta y)), however stiff the spring;
+/// explicit springs are unstable beyond omega h = 2.
 TEST(SinglePair, SpringsSetNoLimitToTheStep)
 {
 	for (const double turn : { 0.1, 1., 2., 10., 300. }) {
 		LoadedMass m { 4, 1e5, 0, 4e6, 0, turn / 1e3 }; // omega = 1000 /s
 		const double y = turn * turn, phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2))), start = 1e-3;
 		m.displacement.z() = start;
-		m.velocity.z() = start * (1 - std::cos(phase))
-		        / m.h; // half a step earlier, on the orbit of start cos(phase k)
+		// Half a step earlier, on the orbit of start cos(phase k)
+		m.velocity.z() = start * (1 - std::cos(phase)) / m.h;
 		for (int k = 1; k <= 200; ++k) {
 			m.step(1);
 			EXPECT_NEAR(m.displacement.z(), start * std::cos(phase * k), 1e-7 * start * std::max(1., turn))
@@ -128,8 +131,8 @@ TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
 			m.points = points;
 			m.displacement.z() = start;
 			const double y = turn * turn, all = double(points) * y;
-			m.velocity.z() = start * all / (2 + 2 * all * y / (4 * y + 2))
-			        / m.h; // on the orbit of start cos(phase k), as above
+			// On the orbit of start cos(phase k), as above
+			m.velocity.z() = start * all / (2 + 2 * all * y / (4 * y + 2)) / m.h;
 			double largest = 0;
 			for (int k = 0; k < 200 && largest < 0.1; ++k) {
 				m.step(2000); // coupled points: linear convergence of the sweeps
@@ -154,8 +157,8 @@ TEST(Limits, FrictionOfALoadedLightMemberDissipates)
 			m.step(5);
 			largest = std::max(largest, std::abs(m.velocity.x()));
 		}
-		EXPECT_LE(largest, 0.1 + limit / std::sqrt(4 * stiffness))
-		        << h; // the spring accelerates it to 1.1 m/s when it slips
+		// The spring accelerates it to 1.1 m/s when it slips
+		EXPECT_LE(largest, 0.1 + limit / std::sqrt(4 * stiffness)) << h;
 		EXPECT_LT(m.velocity.norm(), 1e-6) << h;
 	}
 }

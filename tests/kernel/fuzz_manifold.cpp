@@ -138,8 +138,8 @@ void check(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& p
 	        = coreGap(a.core, b.core, (poseA.orientation.conjugate() * poseB.orientation).toRotationMatrix(),
 	                poseA.orientation.conjugate() * (poseB.position - poseA.position), axis);
 	const double limit = a.radius + b.radius + std::max({ -gap, a.coreHalfThickness, b.coreHalfThickness, 1e-4 });
-	const double noise = 1e-12
-	        * (a.boundingRadius + b.boundingRadius); // cores that just touch in a pattern that is off have no point
+	// Cores that just touch in a pattern that is off have no point
+	const double noise = 1e-12 * (a.boundingRadius + b.boundingRadius);
 	require(gap >= -noise || !points.empty(), "overlapping cores without a point");
 	for (size_t k = 0; k < points.size(); ++k) {
 		const ContactPoint& p = points[k];
@@ -164,15 +164,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 		std::vector<ContactPoint> points, fresh;
 		for (int step = 0; step < 3; ++step) {
 			const Pose poseB { bytes.vector() * (a.boundingRadius + b.boundingRadius), bytes.rotation() };
-			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6)
-				return 0; // placements are checked by the caller
+			// Placements are checked by the caller
+			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0;
 			updateManifold(a, b, poseA, poseB, patterns, cache, points);
 			check(a, b, poseA, poseB, points);
 			const double gap = updateManifold(a, b, poseA, poseB, patterns, cache, points);
 			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(),
 				poseB.orientation };
 			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(),
-			        "a contact within the gap that was promised");
+			        "a contact within "
+			        "the gap that was promised");
 			CandidateCache empty;
 			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
 			require(points.size() == fresh.size(), "the cache changes the result");

@@ -51,8 +51,8 @@ TEST(JointSpring, ForceIsTheGradientOfTheEnergy)
 			const double slope = (springForce<double>(k, stretch + e, normal).energy
 			                             - springForce<double>(k, stretch - e, normal).energy)
 			        / (2 * h);
-			EXPECT_NEAR(force[axis], slope,
-			        1e-5); // the energy is quadratic: only cancellation, 500 J * 1e-16 / h
+			// The energy is quadratic: only cancellation, 500 J * 1e-16 / h
+			EXPECT_NEAR(force[axis], slope, 1e-5);
 		}
 	}
 }
@@ -148,8 +148,8 @@ struct Joint {
 };
 
 using Indices = std::vector<size_t>;
-const std::vector<Vec3> uneven { { 0, 0, 0.04 }, { 0, 0, -0.06 }, { 0.07, 0, 0.01 },
-	{ 0, 0, 0.01 } }; // 40, 60, 71, 10 N: 181 N in all
+// 40, 60, 71, 10 N: 181 N in all
+const std::vector<Vec3> uneven { { 0, 0, 0.04 }, { 0, 0, -0.06 }, { 0.07, 0, 0.01 }, { 0, 0, 0.01 } };
 
 } // namespace
 
@@ -213,8 +213,8 @@ TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
 	Joint joint({ 1, false }, { { 0, 0, 0.1 } });
 	joint.velocity = { 0, 0, 2 };
 	const double earlier = 0.1 - joint.h / 2 * 2;
-	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier,
-	        500 * 1e-6 * (1 + rounding)); // first order in the step: K (h v / 2)^2 / 2 remains
+	// First order in the step: K (h v / 2)^2 / 2 remains
+	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding));
 	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
 }
 

@@ -83,8 +83,8 @@ struct Assembly {
 		const Matrix inverse = root.completeOrthogonalDecomposition().pseudoInverse();
 		for (const Joint& joint : joints) {
 			const Eigen::SelfAdjointEigenSolver<Matrix> modes(root * stiffness(joint) * root);
-			const double zero
-			        = 1e-12 * modes.eigenvalues().maxCoeff(); // rounding of the rigid motions' eigenvalues
+			// Rounding of the rigid motions' eigenvalues
+			const double zero = 1e-12 * modes.eigenvalues().maxCoeff();
 			const Vector values = modes.eigenvalues().unaryExpr(
 			        [&](double square) { return square > zero ? f(joint, square) : 0; });
 			all += inverse * modes.eigenvectors() * values.asDiagonal() * modes.eigenvectors().transpose()
@@ -257,13 +257,14 @@ TEST(Oscillator, IsStableAtAnyRate)
 		one.stored
 		        = { one.velocities().dot(one.newmark(x / std::sqrt(4 * 60000 / 8.)) * one.velocities()) / 2 };
 		one.damp(x / std::sqrt(4 * 60000 / 8.));
-		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12)
-		        << x; // rounding of some products
+		// Rounding of some products
+		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12) << x;
 	}
 }
 
 /// Newmark's term keeps the amplitude of an undamped joint at any step and advances its phase by acos(1 - y / (2 + 2
-/// beta y)), y = (h omega)^2; without it the scheme is unstable beyond h omega = 2.
+/// beta y)), y = (h omega)^2;
+/// without it the scheme is unstable beyond h omega = 2.
 TEST(Oscillator, StiffSpringsSetNoLimitToTheStep)
 {
 	const double mass = 30, k = 5e7, omega = std::sqrt(k / mass), start = 1e-4;
@@ -273,8 +274,8 @@ TEST(Oscillator, StiffSpringsSetNoLimitToTheStep)
 		const double h = turn / omega, y = turn * turn,
 		             phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2)));
 		double x = start;
-		all.bodies[1].newVelocity.z()
-		        = start * (1 - std::cos(phase)) / h; // half a step earlier, on the orbit of start cos(phase k)
+		// Half a step earlier, on the orbit of start cos(phase k)
+		all.bodies[1].newVelocity.z() = start * (1 - std::cos(phase)) / h;
 		all.setVelocities(all.velocities());
 		all.stored = { all.velocities().dot(all.newmark(h) * all.velocities()) / 2 };
 		for (int n = 1; n <= 200; ++n) {
@@ -294,11 +295,11 @@ TEST(Chain, LosesTheEnergyThatIsDissipated)
 	for (const double h : { 1e-4, 1e-2, 1., 1e3 }) {
 		Assembly all = chain(1);
 		all.setVelocities(randomFree(random, all));
-		const double before = kineticEnergy(all.bodies),
-		             dissipated = all.damp(h, 500000); // rigid dashpots of light members converge slowly
+		// Rigid dashpots of light members converge slowly
+		const double before = kineticEnergy(all.bodies), dissipated = all.damp(h, 500000);
 		const double stored = std::accumulate(all.stored.begin(), all.stored.end(), 0.); // by Newmark's term
-		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated + stored, 1e-9 * before)
-		        << h; // residual of the sweeps
+		// Residual of the sweeps
+		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated + stored, 1e-9 * before) << h;
 		EXPECT_GE(dissipated, 0) << h;
 	}
 }
@@ -388,8 +389,8 @@ TEST(Oscillator, OneSpringDampsNoRotation)
 	        (Vector(12) << 0, 0, 0, 0, 0, 0, Vec3(1, 2, 3).cross(Vec3(0.06, 0.05, 0)), Vec3(1, 2, 3)).finished());
 	const Vector v = one.velocities();
 	one.damp(1e-2);
-	EXPECT_LT(
-	        (one.velocities() - v).norm(), 1e-6 * v.norm()); // the square root of the rounding of a zero eigenvalue
+	// The square root of the rounding of a zero eigenvalue
+	EXPECT_LT((one.velocities() - v).norm(), 1e-6 * v.norm());
 }
 
 /// sweeps = 0: the impulse of the velocities before the step, -h D w.
@@ -403,8 +404,8 @@ TEST(Oscillator, ExplicitWithoutSweeps)
 	all.accelerate(change);
 	all.damp(h, 0);
 	const Vector expected = v + change - h * all.inverseMass() * all.damping() * v;
-	EXPECT_LT((all.velocities() - expected).norm(),
-	        1e-11 * expected.norm()); // rounding times the ratio of the column's inertias
+	// Rounding times the ratio of the column's inertias
+	EXPECT_LT((all.velocities() - expected).norm(), 1e-11 * expected.norm());
 }
 
 /// Modes depend on springs, masses, moments of inertia and the orientation of the bodies against each other.
@@ -424,8 +425,9 @@ TEST(JointModes, FitWhatTheyWereComputedFor)
 	for (const double share : { 0.9, 1.1 }) {
 		const Quat turned = about(Vec3::UnitZ(), share * modeAngle) * state.relative;
 		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; })), share < 1);
-		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative.coeffs() = -turned.coeffs(); })),
-		        share < 1); // the same orientation
+		// The same orientation
+		EXPECT_EQ(
+		        state.fits(changed([&](JointState& s) { s.relative.coeffs() = -turned.coeffs(); })), share < 1);
 	}
 	EXPECT_FALSE(JointState().fits(state));
 }
@@ -464,8 +466,8 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			modes.push_back(jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(),
 			        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 		}
-		const Mat3 axes = about(randomDirection(random), modeAngle)
-		                          .toRotationMatrix(); // the bodies have turned since then
+		// The bodies have turned since then
+		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix();
 		for (size_t k = 0; k < all.joints.size(); ++k)
 			solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], axes, 1, 0);
 		solver.solve(1e-10);

@@ -129,9 +129,9 @@ TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 }
 
 /// An edge moves towards a position just beyond another edge, along the normal of its own inclined face, along which
-/// the gap is measured. The face supports its vertices (flushTolerance) even if that gap is slightly larger than the
-/// sum of the radii. The skin subtracted from the margin covers this, and so does the second skin within which
-/// candidates are searched.
+/// the gap is measured.
+/// The face supports its vertices (flushTolerance) even if that gap is slightly larger than the sum of the radii. The
+/// skin subtracted from the margin covers this, and so does the second skin within which candidates are searched.
 TEST(CandidateCache, ObliqueApproachFromAfar)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
@@ -148,8 +148,8 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
 			supported = supported || (distance > touch && !points.empty());
 			if (distance == start) {
-				EXPECT_LT((cache.axis - axis).norm(),
-				        1e-12); // the gap is measured along the normal of the inclined face
+				// The gap is measured along the normal of the inclined face
+				EXPECT_LT((cache.axis - axis).norm(), 1e-12);
 			}
 		}
 		EXPECT_TRUE(supported); // the tested case occurred
@@ -222,8 +222,8 @@ TEST(CandidateCache, CrossingsOfDeepEdgesRunFar)
 	const auto points = afterMove(lower, upper, before, after);
 	const auto crossing = std::find_if(points.begin(), points.end(), isDeep);
 	ASSERT_NE(crossing, points.end());
-	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine),
-	        2e-3); // to first order; (pitch / sine)^2 = 2 %
+	// To first order; (pitch / sine)^2 = 2 %
+	EXPECT_NEAR(crossing->position.x(), beyond - depth * pitch / (sine * sine), 2e-3);
 }
 
 /// Pairs vibrate for longer than restInterval and then move: the features left out at rest must become candidates in

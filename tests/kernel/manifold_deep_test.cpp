@@ -122,8 +122,8 @@ TEST(DeepOverlap, CorePointPartsThePairInOneMove)
 /// they project onto the top and are below its plane, but outside the ridge. They are not in contact.
 TEST(DeepOverlap, NoContactOfAVertexOutsideTheBody)
 {
-	const double radius = 0.01, depth = 0.05,
-	             side = 0.5 - radius * (1 + M_SQRT2) - depth; // of the core's slope of 45 degrees at that depth
+	// Of the core's slope of 45 degrees at that depth
+	const double radius = 0.01, depth = 0.05, side = 0.5 - radius * (1 + M_SQRT2) - depth;
 	const auto ridge
 	        = rounded(prismVertices({ { -0.5, 0 }, { -0.1, -0.4 }, { 0.1, -0.4 }, { 0.5, 0 } }, 1), radius);
 	const auto block = roundedBox({ 0.2 + 2 * radius, 0.3, 0.3 }, radius);

@@ -122,8 +122,8 @@ TEST(CoincidentVertices, ExtraPatternsCountEachCornerOnce)
 TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 {
 	const auto box = roundedBox({ 1, 1, 1 }, 0.001), bar = roundedBox({ 0.1, 1, 0.1 }, 0.001);
-	const double inside = 1e-4, above = 5e-5,
-	             half = 0.049 * std::sqrt(2.); // of the bar's core edge, from the box's
+	// Of the bar's core edge, from the box's
+	const double inside = 1e-4, above = 5e-5, half = 0.049 * std::sqrt(2.);
 	const auto points = contacts(
 	        box, bar, {}, { { 0.499 - inside, 0, 0.499 + above + half }, about(Vec3::UnitY(), M_PI / 4) });
 	EXPECT_EQ(count(points, FeatureKind::VertexFace), 2);
@@ -131,8 +131,8 @@ TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 	EXPECT_EQ(points.size(), 4u);
 	for (const auto& p : points) {
 		const bool side = p.id.kind() == FeatureKind::VertexFace;
-		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above),
-		        1e-13); // rounding at positions of metres
+		// Rounding at positions of metres
+		EXPECT_NEAR(p.overlap, 0.002 - (side ? (inside + above) / std::sqrt(2.) : above), 1e-13);
 		EXPECT_NEAR(p.normal.z(), side ? std::sqrt(0.5) : 1, 1e-13);
 		EXPECT_LT((p.position - points[0].position).cwiseProduct(Vec3(1, 0, 1)).norm(), 2e-4);
 	}

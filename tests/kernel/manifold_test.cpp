@@ -203,8 +203,8 @@ TEST(CornerOnEdge, NormalAlongTheShortestConnection)
 	EXPECT_TRUE(contacts(a, b, {}, poseB).empty());
 	const auto points = contacts(a, b, {}, poseB, { true, true });
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
-	expectPositions(
-	        points, { edge + towards * (a.radius - press / 2) }, 1e-12); // rounding of the rotation onto the corner
+	// Rounding of the rotation onto the corner
+	expectPositions(points, { edge + towards * (a.radius - press / 2) }, 1e-12);
 	for (const auto& p : points)
 		expectPoint(p, towards, press, 1e-12);
 }
@@ -228,8 +228,8 @@ TEST(CornerOnEdge, NoContactBehindAnEdge)
 		const auto points = swapped ? contacts(cube, ridge, poseB, {}, { true, true })
 		                            : contacts(ridge, cube, {}, poseB, { true, true });
 		EXPECT_EQ(count(points, swapped ? FeatureKind::VertexFace : FeatureKind::FaceVertex), 1);
-		expectPositions(
-		        points, { foot + radius / 2 * slope }, 1e-12); // rounding of the rotation onto the corner
+		// Rounding of the rotation onto the corner
+		expectPositions(points, { foot + radius / 2 * slope }, 1e-12);
 		for (const auto& p : points)
 			expectPoint(p, swapped ? Vec3(-slope) : slope, radius, 1e-12);
 	}
@@ -352,8 +352,8 @@ TEST(Symmetry, SceneTurnedAndMovedByAKilometre)
 		const auto here = contacts(a, b, poseA, poseB),
 		           there = contacts(a, b, carried(poseA, rotation, far), carried(poseB, rotation, far));
 		ASSERT_EQ(here.size(), there.size());
-		for (size_t k = 0; k < here.size();
-		        ++k) { // positions at 1 km are rounded to 1e-13 m, times 1 / parallelSine
+		// Positions at 1 km are rounded to 1e-13 m, times 1 / parallelSine
+		for (size_t k = 0; k < here.size(); ++k) {
 			EXPECT_EQ(here[k].id, there[k].id);
 			EXPECT_NEAR(here[k].overlap, there[k].overlap, 1e-9);
 			EXPECT_LT((rotation * here[k].normal - there[k].normal).norm(), 1e-9);

@@ -39,8 +39,9 @@ TEST(HalfSpaces, RoundTrip)
 		const Polyhedron body = Polyhedron::fromVertices(points),
 		                 again = Polyhedron::fromHalfSpaces(planesOf(body));
 		expectCounts(again, body.vertices.size(), body.edges.size(), body.faces.size());
-		EXPECT_NEAR(massProperties(again).volume, massProperties(body).volume,
-		        1e-12 * massProperties(body).volume); // three-plane solves
+		// Three-plane solves
+		EXPECT_NEAR(
+		        massProperties(again).volume, massProperties(body).volume, 1e-12 * massProperties(body).volume);
 	}
 }
 
@@ -57,8 +58,8 @@ TEST(HalfSpaces, CornersAtTheOrigin)
 {
 	Random random(8);
 	for (int trial = 0; trial < 50; ++trial) {
-		const auto points
-		        = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 }); // degree-4 apex at the origin
+		// Degree-4 apex at the origin
+		const auto points = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 });
 		const Polyhedron body = Polyhedron::fromVertices(moved(points, randomRotation(random), Vec3::Zero()));
 		expectCounts(Polyhedron::fromHalfSpaces(planesOf(body)), 5, 8, 5);
 	}
@@ -112,8 +113,8 @@ TEST(Core, PlanesMoveByTheRadius)
 				          return p.plane.normal.dot(inner.plane.normal)
 				                  < q.plane.normal.dot(inner.plane.normal);
 			          });
-			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004,
-			        1e-12); // three-plane solves, metre-sized
+			// Three-plane solves, metre-sized
+			EXPECT_NEAR(outer->plane.offset - inner.plane.offset, 0.004, 1e-12);
 			EXPECT_NEAR(outer->plane.normal.dot(inner.plane.normal), 1, rounding);
 		}
 	}
@@ -207,8 +208,9 @@ TEST(Refusals, SayWhatIsWrong)
 TEST(Refusals, PointsThatAreNoCorners)
 {
 	const auto box = boxVertices({ 1, 1, 1 });
+	// Inside, on an edge, on faces
 	const std::vector<Vec3> extras { { 0.1, 0.2, 0.3 }, { 0.5, 0.5, 0 }, { 0.5, 0.1, 0.2 }, { 0, 0, 0.5 },
-		{ 0.5, 0, 0 } }; // inside, on an edge, on faces
+		{ 0.5, 0, 0 } };
 	for (const Vec3& extra : extras) {
 		auto bad = box;
 		bad.push_back(extra);
@@ -228,7 +230,8 @@ TEST(Refusals, TooManyVertices)
 	Random random(12);
 	for (const size_t count : { maxVertices + 1, size_t(2000), size_t(20000) })
 		expectRefusal(ellipsoidPoints(random, int(count), { 1, 1, 1 }),
-		        "at most 64 vertices, got " + std::to_string(count));
+		        "at most 64 vertices, got "
+		        "" + std::to_string(count));
 	const auto begin = std::clock();
 	const auto points = ellipsoidPoints(random, int(maxVertices), { 1, 0.8, 0.6 });
 	EXPECT_EQ(Polyhedron::fromVertices(points).vertices.size(), maxVertices);

@@ -125,8 +125,8 @@ TEST(Mass, BraceVolume)
 	const double left = brace.rise - brace.cutZ();
 	const double area = brace.run * brace.rise - brace.run / brace.rise * left * left;
 	EXPECT_NEAR(mass.volume, area * brace.depth, rounding);
-	EXPECT_LT((mass.centroid - Vec3(brace.run / 2, 0, brace.rise / 2)).norm(),
-	        10 * rounding); // few-metre coordinates
+	// Few-metre coordinates
+	EXPECT_LT((mass.centroid - Vec3(brace.run / 2, 0, brace.rise / 2)).norm(), 10 * rounding);
 }
 
 /// Triangle without its three cut corners, sheared by the slope: shear changes neither volume nor plan centroid.
@@ -224,8 +224,8 @@ TEST(PrincipalAxes, RightHandedAndDiagonal)
 		        = massProperties(Polyhedron::fromVertices(ellipsoidPoints(random, 8, { 1, 0.5, 0.3 }))).inertia;
 		const Mat3 axes = principalAxes(inertia);
 		EXPECT_NEAR(axes.determinant(), 1, rounding);
-		EXPECT_LT((axes.transpose() * axes - Mat3::Identity()).norm(),
-		        10 * rounding); // orthonormality of the solver
+		// Orthonormality of the solver
+		EXPECT_LT((axes.transpose() * axes - Mat3::Identity()).norm(), 10 * rounding);
 		const Mat3 inside = axes.transpose() * inertia * axes;
 		EXPECT_LT((inside - Mat3(inside.diagonal().asDiagonal())).norm(), 10 * rounding * inertia.norm());
 	}

@@ -98,8 +98,8 @@ double sectionVolume(const Points& points)
 	};
 	long double volume = 0;
 	for (size_t k = 1; k < x.size(); ++k) {
-		const long double low = x[k - 1].z(), high = x[k].z(),
-		                  part = (high - low) / 4; // three inner points: the ends may be faces
+		// Three inner points: the ends may be faces
+		const long double low = x[k - 1].z(), high = x[k].z(), part = (high - low) / 4;
 		volume += (high - low) / 3
 		        * (2 * sectionArea(low + part) - sectionArea(low + 2 * part) + 2 * sectionArea(high - part));
 	}
@@ -209,8 +209,8 @@ bool removeRefused(Points& points, Polyhedron& body)
 			const Vec3 point = points[k];
 			points.erase(points.begin() + long(k));
 			if (points.size() < 4) return false;
-			EXPECT_LE(largestHeight(supportingPlanes(points), point), 1.02e-6 * sizeOf(points))
-			        << text; // planarShare
+			// PlanarShare
+			EXPECT_LE(largestHeight(supportingPlanes(points), point), 1.02e-6 * sizeOf(points)) << text;
 		}
 	return false;
 }
@@ -325,7 +325,7 @@ TEST(RandomHulls, TwoDecimals)
 	        = rounded({ { -0.79, 0.59, 0.15 }, { 0.38, -0.78, 0.49 }, { 0.80, -0.60, 0.02 }, { 0.89, 0.45, 0.0 },
 	                { 0.55, -0.06, 0.83 }, { 0.87, 0.50, 0.0 }, { -0.94, -0.34, -0.10 }, { 0.53, 0.85, 0.07 } });
 	EXPECT_EQ(body.core.vertices.size(), 20u);
-	EXPECT_NEAR(
-	        massProperties(body.core).volume / massProperties(body.sharp).volume, 0.959, 0.0005); // its last digit
+	// Its last digit
+	EXPECT_NEAR(massProperties(body.core).volume / massProperties(body.sharp).volume, 0.959, 0.0005);
 	EXPECT_NEAR(body.core.shortestEdge(), 5e-4, 1e-4); // likewise
 }

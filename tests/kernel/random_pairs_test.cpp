@@ -54,9 +54,9 @@ void expectSound(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const P
         double depth, const std::vector<ContactPoint>& points)
 {
 	const double touch = a.radius + b.radius;
+	// 1e-4: flushTolerance
 	const double limit = touch
-	        + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0.,
-	                1e-4 }); // 1e-4: flushTolerance
+	        + std::max({ depth, depth > 0 ? std::max(a.coreHalfThickness, b.coreHalfThickness) : 0., 1e-4 });
 	for (size_t k = 0; k < points.size(); ++k) {
 		const ContactPoint& p = points[k];
 		EXPECT_TRUE(p.position.allFinite());
@@ -81,8 +81,8 @@ TEST(RandomPairs, TwentyThousand)
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
 		const Vec3 far = trial % 4 == 0 ? Vec3(1000 * randomDirection(random)) : Vec3(Vec3::Zero());
 		const Pose poseA { far, randomRotation(random) };
-		const Vec3& vertex
-		        = a.core.vertices[random() % a.core.vertices.size()]; // near A's surface, where contacts are
+		// Near A's surface, where contacts are
+		const Vec3& vertex = a.core.vertices[random() % a.core.vertices.size()];
 		const Pose poseB { far + poseA.orientation * vertex
 			        + (b.boundingRadius + a.radius) * uniform(random, 0, 1.1) * randomDirection(random),
 			randomRotation(random) };

@@ -103,8 +103,8 @@ TEST(CoreGap, PointReflectionAndSwap)
 		Vec3 axis, axisMirror, axisSwapped;
 		EXPECT_NEAR(pair.gap(axis), mirror.gap(axisMirror), rounding);
 		EXPECT_NEAR(pair.gap(axis), swapped.gap(axisSwapped), rounding);
-		EXPECT_LT(
-		        (axis + axisMirror).norm(), 1e-9); // normals of random triangles: rounding over their sharpness
+		// Normals of random triangles: rounding over their sharpness
+		EXPECT_LT((axis + axisMirror).norm(), 1e-9);
 		EXPECT_LT((axis + pair.rotation * axisSwapped).norm(), 1e-9);
 	}
 }

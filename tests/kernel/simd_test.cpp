@@ -228,9 +228,8 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		for (const auto member : { &PairEnergies::dashpotNormal, &PairEnergies::dashpotShear,
 		             &PairEnergies::friction, &PairEnergies::elasticNormal, &PairEnergies::elasticShear })
 			EXPECT_NEAR(energies.*member, sums.*member,
-			        1e-11
-			                * (1 + std::abs(energies.elasticNormal)
-			                        + std::abs(energies.*member))); // other orders of some products
+			        // Other orders of some products
+			        1e-11 * (1 + std::abs(energies.elasticNormal) + std::abs(energies.*member)));
 	}
 }
 

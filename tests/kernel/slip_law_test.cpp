@@ -141,7 +141,8 @@ TEST(SlipLaw, PointsThatAreNoBackbone)
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.01, 0 } }), "of ascending stretches > 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 5 } }), "of forces > 0, the last one 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 0 }, { 0.03, 0 } }),
-	        "of forces > 0, the last one 0");
+	        "of forces > 0, the last "
+	        "one 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, std::nan("") }, { 0.02, 0 } }), "finite");
 }
 
@@ -159,10 +160,10 @@ TEST(SlipLaw, AreaOfASteadyLoop)
 			const double area = 4 * phi * k * limit * std::max(0., a - limit);
 			spring.lead(a * direction, 10000);
 			spring.lead(-a * direction, 10000);
-			EXPECT_NEAR(spring.dissipated - dissipated, area,
-			        F * 1e-13); // 2e4 plastic flows, each rounded to 5e-18 m
-			EXPECT_NEAR(spring.work - work, area,
-			        10 * k * std::pow(2 * a / 10000, 2) / 8); // k step^2 / 8 for each of at most 10 kinks
+			// 2e4 plastic flows, each rounded to 5e-18 m
+			EXPECT_NEAR(spring.dissipated - dissipated, area, F * 1e-13);
+			// K step^2 / 8 for each of at most 10 kinks
+			EXPECT_NEAR(spring.work - work, area, 10 * k * std::pow(2 * a / 10000, 2) / 8);
 		}
 }
 
@@ -208,8 +209,8 @@ TEST(SlipLaw, EnergyToFailure)
 			EXPECT_NEAR(spring.energy, 0, rounding * area);
 			EXPECT_NEAR(spring.dissipated, area, rounding * area) << phi << " " << steps;
 			if (steps < 1000) continue;
-			EXPECT_NEAR(spring.work, area,
-			        2 * k * std::pow(du / steps, 2) / 8); // k step^2 / 8 for each of two kinks
+			// K step^2 / 8 for each of two kinks
+			EXPECT_NEAR(spring.work, area, 2 * k * std::pow(du / steps, 2) / 8);
 		}
 }
 
@@ -242,8 +243,8 @@ TEST(SlipLaw, LongStepsAreShortStepsOnRadialPaths)
 			EXPECT_LT((once.history.plastic - often.history.plastic).norm(), rounding * du) << a;
 			EXPECT_NEAR(once.history.largest, often.history.largest, rounding * du);
 			EXPECT_NEAR(once.energy, often.energy, rounding * F * du) << a;
-			if (a == 0.02 || a == 0.011)
-				continue; // see the head of slip_law.hpp: tested in EnergyOfALongStep
+			// See the head of slip_law.hpp: tested in EnergyOfALongStep
+			if (a == 0.02 || a == 0.011) continue;
 			EXPECT_NEAR(once.dissipated, often.dissipated, rounding * F * du) << phi << " " << a;
 		}
 	}
@@ -336,16 +337,16 @@ TEST(SlipLaw, ForceIsTheGradientOfTheStoredEnergyAtConstantHistory)
 	for (int trial = 0; trial < 200; ++trial) {
 		const SlipLaw law = lawOf(uniform(random, 0, 1));
 		const SlipHistory history { randomVector(random, 0.004), 0.011 };
-		const Vec3 at = history.plastic
-		        + randomVector(random, 0.8 * y / std::sqrt(3.)); // within the elastic limit and R
+		// Within the elastic limit and R
+		const Vec3 at = history.plastic + randomVector(random, 0.8 * y / std::sqrt(3.));
 		if (at.norm() > 0.99 * history.largest) continue;
 		for (int axis = 0; axis < 3; ++axis) {
 			const Vec3 h = 1e-7 * Vec3::Unit(axis);
 			const SlipForce ahead = slipForce(law, history, at + h), back = slipForce(law, history, at - h),
 			                here = slipForce(law, history, at);
 			EXPECT_EQ(here.dissipated, 0);
-			EXPECT_NEAR(here.force[axis], (ahead.energy - back.energy) / 2e-7,
-			        1e-3); // curvature of the kink at r = s: k h / 4 at most
+			// Curvature of the kink at r = s: k h / 4 at most
+			EXPECT_NEAR(here.force[axis], (ahead.energy - back.energy) / 2e-7, 1e-3);
 		}
 	}
 }
@@ -360,8 +361,8 @@ TEST(SlipLaw, TurnsWithTheScene)
 		for (int i = 1; i <= 200; ++i) {
 			here.move(path.at(i / 200.));
 			there.move(rotation * path.at(i / 200.));
-			EXPECT_LT((rotation * here.force - there.force).norm(),
-			        1e-9 * F); // rounding at r = s: the direction of e amplifies it
+			// Rounding at r = s: the direction of e amplifies it
+			EXPECT_LT((rotation * here.force - there.force).norm(), 1e-9 * F);
 		}
 		EXPECT_NEAR(here.dissipated, there.dissipated, 1e-9 * F * du);
 	}
@@ -494,6 +495,6 @@ TEST(SlipJoint, EnergyOfSpringsAlongAnAxis)
 		last = now;
 	}
 	EXPECT_GT(dissipated, F * y);
-	EXPECT_NEAR(work, last.energy + dissipated,
-	        1e-4 * dissipated); // the sum over steps and the radial return: 1e-4 / 2 at 10 000 steps
+	// The sum over steps and the radial return: 1e-4 / 2 at 10 000 steps
+	EXPECT_NEAR(work, last.energy + dissipated, 1e-4 * dissipated);
 }

@@ -91,8 +91,8 @@ TEST(Visit, HardensAsTheLaw)
 			const double stiffness = k * (1 + 2 * n / depth);
 			c.power = 2;
 			c.overlap = n;
-			c.hardening = (stiffness * n - force(n))
-			        / (c.power - 1); // as contact_pair.cpp takes it from force and stiffness
+			// As contact_pair.cpp takes it from force and stiffness
+			c.hardening = (stiffness * n - force(n)) / (c.power - 1);
 			const Hardening spring(c, d, 0);
 			EXPECT_NEAR(spring.force, force(n + d) - force(n) - stiffness * d, 1e-9 * force(n + d));
 			EXPECT_NEAR(spring.slope, k * (1 + 2 * (n + d) / depth) - stiffness,
