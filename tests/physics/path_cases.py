@@ -9,7 +9,7 @@ import dataclasses
 
 import numpy as np
 import yade_timber as yt
-from cases import O, hertz_constant, integrate_first, scene, shear_stiffness, spin, turned
+from cases import O, hertz_constant, integrate_first, scene, shear_stiffness
 from rows import Registry, Row, series
 from yade.minieigenHP import Vector3
 
@@ -26,14 +26,12 @@ STIFFNESS = POINTS * shear_stiffness(CONSTANT, OVERLAP)
 """Tangential stiffness at OVERLAP, all points. [N/m]"""
 
 
-def pair(dt=1e-4, friction=MU, offset=0.0):
-    """Base and a block on it with OVERLAP; `offset`: distance of their centres along x, which lengthens the base by
-    twice as much [m].
-    """
+def pair(dt=1e-4, friction=MU):
+    """Base and a block on it with OVERLAP."""
     heavy = yt.timber(density=HEAVY, friction=friction)
     base, block = np.array(SIZES)
-    low = yt.box(base + (2 * offset, 0, 0), (0, 0, -base[2] / 2), None, heavy)
-    high = yt.box(block, (offset, 0, block[2] / 2 - OVERLAP), None, heavy)
+    low = yt.box(base, (0, 0, -base[2] / 2), None, heavy)
+    high = yt.box(block, (0, 0, block[2] / 2 - OVERLAP), None, heavy)
     scene((low, high), dt, gravity=(0, 0, 0), damping_ratio=0, health_check=0)
     integrate_first()
     O.step()
@@ -198,45 +196,3 @@ def closed_paths_create_no_energy():
             note="rounding; dissipation is not counted",
         )
     ]
-
-
-def force_change(axis, dt, offset=0.0, angle=np.pi / 2, time=1.0):
-    """Sheared pair that rotates as a whole by `angle` [rad] in `time` [s]: relative change of the tangential force in
-    the frame of the pair.
-    """
-    bodies = pair(dt, friction=1e6, offset=offset)
-    move(bodies[1], (1e-6, 2e-6, 0), 50)
-    before, starts = shear_force(), [body.state.pos for body in bodies]
-    for body in bodies:
-        spin(body, np.array(axis) * angle / time)
-    count = int(round(time / dt))
-    for k in range(count):
-        for body, start in zip(bodies, starts):
-            body.state.vel = (turned(axis, angle * (k + 1) / count) * start - body.state.pos) / dt
-        O.step()
-    return (turned(axis, angle).conjugate() * shear_force() - before).norm() / before.norm()
-
-
-def rotates_with_the_pair():
-    """Not in the default set: its shear is set by hand, without work of the bodies, and rule (5) of the solver admits
-    no such force.
-
-    A quarter rotation in 1 s about x, y and z does not change the tangential force in the frame of the pair.
-
-    With the centres in line, and 1 m apart along the face (a column at the end of a beam). The errors are of second
-    order: in a step a point moves along the chord instead of the arc. Observed: 1.1e-3 and 2.9e-3 at 1e-4 s.
-    """
-    rows, dts = [], (4e-4, 2e-4, 1e-4)
-    for name, offset, bound in (("centres in line", 0.0, 2e-3), ("centres 1 m apart", 1.0, 5e-3)):
-        got = [max(force_change(axis, dt, offset) for axis in np.eye(3)) for dt in dts]
-        rows += series(
-            "2",
-            f"quarter rotation of a sheared pair, {name}: change of force [-]",
-            0.0,
-            got,
-            dts,
-            bound,
-            1.8,
-            note="chord instead of arc in a step",
-        )
-    return rows
