@@ -49,8 +49,7 @@ class Result:
     numbers: str
 
 
-# --- numbers of one summary
-# ---------------------------------------------------------------------------------------------
+# --- numbers of one summary -------------------------------------------------------------------------------------------
 
 
 def sway(run, direction):
@@ -85,8 +84,7 @@ def more_damaged(run, other):
     return (run.collapsed, damage(run)) > (other.collapsed, damage(other))
 
 
-# --- the same numbers as text
-# ---------------------------------------------------------------------------------------------
+# --- the same numbers as text -----------------------------------------------------------------------------------------
 
 
 def drift_text(value):
@@ -130,16 +128,14 @@ def runs_text(*runs):
     return "; ".join(run_text(run) for run in runs)
 
 
-# --- checks: each takes the summaries of the runs it names and returns (holds, numbers)
-# -----------------------------------
+# --- checks: each takes the summaries of the runs it names and returns (holds, numbers) -------------------------------
 
 
 def tilts_and_collapses_when_shaken(a):
     if not a.collapsed or a.leans_from_s is None:
         return False, f"{outcome_text(a)}, {sway_text(a)}, {damage_text(a)}"
-    onset = (
-        a.record.onset_s
-    )  # the direction depends on the record, which differs from the paper's: it is reported, not judged
+    # The direction depends on the record, which differs from the paper's: it is reported, not judged.
+    onset = a.record.onset_s
     tilt, fall = a.leans_from_s - onset, a.collapse_time_s - onset
     return (
         within(tilt, TILT_AFTER_ONSET) and within(fall, COLLAPSE_AFTER_ONSET),

@@ -55,8 +55,7 @@ def arguments():
     return parser.parse_args()
 
 
-# --- choice of the step
-# ------------------------------------------------------------------------------------------------
+# --- choice of the step -----------------------------------------------------------------------------------------------
 class Motion:
     """Velocities of the free bodies, the rotation as speed at the radius of gyration: (bodies, 6) [m/s]."""
 
@@ -82,8 +81,7 @@ def chosen(target, jerk, smallest):
     return min(2 ** max(0, math.ceil(math.log2(max(wanted, 1.0)))), round(SAMPLE / smallest))
 
 
-# --- runs
-# --------------------------------------------------------------------------------------------------------------
+# --- runs -------------------------------------------------------------------------------------------------------------
 class Run:
     """One run of a case. steps(k, jerk): number of steps in the k-th millisecond, after one with that jerk [m/s3]."""
 
@@ -178,8 +176,7 @@ def balance(steps):
     return max(residuals) / (abs(terms["ground_motion"]) + max(0.0, -terms["gravity"]))
 
 
-# --- gain
-# --------------------------------------------------------------------------------------------------------------
+# --- gain -------------------------------------------------------------------------------------------------------------
 def curve(rows, case, kind):
     """[(CPU time [s], error, dt or target)] of runs that did not fail, in the order of the CPU time."""
     return sorted((cpu, e, dt) for c, k, dt, cpu, _, _, e in rows if (c, k) == (case, kind) and math.isfinite(e))

@@ -62,8 +62,7 @@ def arguments():
     return made.parse_args()
 
 
-# --- Google Benchmark
-# --------------------------------------------------------------------------------------------------
+# --- Google Benchmark -------------------------------------------------------------------------------------------------
 def kernel_rows(repetitions):
     """Rows of the C++ program."""
     if not PROGRAM.exists():
@@ -91,8 +90,7 @@ def kernel_rows(repetitions):
     return rows
 
 
-# --- scenes in YADE
-# ----------------------------------------------------------------------------------------------------
+# --- scenes in YADE ---------------------------------------------------------------------------------------------------
 def corners(extents):
     return [
         Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
@@ -182,8 +180,7 @@ def row_of(program, number, seconds):
     return program, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
 
 
-# --- page
-# --------------------------------------------------------------------------------------------------------------
+# --- page -------------------------------------------------------------------------------------------------------------
 def section(rows):
     """Section of the results page."""
     time = {(r[0], r[1]): r[2] for r in rows}

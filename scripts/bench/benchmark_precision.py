@@ -62,8 +62,7 @@ def arguments():
     return parser.parse_args()
 
 
-# --- runs
-# --------------------------------------------------------------------------------------------------------------
+# --- runs -------------------------------------------------------------------------------------------------------------
 def run(case, dt, options):
     """({quantity: values}, CPU time of the steps [s]); None for values if the run failed or the time step is refused.
     """

@@ -38,8 +38,7 @@ def arguments():
     return parser(__doc__, blocks=9, steps=2000, house_name="C2").parse_args()
 
 
-# --- scenes: each returns the function that is measured, with or without the skip
-# ----------------------------------------
+# --- scenes: each returns the function that is measured, with or without the skip -------------------------------------
 def shaken(options, **changes):
     """The house in strong shaking."""
     scenario.build(
@@ -104,8 +103,7 @@ CASES = {  # (skipped work, scene) -> build
 }
 
 
-# --- runs
-# ----------------------------------------------------------------------------------------------------------------
+# --- runs -------------------------------------------------------------------------------------------------------------
 def timed(build, options, skip):
     """(CPU time of the run [s], final positions of all bodies [m])."""
     run = build(options, skip)

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 from bench_tools import (
     SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step,
-)  # noqa: E402
+)
 from tables import markdown_table  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402

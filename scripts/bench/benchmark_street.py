@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 from bench_tools import (
     BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory, wall_per_step,
-)  # noqa: E402
+)
 from tables import markdown_table  # noqa: E402
 from yade_timber.base.errors import RunError  # noqa: E402
 from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
@@ -61,14 +61,12 @@ def arguments():
         "--rounds", type=count, default=3,
         help="processes for each row, run alternately; their median counts (default %(default)s)",
     )
-    made.add_argument(
-        "--single", action="store_true", help=argparse.SUPPRESS
-    )  # of the process that measures one row of houses
+    # Of the process that measures one row of houses
+    made.add_argument("--single", action="store_true", help=argparse.SUPPRESS)
     return made.parse_args()
 
 
-# --- one street
-# --------------------------------------------------------------------------------------------------------
+# --- one street -------------------------------------------------------------------------------------------------------
 def moved(part, displacement, **changes):
     """Element or joint of another house of the row."""
     points = "vertices" if hasattr(part, "vertices") else "points"
@@ -127,8 +125,7 @@ def single(options):
     }
 
 
-# --- all of them
-# -------------------------------------------------------------------------------------------------------
+# --- all of them ------------------------------------------------------------------------------------------------------
 def measure(options, houses, threads):
     """`single` in a process of its own."""
     arguments = [

@@ -95,8 +95,7 @@ def save(figure, path):
     plt.close(figure)
 
 
-# --- performance
-# -------------------------------------------------------------------------------------------------------
+# --- performance ------------------------------------------------------------------------------------------------------
 def largest_exact_step(rows, case, variant):
     """Largest time step up to which all errors of a case are below TOLERATED [s], and the run time with it [s]; None
     without one.
@@ -315,8 +314,7 @@ def write_performance(folder):
     fill(page, "runs", run_table(folder))
 
 
-# --- accuracy
-# ----------------------------------------------------------------------------------------------------------
+# --- accuracy ---------------------------------------------------------------------------------------------------------
 def bounded(rows, section):
     """[(error, bound)] of the rows of a section that have a bound."""
     checks = [(float(row["error"]), float(row["bound"])) for row in rows if row["section"] == section]

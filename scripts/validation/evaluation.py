@@ -51,9 +51,8 @@ def evaluate(envelope, end=None):
     the load did not fall to 0.8 of the largest one [rad]."""
     drift, load = np.asarray(envelope, float).T
     top = int(load.argmax())
-    rising = lambda share: np.interp(
-        share * load[top], np.maximum.accumulate(load[: top + 1]), drift[: top + 1]
-    )  # noqa: E731
+    loads = np.maximum.accumulate(load[: top + 1])
+    rising = lambda share: np.interp(share * load[top], loads, drift[: top + 1])
     tenth, low, high = rising(0.1), rising(0.4), rising(0.9)
     first, second = 0.3 * load[top] / (low - tenth), 0.5 * load[top] / (high - low)
     intercept = (load - second * drift)[: top + 1].max()

@@ -41,8 +41,7 @@ def load_on_fixed():
     return -total[2]
 
 
-# --- a stack
-# -----------------------------------------------------------------------------------------------------------
+# --- a stack ----------------------------------------------------------------------------------------------------------
 def build_stack(blocks, widths=(0.35, 0.30)):
     """A stack of blocks of 10 cm on a fixed plate, alternately of two widths [m]."""
     O.reset()
@@ -74,8 +73,7 @@ def stack_at_rest(duration=10.0, blocks=20):
     ]
 
 
-# --- arch and wedge
-# ----------------------------------------------------------------------------------------------------
+# --- arch and wedge ---------------------------------------------------------------------------------------------------
 TAPER = np.radians(15)
 """Inclination of the wedge faces of arch and wedge from the vertical. [rad]"""
 
@@ -166,8 +164,7 @@ def wedge_of_32():
     ]
 
 
-# --- one-bay frames
-# ----------------------------------------------------------------------------------------------------
+# --- one-bay frames ---------------------------------------------------------------------------------------------------
 SPAN, HEIGHT, COLUMN = 1.82, 2.4, 0.105
 """Distance of the column axes; height and side of the columns. [m]"""
 CORNER_FITTING, BRACING_PLATE = 58800.0, 69580.0
@@ -264,8 +261,7 @@ def frames():
     return rows
 
 
-# --- the house
-# ---------------------------------------------------------------------------------------------------------
+# --- the house --------------------------------------------------------------------------------------------------------
 @case
 def house_weight(settle=0.5, average=0.2):
     """House C2 with 1 m of snow: the force on the fixed foundation is its weight."""

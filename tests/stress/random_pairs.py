@@ -42,8 +42,7 @@ class Pair:
     kind: str
 
 
-# --- shapes
-# ------------------------------------------------------------------------------------------------------------
+# --- shapes -----------------------------------------------------------------------------------------------------------
 def direction(random):
     v = random.normal(size=3)
     return v / np.linalg.norm(v)
@@ -80,8 +79,7 @@ def shape(random, size):
             continue
 
 
-# --- one pair
-# ----------------------------------------------------------------------------------------------------------
+# --- one pair ---------------------------------------------------------------------------------------------------------
 def outward_normals(body):
     """Unit normals (n, 3) of the faces, and the faces as sets of corners."""
     corners = np.array(body.shape.vertices)
@@ -187,8 +185,7 @@ def impact_scale(bodies, speed, snow):
     return overlap, 2 * modulus * np.sqrt(radius * overlap)
 
 
-# --- a scene of pairs
-# --------------------------------------------------------------------------------------------------
+# --- a scene of pairs -------------------------------------------------------------------------------------------------
 def steps_for(pairs, dt):
     """Number of steps for the impact of the slowest pair."""
     durations = [TRAVEL * sum(b.shape.radius for b in pair.bodies) / pair.speed for pair in pairs]
@@ -309,8 +306,7 @@ def impacts(count, seed, batch=100, **options):
     return [found for k in range(0, count, batch) for found in outcomes(pairs[k : k + batch], **options)]
 
 
-# --- bounds
-# ------------------------------------------------------------------------------------------------------------
+# --- bounds -----------------------------------------------------------------------------------------------------------
 ENERGY_BOUND = 1e-3
 """Gain of energy over the initial energy [-]. Dashpots and friction dissipate; the splitting of the free rotation has
 an oscillating error of the order of ROTATION^2 = 4e-4. Observed: 2e-5, for needles without contact. One of 30 000

@@ -38,8 +38,7 @@ def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):
     return Summary.sample(**{**values, "broken": {"total": 1, "springs": springs}, **more})
 
 
-# --- disturbance
-# --------------------------------------------------------------------------------------------------------
+# --- disturbance ------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -84,8 +83,7 @@ def test_joints_and_shapes_stay(houses):
         assert len(a.solid.faces) == len(b.solid.faces)
 
 
-# --- statistics
-# ---------------------------------------------------------------------------------------------------------
+# --- statistics -------------------------------------------------------------------------------------------------------
 
 
 def test_spread_by_hand():
@@ -132,8 +130,7 @@ def test_the_run_that_is_shown(found, number):
     assert statistics.representative(dict(enumerate(found, 1))) == number
 
 
-# --- files
-# --------------------------------------------------------------------------------------------------------------
+# --- files ------------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -241,8 +238,7 @@ def test_a_damaged_file_is_refused(tmp_path, content):
         ensemble.read(tmp_path)
 
 
-# --- sentences and picture
-# ----------------------------------------------------------------------------------------------
+# --- sentences and picture --------------------------------------------------------------------------------------------
 
 
 def place(**more):

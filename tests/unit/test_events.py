@@ -150,8 +150,7 @@ def test_removed_elements_are_no_damage():
     assert found.count_columns(state) == Columns(3, 0, 0) and found.fallen_structures(state) == []
 
 
-# --- sentences
-# ----------------------------------------------------------------------------------------------------------
+# --- sentences --------------------------------------------------------------------------------------------------------
 
 STANDING = {
     "model": "B", "earthquake": True, "joints": {"total": 206}, "columns": {"total": 90},

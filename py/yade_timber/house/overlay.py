@@ -120,8 +120,7 @@ def _require_item(node, step, key, where):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
 
 
-# --- braces, walls and joints
-# ------------------------------------------------------------------------------------------------
+# --- braces, walls and joints -----------------------------------------------------------------------------------------
 
 
 def brace_parts(name, where="brace"):

@@ -67,8 +67,7 @@ def write_polydata(path, data):
             raise OSError(f"{path}: VTK could not write it")
 
 
-# --- contents of a file
-# ------------------------------------------------------------------------------------------------
+# --- contents of a file -----------------------------------------------------------------------------------------------
 
 
 class Elements:

@@ -50,9 +50,7 @@ class Run:
         self.scenario, self.options = scenario, options
         self.origin = made_from(options)
         self.steps = round(scenario.duration / scenario.dt)
-        self.chunk = frames.steps_between(
-            scenario.dt
-        )  # steps between two frames, and between checks of signals and checkpoint times
+        self.chunk = frames.steps_between(scenario.dt)  # steps between frames, and checks of signals and checkpoints
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
         self.signal = None

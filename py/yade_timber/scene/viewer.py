@@ -28,9 +28,6 @@ def show():
     low, high = centres.min(0), centres.max(0)
     centre = (low + high) / 2
     eye = centre + DISTANCE * np.linalg.norm(high - low) * np.array(DIRECTION)
-    view.eyePosition, view.upVector, view.lookAt = (
-        Vector3(*eye),
-        Vector3.UnitZ,
-        Vector3(*centre),
-    )  # order: YADE computes the view direction from the position
+    view.eyePosition = Vector3(*eye)  # first: YADE computes the view direction from the position
+    view.upVector, view.lookAt = Vector3.UnitZ, Vector3(*centre)
     return view

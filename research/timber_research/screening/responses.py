@@ -41,8 +41,7 @@ class Response:
         return (np.mean if self.kind == SHARE else np.median)(values, axis)
 
 
-# --- numbers of one summary
-# ---------------------------------------------------------------------------------------------
+# --- numbers of one summary -------------------------------------------------------------------------------------------
 
 
 def drift(run):
@@ -81,8 +80,7 @@ def _broken(kind, side):
     return lambda run: getattr(run.broken.by_place["1"][side], kind)
 
 
-# --- the responses
-# ------------------------------------------------------------------------------------------------------
+# --- the responses ----------------------------------------------------------------------------------------------------
 
 
 def _quake(house):

@@ -120,8 +120,7 @@ def show(folder, run, summary):
     return [*written, summary.write(folder)]
 
 
-# --- lines for the terminal
-# ---------------------------------------------------------------------------------------------
+# --- lines for the terminal -------------------------------------------------------------------------------------------
 
 
 def lines(found, shown):
