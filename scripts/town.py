@@ -6,6 +6,6 @@ if "yade.wrapper" not in sys.modules:
     sys.exit(f"error: this script runs in YADE: yade -n -x {sys.argv[0]}")
 
 import yade_timber as yt  # noqa: E402, F401  (for the live session)
-from yade_timber.api.script import main_town  # noqa: E402
+from yade_timber.api.script import main_town
 
 run = main_town()

@@ -7,9 +7,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-from class_page import write_classes  # noqa: E402
+from class_page import write_classes
 
-import yade_timber  # noqa: E402
+import yade_timber
 
 project, author, copyright = "yade-timber", "The yade-timber developers", "the yade-timber developers, GPL-2.0-or-later"
 version = release = yade_timber.__version__

@@ -38,7 +38,7 @@ if _host.running():
     _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
     globals().update(_classes)
 
-    from .scene import attributes as _attributes, background as _background  # noqa: E402
+    from .scene import attributes as _attributes, background as _background
 
     _background.guard()
     _attributes.guard(_classes.values())

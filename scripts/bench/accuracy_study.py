@@ -16,11 +16,11 @@ from pathlib import Path
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "physics")]
 
-from cases import all_cases  # noqa: E402
-from rows import Row  # noqa: E402
-from yade_timber.base.atomic_write import write_text  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.study.options import Parser, results_folder, run_script  # noqa: E402
+from cases import all_cases
+from rows import Row
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.errors import RunError
+from yade_timber.study.options import Parser, results_folder, run_script
 
 HEADS = ("section", "quantity", "expected", "computed", "error", "bound", "dt [s]", "order", "within", "note")
 

@@ -21,12 +21,12 @@ import yade.wrapper as yw
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / "scripts/bench")]
 
-import yade_timber as yt  # noqa: E402
-from bench_tools import write_table  # noqa: E402
-from precision_cases import REFERENCE, SAMPLE, STEP_CASES, build_house, error, joint_forces  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.scene import engines  # noqa: E402
-from yade_timber.study.options import Parser, count, results_folder, run_script  # noqa: E402
+import yade_timber as yt
+from bench_tools import write_table
+from precision_cases import REFERENCE, SAMPLE, STEP_CASES, build_house, error, joint_forces
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.scene import engines
+from yade_timber.study.options import Parser, count, results_folder, run_script
 
 O = yw.Omega()
 

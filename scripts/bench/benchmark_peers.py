@@ -19,12 +19,12 @@ from yade import polyhedra_utils
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path.insert(0, str(ROOT / "scripts/bench"))
 
-import yade_timber as yt  # noqa: E402
-from bench_tools import cpu_per_step, interleaved, machine, parser, publish  # noqa: E402
-from tables import markdown_table  # noqa: E402
-from yade.minieigenHP import Vector3  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.study.options import count, run_script  # noqa: E402
+import yade_timber as yt
+from bench_tools import cpu_per_step, interleaved, machine, parser, publish
+from tables import markdown_table
+from yade.minieigenHP import Vector3
+from yade_timber.base.errors import RunError
+from yade_timber.study.options import count, run_script
 
 O = yw.Omega()
 

@@ -19,14 +19,14 @@ import yade.wrapper as yw
 ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
 sys.path[:0] = [str(ROOT / folder) for folder in ("scripts/bench", "tests", "tests/stress")]
 
-import extreme_runs  # noqa: E402
-import stable_steps  # noqa: E402
-from bench_tools import write_table  # noqa: E402
-from precision_cases import CASES, REFERENCE, SAMPLE, error, joint_forces  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.time_step import MAX_DT  # noqa: E402
-from yade_timber.house.errors import StepError  # noqa: E402
-from yade_timber.study.options import Parser, positive, results_folder, run_script  # noqa: E402
+import extreme_runs
+import stable_steps
+from bench_tools import write_table
+from precision_cases import CASES, REFERENCE, SAMPLE, error, joint_forces
+from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import MAX_DT
+from yade_timber.house.errors import StepError
+from yade_timber.study.options import Parser, positive, results_folder, run_script
 
 O = yw.Omega()
 

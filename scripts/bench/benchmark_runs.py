@@ -14,11 +14,11 @@ from pathlib import Path
 SCRIPTS = Path(sys.argv[0]).resolve().parents[1]  # YADE runs a script without setting __file__
 sys.path.insert(0, str(SCRIPTS / "bench"))
 
-from bench_tools import publish  # noqa: E402
-from tables import markdown_table  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.recording.summary import Summary  # noqa: E402
-from yade_timber.study.options import Parser, positive, results_folder, run_script  # noqa: E402
+from bench_tools import publish
+from tables import markdown_table
+from yade_timber.base.errors import RunError
+from yade_timber.recording.summary import Summary
+from yade_timber.study.options import Parser, positive, results_folder, run_script
 
 RUNS = {
     "A, earthquake": ("modelA_quake.py",),

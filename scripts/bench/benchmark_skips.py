@@ -17,13 +17,13 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-import yade_timber as yt  # noqa: E402
-from bench_tools import machine, parser, publish  # noqa: E402
-from tables import markdown_table  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.motion import default_motion  # noqa: E402
-from yade_timber.scene import engines, scenario  # noqa: E402
-from yade_timber.study.options import run_script  # noqa: E402
+import yade_timber as yt
+from bench_tools import machine, parser, publish
+from tables import markdown_table
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.motion import default_motion
+from yade_timber.scene import engines, scenario
+from yade_timber.study.options import run_script
 
 O = yw.Omega()
 

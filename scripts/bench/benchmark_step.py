@@ -19,12 +19,12 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 from bench_tools import (
     SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step,
 )
-from tables import markdown_table  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.motion import default_motion  # noqa: E402
-from yade_timber.scene import engines, scenario  # noqa: E402
-from yade_timber.study.options import non_negative, positive, run_script  # noqa: E402
+from tables import markdown_table
+from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.motion import default_motion
+from yade_timber.scene import engines, scenario
+from yade_timber.study.options import non_negative, positive, run_script
 
 O = yw.Omega()
 

@@ -21,14 +21,14 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 from bench_tools import (
     BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory, wall_per_step,
 )
-from tables import markdown_table  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.house import build_house, load_house  # noqa: E402
-from yade_timber.motion import default_motion  # noqa: E402
-from yade_timber.scene import engines, scenario  # noqa: E402
-from yade_timber.study.driver import command  # noqa: E402
-from yade_timber.study.options import count, run_script  # noqa: E402
+from tables import markdown_table
+from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.house import build_house, load_house
+from yade_timber.motion import default_motion
+from yade_timber.scene import engines, scenario
+from yade_timber.study.driver import command
+from yade_timber.study.options import count, run_script
 
 O = yw.Omega()
 

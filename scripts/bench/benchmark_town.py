@@ -18,15 +18,15 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, machine, parser, publish, resident_memory  # noqa: E402
-from tables import markdown_table  # noqa: E402
-from yade_timber.plugin import compiled  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
-from yade_timber.run import cli, town  # noqa: E402
-from yade_timber.run.plan import planned  # noqa: E402
-from yade_timber.study.driver import command  # noqa: E402
-from yade_timber.study.options import count, run_script  # noqa: E402
+from bench_tools import BARE_MEMORY, machine, parser, publish, resident_memory
+from tables import markdown_table
+from yade_timber.plugin import compiled
+from yade_timber.base.errors import RunError
+from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.run import cli, town
+from yade_timber.run.plan import planned
+from yade_timber.study.driver import command
+from yade_timber.study.options import count, run_script
 
 SPACING = 14.0
 """Distance of the lots, which form rows of ten. [m]"""

@@ -11,14 +11,14 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "py"), str(Path(__file__).resolve().parent)]
 
-import matplotlib  # noqa: E402
+import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
-from tables import markdown_table  # noqa: E402
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.time_step import DEFAULT_DT  # noqa: E402
+from tables import markdown_table
+from yade_timber.base.atomic_write import write_text, written_whole
+from yade_timber.base.time_step import DEFAULT_DT
 
 TOLERATED = 0.01
 """Error up to which a time step is called exact [-]"""

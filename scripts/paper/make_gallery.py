@@ -18,16 +18,16 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from PIL import Image  # noqa: E402
+from PIL import Image
 
-from yade_timber.base.atomic_write import written_whole  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.house import build_house, load_house  # noqa: E402
-from yade_timber.motion import default_motion  # noqa: E402
-from yade_timber.pictures import curves, drawings, film, motion_sheet, player, sheets  # noqa: E402
-from yade_timber.pictures.style import default_style  # noqa: E402
-from yade_timber.pictures.views import FRONT, SIDE  # noqa: E402
-from yade_timber.recording import frames  # noqa: E402
+from yade_timber.base.atomic_write import written_whole
+from yade_timber.base.errors import RunError
+from yade_timber.house import build_house, load_house
+from yade_timber.motion import default_motion
+from yade_timber.pictures import curves, drawings, film, motion_sheet, player, sheets
+from yade_timber.pictures.style import default_style
+from yade_timber.pictures.views import FRONT, SIDE
+from yade_timber.recording import frames
 
 SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"

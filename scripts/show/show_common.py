@@ -8,8 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.encoding import print_anything  # noqa: E402
-from yade_timber.base.errors import InputError  # noqa: E402
+from yade_timber.base.encoding import print_anything
+from yade_timber.base.errors import InputError
 
 print_anything()
 

@@ -9,16 +9,16 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parents[1]
 sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
 
-import matplotlib.style  # noqa: E402
+import matplotlib.style
 
 matplotlib.use("Agg")
 matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.study.batch import read_table, run_rows, write_runs  # noqa: E402
-from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder  # noqa: E402
+from yade_timber.base.atomic_write import write_text, written_whole
+from yade_timber.base.errors import RunError
+from yade_timber.base.table import csv_text
+from yade_timber.study.batch import read_table, run_rows, write_runs
+from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder
 
 START, END = 14.0, 34.0
 """Part of the synthetic motion that a study runs: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]

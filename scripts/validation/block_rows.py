@@ -14,17 +14,17 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import numpy as np  # noqa: E402
-import yade.wrapper as yw  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
+import numpy as np
+import yade.wrapper as yw
+from matplotlib import pyplot
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-import yade_timber as yt  # noqa: E402
-from row_of_blocks import Row, touch_times, wave_speed  # noqa: E402
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.study.options import Parser, positive, results_folder, run_script  # noqa: E402
+import yade_timber as yt
+from row_of_blocks import Row, touch_times, wave_speed
+from yade_timber.base.atomic_write import write_text, written_whole
+from yade_timber.base.table import csv_text
+from yade_timber.study.options import Parser, positive, results_folder, run_script
 
 O = yw.Omega()
 

@@ -23,24 +23,24 @@ import numpy as np
 SCRIPTS = Path(__file__).resolve().parents[1]
 sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
 
-import matplotlib  # noqa: E402
+import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
-from house_storeys import AXES, shear_storeys  # noqa: E402
-from kobe_like import kobe_like  # noqa: E402
-from shear_model import LIMIT, first_period, response  # noqa: E402
-from wall_grades import STRUCTURE, house_file  # noqa: E402
+from matplotlib import pyplot
+from house_storeys import AXES, shear_storeys
+from kobe_like import kobe_like
+from shear_model import LIMIT, first_period, response
+from wall_grades import STRUCTURE, house_file
 
-from yade_timber.api.result import load_run  # noqa: E402
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.house import LEVELS, build_house, load_house  # noqa: E402
-from yade_timber.motion import processing, read_motion, write_csv  # noqa: E402
-from yade_timber.run.options import RunOptions  # noqa: E402
-from yade_timber.study.driver import Task, run_missing  # noqa: E402
-from yade_timber.study.options import (  # noqa: E402
+from yade_timber.api.result import load_run
+from yade_timber.base.atomic_write import write_text, written_whole
+from yade_timber.base.errors import RunError
+from yade_timber.base.table import csv_text
+from yade_timber.house import LEVELS, build_house, load_house
+from yade_timber.motion import processing, read_motion, write_csv
+from yade_timber.run.options import RunOptions
+from yade_timber.study.driver import Task, run_missing
+from yade_timber.study.options import (
     Parser, add_driver_options, count, non_negative, positive, record, results_folder, run_script, seed, selected,
 )
 

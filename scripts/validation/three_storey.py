@@ -18,14 +18,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-import yade_timber as yt  # noqa: E402
-from shear_model import Storey, first_period, slip_spring  # noqa: E402
-from yade_timber.base.atomic_write import write_text  # noqa: E402
-from yade_timber.base.gravity import mass_of  # noqa: E402
-from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.house.parser import house_text  # noqa: E402
-from yade_timber.house.weight import weigh  # noqa: E402
-from yade_timber.study.options import Parser, results_folder, run_script  # noqa: E402
+import yade_timber as yt
+from shear_model import Storey, first_period, slip_spring
+from yade_timber.base.atomic_write import write_text
+from yade_timber.base.gravity import mass_of
+from yade_timber.base.table import csv_text
+from yade_timber.house.parser import house_text
+from yade_timber.house.weight import weigh
+from yade_timber.study.options import Parser, results_folder, run_script
 
 STATED = 0.30
 """Period for the damping of PB3D. [s]"""

@@ -14,17 +14,17 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
 
 sys.path.append(str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from evaluation import evaluate  # noqa: E402
-from measured_walls import HEIGHT, WALLS  # noqa: E402
-from rack import Rack, envelope  # noqa: E402
-from yade_timber.base.atomic_write import write_text, written_whole  # noqa: E402
-from yade_timber.base.table import csv_text  # noqa: E402
-from yade_timber.study.options import Parser, results_folder, run_script  # noqa: E402
+from evaluation import evaluate
+from measured_walls import HEIGHT, WALLS
+from rack import Rack, envelope
+from yade_timber.base.atomic_write import write_text, written_whole
+from yade_timber.base.table import csv_text
+from yade_timber.study.options import Parser, results_folder, run_script
 
 MODELS = {"points": "#0072B2", "mean": "#009E73", "design": "#D55E00"}
 HEADS = (

@@ -80,7 +80,7 @@ TAPER = np.radians(15)
 
 def arch_parts():
     """A wedge between two blocks on a plate; each face of the wedge lies inside a face of a block."""
-    half = lambda z: 0.15 + (z - 0.4) * np.tan(TAPER)  # noqa: E731
+    half = lambda z: 0.15 + (z - 0.4) * np.tan(TAPER)
     key = np.array([[-half(0.25), 0.25], [half(0.25), 0.25], [half(0.55), 0.55], [-half(0.55), 0.55]])
     left = np.array([[-0.7, 0], [-half(0), 0], [-half(0.7), 0.7], [-0.7, 0.7]])
     right = (left * [-1, 1])[::-1]
@@ -97,7 +97,7 @@ def critical_friction(parts):
     """
     frame = Frame(parts, [], [("plate", "left")])
     wedge, block = frame.mass[3], frame.mass[1]
-    excess = lambda mu: wedge / 2 / np.tan(TAPER + np.arctan(mu)) - mu * (block + wedge / 2)  # noqa: E731
+    excess = lambda mu: wedge / 2 / np.tan(TAPER + np.arctan(mu)) - mu * (block + wedge / 2)
     return brentq(excess, 0.01, 2)
 
 
@@ -136,7 +136,7 @@ def wedge_parts(layers=8, inner=0.15, outer=0.25, height=0.1):
     """Layers of four blocks between two fixed slopes, open below: two inner boxes and two outer blocks with a sloping
     face.
     """
-    half = lambda z: inner + outer + (z - layers * height / 2) * np.tan(TAPER)  # noqa: E731
+    half = lambda z: inner + outer + (z - layers * height / 2) * np.tan(TAPER)
     low, high = -0.3, layers * height + 0.3
     slope = np.array([[half(low), low], [half(low) + 0.3, low], [half(high) + 0.3, high], [half(high), high]])
     parts = [Part("slope", slope, 0.6, True), Part("slope", (slope * [-1, 1])[::-1], 0.6, True)]
@@ -188,7 +188,7 @@ def one_bay_frame(braced):
         Part("right", rectangle(SPAN - half, 0, SPAN + half, HEIGHT), COLUMN),
         Part("beam", rectangle(-0.2, HEIGHT, SPAN + 0.2, HEIGHT + 0.2), 0.15),
     ]
-    ends = lambda x, z: np.array([[x - half, z], [x + half, z]])  # noqa: E731
+    ends = lambda x, z: np.array([[x - half, z], [x + half, z]])
     ties = [Tie("plate", "left", ends(0, 0), CORNER_FITTING), Tie("plate", "right", ends(SPAN, 0), CORNER_FITTING)]
     ties += [Tie("left", "beam", ends(0, HEIGHT), CORNER_FITTING), Tie("right", "beam", ends(SPAN, HEIGHT), CORNER_FITTING)]
     if braced:

@@ -88,7 +88,7 @@ def falling_frame():
     """Springs of 2 kN break, the frame collapses; the brace lands at 3 m/s within two steps. Observed: 2e-7, 5e-8,
     1.2e-8.
     """
-    build = lambda dt: shaken_portal(dt, 3.0, 2000.0)  # noqa: E731
+    build = lambda dt: shaken_portal(dt, 3.0, 2000.0)
     return closing("frame that breaks and collapses", build, 1.5, note="impacts of 4 kg members last one step")
 
 

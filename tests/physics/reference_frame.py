@@ -33,7 +33,7 @@ def portal(beam=0.3):
         Part("beam", rectangle(-0.4, HEIGHT, SPAN + 0.4, HEIGHT + beam), beam),
         Part("brace", brace, 0.045),
     ]
-    ends = lambda x, z: np.array([[x - half, z], [x + half, z]])  # noqa: E731
+    ends = lambda x, z: np.array([[x - half, z], [x + half, z]])
     ties = [Tie("plate", "left", ends(0, 0), 58800.0), Tie("plate", "right", ends(SPAN, 0), 58800.0)]
     ties += [Tie("left", "beam", ends(0, HEIGHT), 58800.0), Tie("right", "beam", ends(SPAN, HEIGHT), 58800.0)]
     ties += [Tie("plate", "brace", brace[[0, 1]], 69580.0), Tie("brace", "beam", brace[[3, 4]], 69580.0)]

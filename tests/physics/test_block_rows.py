@@ -8,8 +8,8 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
-from block_rows import FIRST_VELOCITY, HEIGHT, LAST, NUMBER, THICKNESS, measured_touch_times  # noqa: E402
-from row_of_blocks import Row, touch_times, wave_speed  # noqa: E402
+from block_rows import FIRST_VELOCITY, HEIGHT, LAST, NUMBER, THICKNESS, measured_touch_times
+from row_of_blocks import Row, touch_times, wave_speed
 
 PUBLISHED = {0.0149: 1.415, 0.016: 1.380, 0.02235: 1.255, 0.0298: 1.177}
 """Speed at the end of a row of 40 blocks by another solution of van Leeuwen's model [m/s], for the pitch [m]."""

@@ -7,8 +7,8 @@ from math import nan
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
 
-import pytest  # noqa: E402
-from collapses import Case, Heap, expect_sound, frames, outcome  # noqa: E402
+import pytest
+from collapses import Case, Heap, expect_sound, frames, outcome
 
 CASES = [
     replace(frames()[10], duration=4.0),

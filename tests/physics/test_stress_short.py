@@ -5,15 +5,15 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
 
-import extreme_runs  # noqa: E402
-import pytest  # noqa: E402
-import stable_steps  # noqa: E402
-from extreme_runs import single_precision  # noqa: E402
-from random_pairs import expect_sound, impacts  # noqa: E402
-import yade.wrapper as yw  # noqa: E402
-from yade import O  # noqa: E402
-from yade_timber.base.time_step import MAX_DT  # noqa: E402
-from yade_timber.scene.engines import find_engine  # noqa: E402
+import extreme_runs
+import pytest
+import stable_steps
+from extreme_runs import single_precision
+from random_pairs import expect_sound, impacts
+import yade.wrapper as yw
+from yade import O
+from yade_timber.base.time_step import MAX_DT
+from yade_timber.scene.engines import find_engine
 
 
 def test_random_impacts():

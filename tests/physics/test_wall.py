@@ -15,7 +15,7 @@ from yade_timber.scene import queries
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
-from rack import Rack  # noqa: E402
+from rack import Rack
 
 LENGTH, HEIGHT = 0.91, 2.73
 STRENGTH, STIFFNESS, SOFTENING, ULTIMATE = 1.5 * 4900 * LENGTH, 150 * 4900 * LENGTH, 0.05, 0.103

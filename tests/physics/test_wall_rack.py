@@ -10,9 +10,9 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
-from evaluation import evaluate  # noqa: E402
-from measured_walls import HEIGHT, WALLS  # noqa: E402
-from rack import Rack, envelope  # noqa: E402
+from evaluation import evaluate
+from measured_walls import HEIGHT, WALLS
+from rack import Rack, envelope
 
 BOARDS = [wall for wall in WALLS if wall.name.startswith("R-")]
 

@@ -5,11 +5,11 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics"))
 
-import yade_timber as yt  # noqa: E402
-from assembly_cases import DT, load_on_fixed, stack_at_rest, weight  # noqa: E402
-from planar_scene import advance, positions  # noqa: E402
-from rows import Row, check  # noqa: E402
-from yade_timber.scene import scenario  # noqa: E402
+import yade_timber as yt
+from assembly_cases import DT, load_on_fixed, stack_at_rest, weight
+from planar_scene import advance, positions
+from rows import Row, check
+from yade_timber.scene import scenario
 
 
 def test_stack():

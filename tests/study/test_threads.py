@@ -5,8 +5,8 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics"))
 
-from invariance_cases import one_thread_or_two  # noqa: E402
-from rows import check  # noqa: E402
+from invariance_cases import one_thread_or_two
+from rows import check
 
 
 def test_threads():

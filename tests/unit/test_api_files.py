@@ -13,10 +13,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-import yade_timber as yt  # noqa: E402
-import frames_sample  # noqa: E402
-from yade_timber.base.errors import InputError  # noqa: E402
-from yade_timber.house import build_house, load_house  # noqa: E402
+import yade_timber as yt
+import frames_sample
+from yade_timber.base.errors import InputError
+from yade_timber.house import build_house, load_house
 
 
 def test_packages_are_called_and_still_packages():

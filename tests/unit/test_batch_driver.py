@@ -17,8 +17,8 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import is_locked, locked  # noqa: E402
-from yade_timber.study.batch import read_table  # noqa: E402
+from yade_timber.base.lock import is_locked, locked
+from yade_timber.study.batch import read_table
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  set                                dt    duration

@@ -11,13 +11,13 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.recording.events import Event, StructureFallen, Tilt  # noqa: E402
-from yade_timber.recording.summary import Summary  # noqa: E402
-from yade_timber.study.batch import BatchError, read_table, write_runs  # noqa: E402
-from yade_timber.study.batch.collect import RESULTS  # noqa: E402
-from yade_timber.study.batch.tasks import task_of  # noqa: E402
-from yade_timber.run.identity import made_from  # noqa: E402
+from yade_timber.base.errors import RunError
+from yade_timber.recording.events import Event, StructureFallen, Tilt
+from yade_timber.recording.summary import Summary
+from yade_timber.study.batch import BatchError, read_table, write_runs
+from yade_timber.study.batch.collect import RESULTS
+from yade_timber.study.batch.tasks import task_of
+from yade_timber.run.identity import made_from
 
 TABLE = """# comment
 house  description!  scale  !THREADS  snow   # of the roof

@@ -8,10 +8,10 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.house import load_house  # noqa: E402
-from yade_timber.run.options import RunOptions  # noqa: E402
-from yade_timber.study.batch import BatchError, check_rows, read_table  # noqa: E402
-from yade_timber.study.batch.tasks import task_of  # noqa: E402
+from yade_timber.house import load_house
+from yade_timber.run.options import RunOptions
+from yade_timber.study.batch import BatchError, check_rows, read_table
+from yade_timber.study.batch.tasks import task_of
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.motion import (  # noqa: E402
+from yade_timber.motion import (
     GAL,
     GroundMotion,
     MotionRequest,
@@ -25,10 +25,10 @@ from yade_timber.motion import (  # noqa: E402
     synthetic_motion,
     trim,
 )
-from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
-from yade_timber.recording.summary import Summary  # noqa: E402
-from yade_timber.recording.town import summary as town_summary  # noqa: E402
-from yade_timber.text.english import record, sentence  # noqa: E402
+from yade_timber.motion.record import STANDARD_GRAVITY
+from yade_timber.recording.summary import Summary
+from yade_timber.recording.town import summary as town_summary
+from yade_timber.text.english import record, sentence
 
 TIME = np.arange(0, 20, 0.01)
 BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))

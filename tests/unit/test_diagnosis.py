@@ -11,9 +11,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, comparison, diagnose, load_house  # noqa: E402
-from yade_timber.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement  # noqa: E402
-from yade_timber.recording.summary import Summary  # noqa: E402
+from yade_timber.house import build_house, comparison, diagnose, load_house
+from yade_timber.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement
+from yade_timber.recording.summary import Summary
 
 
 @cache

@@ -16,19 +16,19 @@ from frames_sample import run as sample
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "py"))
 
-from yade_timber.base.errors import RunError  # noqa: E402
-from yade_timber.house import build_house, load_house  # noqa: E402
-from yade_timber.house.disturbance import LARGEST, disturb  # noqa: E402
-from yade_timber.pictures import bands, provenance  # noqa: E402
-from yade_timber.recording import ensemble, frames  # noqa: E402
-from yade_timber.recording.history import History  # noqa: E402
-from yade_timber.recording.summary import Ensemble, Summary  # noqa: E402
-from yade_timber.run.identity import made_from  # noqa: E402
-from yade_timber.run.options import RunOptions, scripted  # noqa: E402
-from yade_timber.study import driver  # noqa: E402
-from yade_timber.study.ensemble import results, runs, statistics  # noqa: E402
-from yade_timber.text import japanese  # noqa: E402
-from yade_timber.text.english import sentence  # noqa: E402
+from yade_timber.base.errors import RunError
+from yade_timber.house import build_house, load_house
+from yade_timber.house.disturbance import LARGEST, disturb
+from yade_timber.pictures import bands, provenance
+from yade_timber.recording import ensemble, frames
+from yade_timber.recording.history import History
+from yade_timber.recording.summary import Ensemble, Summary
+from yade_timber.run.identity import made_from
+from yade_timber.run.options import RunOptions, scripted
+from yade_timber.study import driver
+from yade_timber.study.ensemble import results, runs, statistics
+from yade_timber.text import japanese
+from yade_timber.text.english import sentence
 
 
 def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):

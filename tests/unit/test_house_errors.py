@@ -14,8 +14,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, limits, load_house  # noqa: E402
-from yade_timber.house.loader import SHIPPED  # noqa: E402
+from yade_timber.house import HouseError, build_house, limits, load_house
+from yade_timber.house.loader import SHIPPED
 
 STOREHOUSE = """\
 name: storehouse

@@ -13,8 +13,8 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh  # noqa: E402
-from yade_timber.house.nails import nailed_wall  # noqa: E402
+from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
+from yade_timber.house.nails import nailed_wall
 
 
 def house(tmp_path, walls, types="{}", base="C", level=None):

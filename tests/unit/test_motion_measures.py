@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber import motion as gm  # noqa: E402
-from yade_timber.motion.measures import jma_filter, oscillator  # noqa: E402
+from yade_timber import motion as gm
+from yade_timber.motion.measures import jma_filter, oscillator
 
 
 def one_component(values, dt, column=1):

@@ -16,9 +16,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim, write_csv  # noqa: E402
-from yade_timber.motion.readers import find_files  # noqa: E402
-from yade_timber.motion.record import STANDARD_GRAVITY  # noqa: E402
+from yade_timber.motion import GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim, write_csv
+from yade_timber.motion.readers import find_files
+from yade_timber.motion.record import STANDARD_GRAVITY
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*constant part")  # of the few samples below
 N = 40

@@ -11,10 +11,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv  # noqa: E402
-from yade_timber.motion.processing import scaled, trim, turned  # noqa: E402
-from yade_timber.motion.sequence import common_step, following, with_then  # noqa: E402
-from yade_timber.study.batch.table import read_table  # noqa: E402
+from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
+from yade_timber.motion.processing import scaled, trim, turned
+from yade_timber.motion.sequence import common_step, following, with_then
+from yade_timber.study.batch.table import read_table
 
 
 def motion(dt, n, name="a", seed=0):

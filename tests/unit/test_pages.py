@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-import yade_timber  # noqa: E402
+import yade_timber
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, load_house  # noqa: E402
-from yade_timber.pictures import drawings  # noqa: E402
-from yade_timber.pictures.figures import new_figure  # noqa: E402
-from yade_timber.pictures.panels import draw_panels, panels  # noqa: E402
-from yade_timber.pictures.views import FRONT, SIDE, Snapshot  # noqa: E402
+from yade_timber.house import build_house, load_house
+from yade_timber.pictures import drawings
+from yade_timber.pictures.figures import new_figure
+from yade_timber.pictures.panels import draw_panels, panels
+from yade_timber.pictures.views import FRONT, SIDE, Snapshot
 
 
 def column(y):

@@ -10,11 +10,11 @@ from scipy.signal import lsim
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
-import graded_houses as graded  # noqa: E402
-import kobe_like  # noqa: E402
-import shear_model as shear  # noqa: E402
-import wall_grades as grades  # noqa: E402
-from house_storeys import AXES, column_ends, wall_joints, wall_springs  # noqa: E402
+import graded_houses as graded
+import kobe_like
+import shear_model as shear
+import wall_grades as grades
+from house_storeys import AXES, column_ends, wall_joints, wall_springs
 
 HEIGHT = 2.73
 """[m]"""

@@ -14,7 +14,7 @@ from scipy import stats
 ROOT = Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "py"), str(ROOT / "scripts" / "study")]
 
-import fragility  # noqa: E402
+import fragility
 
 
 def runs(house, scale, collapses, failed=0):
