@@ -80,7 +80,6 @@ void SymplecticIntegrator::action()
 	const int groups = int(timber::groupsOf(scene->bodies->size()));
 	timber::forAll(
 	        groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);
-	timber::endStep();
 }
 
 } // namespace yade

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Parallel loops. Results do not depend on the number of threads, nor on their use.
-///
-/// * The calling thread takes items until none is left, and then waits only for items that another thread has begun: a
-///   thread that the system does not run at the moment delays nothing.
-/// * Idle threads spin for some microseconds, then sleep. Those of OpenMP spin for milliseconds and take the processor
-///   from other work.
-/// * thread_choice.hpp decides by measured time whether the loops of a step use more than one thread.
+/// Parallel loops by oneTBB. Results do not depend on the number of threads, nor on their use.
 #pragma once
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace timber {
 
@@ -21,27 +18,32 @@ int threadCount();
 void setThreadCount(int count);
 /// Index of this thread in a parallel loop.
 int threadNumber();
-/// Whether this thread may start a parallel loop: there are others, and it is not within a parallel loop.
+/// Whether this thread may start a parallel loop: there are others, and it is not within a parallel loop. A thread that
+/// waits for a loop within an item could otherwise begin another item in the middle of the first.
 bool hasThreads();
-/// Ends a step of the simulation: its loops have been timed together.
-void endStep();
 
 namespace detail {
-	/// Begins a timed loop; returns whether it is to run on several threads.
-	bool beginLoop();
-	void endLoop();
-	/// body(context, k) for all k < count on several threads; a thread takes `chunk` at a time. The first exception
-	/// is thrown again.
-	void runOnThreads(int count, int chunk, void (*body)(void*, int), void* context);
+	tbb::task_arena& arena();
+
+	/// This thread is within a parallel loop.
+	struct WithinLoop {
+		WithinLoop();
+		~WithinLoop();
+		const bool before;
+	};
 
 	template <class Work> void onThreads(int count, int chunk, Work& work)
 	{
-		runOnThreads(
-		        count, chunk, [](void* context, int k) { (*static_cast<Work*>(context))(k); }, &work);
+		const auto visit = [&work](const tbb::blocked_range<int>& items) {
+			const WithinLoop mark;
+			for (int k = items.begin(); k < items.end(); ++k)
+				work(k);
+		};
+		arena().execute([&] { tbb::parallel_for(tbb::blocked_range<int>(0, count, chunk), visit); });
 	}
 }
 
-/// work(k) for all k < count, each of which is long: on all threads.
+/// work(k) for all k < count, each of which is long: on all threads. The first exception is thrown again.
 template <class Work> void forAllLong(int count, Work work)
 {
 	if (count > 1 && hasThreads()) return detail::onThreads(count, 1, work);
@@ -52,12 +54,10 @@ template <class Work> void forAllLong(int count, Work work)
 /// work(k) for all k < count, each of which covers `each` bodies, pairs or joints.
 template <class Work> void forAll(int count, Work work, int each = 1)
 {
-	const bool isTimed = count > 1 && count * each > smallLoop && hasThreads();
-	if (isTimed && detail::beginLoop()) detail::onThreads(count, each < itemsAtOnce ? itemsAtOnce / each : 1, work);
-	else
-		for (int k = 0; k < count; ++k)
-			work(k);
-	if (isTimed) detail::endLoop();
+	if (count > 1 && count * each > smallLoop && hasThreads())
+		return detail::onThreads(count, each < itemsAtOnce ? itemsAtOnce / each : 1, work);
+	for (int k = 0; k < count; ++k)
+		work(k);
 }
 
 } // namespace timber
