@@ -38,14 +38,10 @@ inline std::vector<Configuration> configurations()
 		{ "edge on edge", box(beam), box(beam), beam, beam, edgeUp, across, up, Vec3::Zero(), depth, 1 },
 		{ "corner on face", box(plate), box(cube), plate, cube, none, cornerDown, up, Vec3(0.01, 0.02, 0),
 		        depth, 1 },
-		{ "hexagonal prism on "
-		  "floor",
-		        box(plate), prism, plate, Vec3::Zero(), none, none, up, Vec3(centre.x() - 0.02, 0, 0), depth,
-		        4 },
-		{ "hexagonal prism on "
-		  "wall",
-		        box(wall), prism, wall, Vec3::Zero(), none, none, east, Vec3(0, 0, centre.z() - 0.1), depth,
-		        4 },
+		{ "hexagonal prism on floor", box(plate), prism, plate, Vec3::Zero(), none, none, up,
+		        Vec3(centre.x() - 0.02, 0, 0), depth, 4 },
+		{ "hexagonal prism on wall", box(wall), prism, wall, Vec3::Zero(), none, none, east,
+		        Vec3(0, 0, centre.z() - 0.1), depth, 4 },
 		{ "near faces", box(plate), box(cube), plate, cube, none, none, up, Vec3(0.01, 0.02, 0), -nearGap, 0 },
 	};
 }

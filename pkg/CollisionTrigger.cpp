@@ -64,8 +64,7 @@ void CollisionTrigger::takeSnapshots()
 void CollisionTrigger::action()
 {
 	if (!dynamic_cast<Collider*>(collider.get()))
-		throw std::invalid_argument("CollisionTrigger.collider: a "
-		                            "Collider is required");
+		throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
 	lastStep = scene->iter;
 	// DoSort: bodies were added
 	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort;

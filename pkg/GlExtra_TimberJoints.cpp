@@ -53,13 +53,10 @@ namespace {
 void GlExtra_TimberJoints::validate() const
 {
 	if (!(size > 0))
-		throw std::invalid_argument("GlExtra_TimberJoints.size = "
-		                            ""
-		        + std::to_string(size) + ": it must be > 0");
+		throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
 	if (!(cross > 0))
-		throw std::invalid_argument("GlExtra_TimberJoints.cross = "
-		                            ""
-		        + std::to_string(cross) + ": it must be > 0");
+		throw std::invalid_argument(
+		        "GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
 }
 
 void GlExtra_TimberJoints::render()

@@ -87,9 +87,7 @@ void HealthCheck::checkBodies() const
 		if (!b) continue;
 		if (size_t(b->getId()) != id)
 			throw std::runtime_error("O.bodies[" + std::to_string(id) + "]: its id is "
-			        + std::to_string(b->getId())
-			        + ": "
-			          "it must be its place in O.bodies");
+			        + std::to_string(b->getId()) + ": it must be its place in O.bodies");
 		checkBody(*b);
 		checkGeometry(*b);
 	}
@@ -160,23 +158,17 @@ void HealthCheck::checkState(const Body& b) const
 		return;
 	checkBodies(); // another cause than the time step
 	std::ostringstream message;
-	message << "body " << b.getId()
-	        << " left the physical range before step "
-	           ""
-	        << scene->iter << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity "
-	        << s.vel.transpose()
-	        << " m/s, angular velocity "
-	           ""
-	        << s.angVel.transpose() << " rad/s; the time step " << scene->dt << " s is probably too large";
+	message << "body " << b.getId() << " left the physical range before step " << scene->iter
+	        << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity "
+	        << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step "
+	        << scene->dt << " s is probably too large";
 	throw std::runtime_error(message.str());
 }
 
 void HealthCheck::action()
 {
 	if (!(scene->dt > 0 && std::isfinite(scene->dt)))
-		throw std::runtime_error("O.dt = " + std::to_string(scene->dt)
-		        + " "
-		          "s: it must be finite and > 0");
+		throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
 	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
 	const bool changed = hasSceneChanged();
 	if (changed) checkScene();

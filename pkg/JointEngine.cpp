@@ -71,8 +71,7 @@ void JointEngine::checkJoints() const
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
 			refuse(k,
 			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)
-			                + ": "
-			                  "they must be ids of two bodies");
+			                + ": they must be ids of two bodies");
 	}
 }
 

@@ -63,8 +63,7 @@ namespace {
 	};
 	const std::vector<ForeignEngine> foreignEngines {
 		{ "NewtonIntegrator",
-		        "would move the bodies a second time. Remove it: SymplecticIntegrator moves "
-		        "them" },
+		        "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
 		{ "Integrator", "would move the bodies a second time. Remove it: SymplecticIntegrator moves them" },
 		{ "TimeStepper",
 		        "would change the time step, and finds no stiffness in these contacts. Remove it and "
@@ -73,9 +72,7 @@ namespace {
 
 	[[noreturn]] void refuseEngines(const string& fault)
 	{
-		throw std::runtime_error("O.engines: " + fault
-		        + ". "
-		          "yade_timber.engines() gives a valid list");
+		throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list");
 	}
 
 	[[noreturn]] void refuseBody(const Body& b, const string& fault)
@@ -161,9 +158,7 @@ namespace {
 	        const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
 	{
 		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId())
-		        + ": "
-		          "the InteractionLoop has no "
-		        + functor + " functor for " + classA + " and " + classB);
+		        + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB);
 	}
 
 	/// Null if there is no law for the two materials.
@@ -212,23 +207,18 @@ void checkEngines(const Scene& scene)
 		if (!role && last && last->name == string("ContactForces")) late = engine;
 		if (!role) continue;
 		if (!isListed(scene, engine))
-			refuseEngines(engine->getClassName()
-			        + " stands in a ParallelEngine. Put "
-			          "it into the list itself");
+			refuseEngines(
+			        engine->getClassName() + " stands in a ParallelEngine. Put it into the list itself");
 		if (late && role->name == integrator) {
 			refuseForeign(*late);
 			refuseEngines(late->getClassName()
 			        + " stands between ContactForces and the integrator, so that contacts would not know "
-			          "its forces. Move it before ContactForces "
-			          "or to the end");
+			          "its forces. Move it before ContactForces or to the end");
 		}
 		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor"))
 			refuseEngines(string(role->name) + " is there twice");
 		if (last && role->rank < last->rank)
-			refuseEngines(string(role->name)
-			        + " must come before "
-			          ""
-			        + last->name);
+			refuseEngines(string(role->name) + " must come before " + last->name);
 		last = role;
 	}
 	for (const Role& role : roles)
@@ -283,17 +273,14 @@ void findParts(const Scene& scene, std::vector<const void*>& parts)
 	});
 }
 
-constexpr Real explicitLimits = 20; ///< largest step for joints, over that of explicit springs: as for house runs [-]
 constexpr Real largestStep = 1e-2; ///< twenty times the default step: a wrong unit, or a time stepper [s]
 
 namespace {
 	void refuseStep(const Scene& scene, const string& cause, Real limit)
 	{
 		std::ostringstream message;
-		message << "O.dt = " << scene.dt << " s: too large for " << cause
-		        << ": it must be at most "
-		           ""
-		        << std::setprecision(2) << limit << " s";
+		message << "O.dt = " << scene.dt << " s: too large for " << cause << ": it must be at most ";
+		message << std::setprecision(2) << limit << " s";
 		throw std::runtime_error(message.str());
 	}
 
@@ -304,7 +291,7 @@ namespace {
 		if (const auto* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
 		const Real squared
 		        = springs.empty() ? 0 : timber::largestEigenvalue(ContactForces::placements(scene), springs);
-		return squared > 0 ? explicitLimits * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
+		return squared > 0 ? largestJointStep * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
 	}
 }
 
@@ -313,10 +300,7 @@ void checkStep(const Scene& scene)
 	if (!(scene.dt <= largestStep)) refuseStep(scene, "contacts", largestStep);
 	const Real limit = jointStep(scene);
 	if (scene.dt > limit)
-		refuseStep(scene,
-		        "the joints between the lightest bodies (or take less stiff "
-		        "joints)",
-		        limit);
+		refuseStep(scene, "the joints between the lightest bodies (or take less stiff joints)", limit);
 }
 
 void checkBody(const Body& b)
@@ -332,8 +316,7 @@ void checkBody(const Body& b)
 	        && !(s.mass > 0 && std::isfinite(s.mass) && (s.inertia.array() > 0).all() && s.inertia.allFinite())) {
 		std::ostringstream fault;
 		fault << "state.mass = " << s.mass << " kg, state.inertia = " << s.inertia.transpose()
-		      << " kg m2: "
-		         "they must be finite and > 0";
+		      << " kg m2: they must be finite and > 0";
 		refuseBody(b, fault.str());
 	}
 	const RoundedPolyhedron* shape = roundedShape(b);
@@ -343,8 +326,7 @@ void checkBody(const Body& b)
 	if (!material || material->getClassIndex() == ElementMat::getClassIndexStatic())
 		refuseBody(b,
 		        "material " + (b.material ? b.material->getClassName() : string("None"))
-		                + ": it must be "
-		                  "a TimberMat or SnowMat");
+		                + ": it must be a TimberMat or SnowMat");
 }
 
 } // namespace yade

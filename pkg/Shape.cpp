@@ -57,8 +57,7 @@ void RoundedPolyhedron::validate() const
 {
 	if (!(radius >= 0 && std::isfinite(radius)))
 		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius)
-		        + ": it must be >= "
-		          "0 (0 takes 10 % of the shortest edge)");
+		        + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
@@ -108,9 +107,8 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 void Bo1_RoundedPolyhedron_Aabb::validate() const
 {
 	if (!(margin >= 0 && std::isfinite(margin)))
-		throw std::invalid_argument("Bo1_RoundedPolyhedron_Aabb.margin = "
-		                            ""
-		        + std::to_string(margin) + ": it must be >= 0");
+		throw std::invalid_argument(
+		        "Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
 }
 
 void Bo1_RoundedPolyhedron_Aabb::go(

@@ -35,14 +35,10 @@ void TimberJoint::validate() const
 	requireAnchors("TimberJoint.anchors2", anchors2);
 	validateLaw();
 	if (!hasSprings && broken.empty()) return; // not complete yet
-	require(anchors1.size() == anchors2.size(),
-	        "number of "
-	        "TimberJoint.anchors2",
-	        anchors2.size(), "that of anchors1");
-	require(broken.empty() || broken.size() == anchors1.size(),
-	        "number of "
-	        "TimberJoint.broken",
-	        broken.size(), "that of anchors1");
+	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(),
+	        "that of anchors1");
+	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(),
+	        "that of anchors1");
 }
 
 void TimberJoint::validateLaw() const
@@ -71,8 +67,7 @@ void TimberJoint::validateEnvelope() const
 	const char* const unmet = timber::SlipLaw::unmetBy(kn, envelopePoints(1));
 	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
 	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength,
-	        "the largest force "
-	        "of TimberJoint.envelope");
+	        "the largest force of TimberJoint.envelope");
 }
 
 void TimberJoint::postLoad(TimberJoint&)

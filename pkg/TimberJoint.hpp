@@ -95,8 +95,7 @@ public:
 		((Real, kn, NaN, Attr::triggerPostLoad, "Normal stiffness, of each spring or of the whole joint, see "
 			"perJoint. [N/m] (paper, Table 1)"))
 		((Real, ks, NaN, Attr::triggerPostLoad, "Tangential stiffness, of each spring or of the whole joint; "
-			"0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table "
-			"1)"))
+			"0: the springs act along the normal only. Law slip: that of kn, or 0. [N/m] (paper, Table 1)"))
 		((Real, strength, NaN, Attr::triggerPostLoad, "P_max, of each spring or of the whole joint; law slip: "
 			"the yield force. [N] (paper, section 3.2)"))
 		((bool, perJoint, false, Attr::triggerPostLoad, "Whether stiffness and strength are those of the "

@@ -67,9 +67,7 @@ void checkReplacedPart(const yade::Body& body)
 void setThreadCount(int count)
 {
 	if (count < 1)
-		throw std::invalid_argument("set_thread_count: count = "
-		                            ""
-		        + std::to_string(count) + ": it must be >= 1");
+		throw std::invalid_argument("set_thread_count: count = " + std::to_string(count) + ": it must be >= 1");
 	timber::setThreadCount(count);
 }
 
@@ -85,6 +83,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("await_step", &awaitStep, (boost::python::arg("before")));
 	boost::python::def("finish_step", &finishStep);
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
+	boost::python::scope().attr("largest_joint_step") = yade::largestJointStep;
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
 	boost::python::def("advance_scenes", &yade::advanceScenes,

@@ -66,8 +66,7 @@ constexpr double candidateSkin = 8e-3;
 constexpr double restSkin = candidateSkin / 40;
 constexpr int restInterval = 100; ///< [updates]
 static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance,
-        "the skin must cover the distance of a flush "
-        "support from a corner");
+        "the skin must cover the distance of a flush support from a corner");
 
 /// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs
 /// about five updates, and many such pairs have none (vertex-edge contacts, which are off by default).

@@ -33,9 +33,8 @@ namespace {
 		// 0: checkDistinct has the better message
 		if (extent == 0 || (smallestSize <= extent && extent <= largestSize)) return;
 		std::ostringstream what;
-		what << "the vertices extend over "
-		        ""
-		     << extent << " m: a polyhedron has " << smallestSize << " to " << largestSize << " m";
+		what << "the vertices extend over " << extent << " m: a polyhedron has " << smallestSize << " to "
+		     << largestSize << " m";
 		throw PolyhedronError(what.str());
 	}
 
@@ -45,10 +44,7 @@ namespace {
 			for (size_t l = k + 1; l < points.size(); ++l)
 				if ((points[k] - points[l]).norm() <= tolerance)
 					throw PolyhedronError("vertices " + std::to_string(k) + " and "
-					        + std::to_string(l)
-					        + " are "
-					          "the same point "
-					        + toText(points[k]));
+					        + std::to_string(l) + " are the same point " + toText(points[k]));
 	}
 
 	using Vec2 = Eigen::Vector2d;
@@ -248,7 +244,6 @@ namespace {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
 			if (back == faceLeftOf.end())
 				throw OpenSurface("the faces do not close around the edge between vertices "
-				                  ""
 				        + std::to_string(ends.first) + " and " + std::to_string(ends.second));
 			if (ends.first < ends.second)
 				edges.push_back(

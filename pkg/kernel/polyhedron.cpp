@@ -61,7 +61,6 @@ namespace {
 			        [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
 			if (!given)
 				throw PolyhedronError("the half-spaces do not bound a volume in the direction "
-				                      ""
 				        + toText(face.plane.normal));
 		}
 		return body;
@@ -84,8 +83,7 @@ namespace {
 		if (radius >= largest.radius - tolerance) {
 			std::ostringstream what;
 			what << "rounding radius " << radius
-			     << " m leaves no core: it must be below the radius of the "
-			        "inscribed sphere, "
+			     << " m leaves no core: it must be below the radius of the inscribed sphere, "
 			     << largest.radius << " m";
 			throw PolyhedronError(what.str());
 		}
@@ -97,13 +95,10 @@ namespace {
 Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 {
 	if (points.size() < 4)
-		throw PolyhedronError("a polyhedron has at least 4 vertices, got "
-		                      ""
-		        + std::to_string(points.size()));
+		throw PolyhedronError("a polyhedron has at least 4 vertices, got " + std::to_string(points.size()));
 	if (points.size() > maxVertices)
-		throw PolyhedronError("a polyhedron has at most "
-		                      ""
-		        + std::to_string(maxVertices) + " vertices, got " + std::to_string(points.size())
+		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got "
+		        + std::to_string(points.size())
 		        + ": the time of a contact grows with the third power of their number");
 	checkPoints(points);
 	try {
@@ -116,17 +111,14 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
 {
 	if (planes.size() > maxFaces)
-		throw PolyhedronError("at most " + std::to_string(maxFaces)
-		        + " half-spaces, got "
-		          ""
-		        + std::to_string(planes.size()));
+		throw PolyhedronError(
+		        "at most " + std::to_string(maxFaces) + " half-spaces, got " + std::to_string(planes.size()));
 	std::vector<HalfSpace> units;
 	for (size_t k = 0; k < planes.size(); ++k) {
 		const double length = planes[k].normal.norm();
 		if (!std::isfinite(length) || !std::isfinite(planes[k].offset) || length == 0)
-			throw PolyhedronError("half-space " + std::to_string(k)
-			        + " has no finite unit normal and "
-			          "offset");
+			throw PolyhedronError(
+			        "half-space " + std::to_string(k) + " has no finite unit normal and offset");
 		units.push_back({ planes[k].normal / length, planes[k].offset / length });
 	}
 	return intersectionOf(units);

@@ -18,11 +18,9 @@ const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>&
 		if (!(std::isfinite(point.stretch) && std::isfinite(point.force))) return "finite";
 		if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
 		if (&point == &points.back() ? point.force != 0 : !(point.force > 0))
-			return "of forces > 0, the last "
-			       "one 0";
+			return "of forces > 0, the last one 0";
 		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch))
-			return "nowhere "
-			       "steeper than kn";
+			return "nowhere steeper than kn";
 		last = point;
 	}
 	return nullptr;

@@ -172,8 +172,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(),
 				poseB.orientation };
 			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(),
-			        "a contact within "
-			        "the gap that was promised");
+			        "a contact within the gap that was promised");
 			CandidateCache empty;
 			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
 			require(points.size() == fresh.size(), "the cache changes the result");

@@ -230,8 +230,7 @@ TEST(Refusals, TooManyVertices)
 	Random random(12);
 	for (const size_t count : { maxVertices + 1, size_t(2000), size_t(20000) })
 		expectRefusal(ellipsoidPoints(random, int(count), { 1, 1, 1 }),
-		        "at most 64 vertices, got "
-		        "" + std::to_string(count));
+		        "at most 64 vertices, got " + std::to_string(count));
 	const auto begin = std::clock();
 	const auto points = ellipsoidPoints(random, int(maxVertices), { 1, 0.8, 0.6 });
 	EXPECT_EQ(Polyhedron::fromVertices(points).vertices.size(), maxVertices);

@@ -141,8 +141,7 @@ TEST(SlipLaw, PointsThatAreNoBackbone)
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.01, 0 } }), "of ascending stretches > 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 5 } }), "of forces > 0, the last one 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, 10 }, { 0.02, 0 }, { 0.03, 0 } }),
-	        "of forces > 0, the last "
-	        "one 0");
+	        "of forces > 0, the last one 0");
 	EXPECT_STREQ(SlipLaw::unmetBy(steepest, { { 0.01, std::nan("") }, { 0.02, 0 } }), "finite");
 }
 

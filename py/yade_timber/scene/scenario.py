@@ -10,16 +10,12 @@ from ..house import build_house, load_house
 from ..house.disturbance import disturb
 from ..house.errors import StepError
 from ..house.friction import own_coefficient
+from ..plugin import compiled
 from . import bodies, engines
 from .joints import make_joint
 from .queries import stable_dt
 
 O = yw.Omega()
-
-JOINT_FACTOR = 20
-"""Largest time step over the stability limit of explicit joints. Stiff joints are implicit and stay stable at 47 times
-that limit. [-]
-"""
 
 
 @dataclass
@@ -79,7 +75,7 @@ def build(scenario):
 
 def check_step(model):
     """Raise StepError when the joints are too stiff for the time step, as between light members."""
-    limit = stable_dt(JOINT_FACTOR)
+    limit = stable_dt(compiled.largest_joint_step)
     if O.dt > limit:
         fault = f"a time step of {O.dt:g} s is too large for the joints between the lightest members"
         raise StepError(f"{model.name}: {fault}: take at most {limit:.2g} s (--dt), or less stiff joints")
