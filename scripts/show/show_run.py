@@ -5,6 +5,7 @@ import sys
 
 from show_common import Parser, errors_in_a_line, path
 
+from yade_timber.base.atomic_write import make_folder
 from yade_timber.pictures import all_pictures
 
 
@@ -30,7 +31,7 @@ def main():
         )
         with errors_in_a_line(out):
             if out != folder:
-                out.mkdir(parents=True, exist_ok=True)
+                make_folder(out)
             written = all_pictures.write(out, folder)
         print("written: " + ", ".join(map(str, written)))
 

@@ -4,6 +4,7 @@
 
 import csv
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -183,3 +184,11 @@ def test_results_made_from_something_else_do_not_count(table, tmp_path):
     path = tmp_path / rows[0].name / "summary.json"
     path.write_text(path.read_text().replace('"quake"', '"other"'))
     assert write_runs(rows, tmp_path)[0]["status"] == "unfinished"
+
+
+def test_a_pipe_or_device_is_no_table(tmp_path):
+    """Refused at once: nothing is read, or waited for, that is no regular file."""
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", Path(os.devnull)):
+        with pytest.raises(BatchError, match=f"{path}: cannot be read: not a regular file"):
+            read_table(path)

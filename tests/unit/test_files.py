@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.base.atomic_write import remove, remove_parts, write_text, written_from_memory, written_whole
+from yade_timber.base.atomic_write import make_folder, remove, remove_parts, write_text, written_from_memory, written_whole
 from yade_timber.base.errors import RunError
 from yade_timber.base.lock import is_locked, locked
 from yade_timber.base.input_file import require_regular
@@ -113,6 +113,19 @@ def test_standard_output(tmp_path, path):
         subprocess.run([sys.executable, "-c", script], stdout=log, check=True)
     assert (tmp_path / "log").read_text() == "before\nx\nafter\n"
     assert subprocess.run([sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")], stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
+
+
+def test_folders_are_made_in_folders_only(tmp_path):
+    make_folder(tmp_path / "a" / "b")
+    (tmp_path / "link").symlink_to("a")
+    make_folder(tmp_path / "link")
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "nowhere").symlink_to("nothing")
+    for path, reason in ((Path(os.devnull), "no folder"), (tmp_path / "pipe", "no folder"),
+                         (tmp_path / "nowhere", "link to nothing")):
+        with pytest.raises(OSError, match=reason):
+            make_folder(path)
+    assert (tmp_path / "a" / "b").is_dir() and names(tmp_path) == ["a", "link", "nowhere", "pipe"]
 
 
 def test_temporary_names_differ_and_keep_the_suffix(tmp_path):

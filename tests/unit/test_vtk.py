@@ -3,6 +3,7 @@
 """The VTK export, read back with VTK: elements, joints and contact forces of an invented run are at their recorded
 positions. Needs no YADE.
 """
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -101,3 +102,8 @@ def test_a_full_disk_is_an_error_of_the_system_and_leaves_no_file(tmp_path, monk
     with pytest.raises(OSError, match="No space"):
         vtk.export(tmp_path, frames())
     assert not [path for path in tmp_path.rglob("*") if path.is_file()] and capfd.readouterr() == ("", "")
+
+
+def test_an_export_to_what_is_no_folder(folder):
+    done = export(folder.parent, "--out", os.devnull)
+    assert done.returncode == 1 and done.stderr == f"error: {os.devnull}: cannot be written: is no folder\n"

@@ -4,6 +4,7 @@ import csv
 from functools import cached_property
 from pathlib import Path
 
+from ..base.atomic_write import make_folder
 from ..base.errors import RunError
 from ..base.input_file import require_regular
 from ..recording import ensemble, frames
@@ -160,7 +161,7 @@ class RunResult:
 
         folder = self.folder if folder is None else Path(folder)
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            make_folder(folder)
             return all_pictures.write(folder, self.folder)
         except OSError as problem:
             raise RunError(f"{folder}: the pictures cannot be written: {problem.strerror}") from None

@@ -135,6 +135,15 @@ def remove_parts(folder):
         part.unlink(missing_ok=True)
 
 
+def make_folder(path):
+    """Make a folder and those that it lies in, unless it exists. Raises OSError."""
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        reason = "is no folder" if os.path.exists(path) else "is a link to nothing"
+        raise NotADirectoryError(errno.ENOTDIR, reason, str(path)) from None
+
+
 def write_text(path, text):
     """Write a text file (UTF-8, line ends as given; halves of character pairs, as in undecodable names of files, as
     escapes). Raises OSError.

@@ -7,6 +7,7 @@ import os
 import tempfile
 from contextlib import contextmanager
 
+from .atomic_write import make_folder
 from .errors import RunError
 
 LOCK = ".lock"
@@ -17,7 +18,7 @@ _descriptors = set()
 def prepare_folder(folder, option):
     """Create the folder and check that files can be written in it. option: its name for the user. Raises RunError."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as problem:

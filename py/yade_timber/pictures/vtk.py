@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..base.errors import RunError
-from ..base.atomic_write import write_text, written_from_memory
+from ..base.atomic_write import make_folder, write_text, written_from_memory
 from ..recording.frames import rotated
 
 try:
@@ -33,7 +33,7 @@ def export(folder, frames, every=1):
 
     Returns the paths of the .pvd files. Raises OSError.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     last = len(frames.time) - 1
     chosen = sorted({*range(0, last + 1, every), last})
     series = {
@@ -46,7 +46,7 @@ def export(folder, frames, every=1):
 
 def write_series(folder, name, make, numbers):
     """Write NAME/NAME_0000.vtp ... and NAME.pvd with their times. numbers: [(time [s], argument of make)]."""
-    (folder / name).mkdir(exist_ok=True)
+    make_folder(folder / name)
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
     for index, (time, number) in enumerate(numbers):

@@ -15,7 +15,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..base.atomic_write import write_text
+from ..base.atomic_write import make_folder, remove, write_text
 from ..base.errors import RunError
 from ..base.lock import is_locked
 from ..base.options import options
@@ -128,12 +128,12 @@ class _Process:
 
     def __init__(self, task, scripts):
         self.task, self.child, self.start = task, None, time.monotonic()
-        task.folder.mkdir(parents=True, exist_ok=True)
+        make_folder(task.folder)
         self.outdated = (task.folder / SUMMARY).exists()
         if is_locked(task.folder):
             return
         for name in (END, SUMMARY):
-            (task.folder / name).unlink(missing_ok=True)
+            remove(task.folder / name)
         arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
         with open(task.folder / LOG, "w") as log:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,

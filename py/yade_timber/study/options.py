@@ -6,6 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from ..base.atomic_write import make_folder
 from ..base.encoding import print_anything
 from ..base.errors import InputError, RunError
 from ..base.options import add_options, options, read_arguments
@@ -93,7 +94,7 @@ def results_folder(text):
     if not str(text):
         raise argparse.ArgumentTypeError("'': must be the name of a folder")
     try:
-        Path(text).mkdir(parents=True, exist_ok=True)
+        make_folder(text)
         with tempfile.TemporaryFile(dir=text):
             return Path(text)
     except (OSError, ValueError) as problem:

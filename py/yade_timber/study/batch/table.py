@@ -17,6 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from ...base.errors import RunError
+from ...base.input_file import read_bytes
 from ...house import HouseError, load_house
 from ...base.options import option, options, read
 from ...base.remedies import nearest
@@ -24,6 +25,9 @@ from ...motion import RecordError
 from ...motion.readers import find_files
 from ...motion.sequence import with_factor
 from ...run.options import Door, RunOptions
+
+MAX_FILE_SIZE = 10_000_000
+"""[bytes]"""
 
 NO_EARTHQUAKE = "none"
 """Value of the column `record` for a run without an earthquake."""
@@ -198,7 +202,7 @@ def _lines(path):
 def _text_lines(path):
     """[(line number, text)] of the lines that are not empty, without comments."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_bytes(path, MAX_FILE_SIZE).decode("utf-8-sig")
     except (OSError, ValueError) as problem:
         raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or 'not UTF-8 text'}") from None
     lines = [(number, _without_comment(line)) for number, line in enumerate(text.splitlines(), 1)]

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from ...base.atomic_write import write_text
+from ...base.atomic_write import make_folder, write_text
 from ...base.errors import InputError
 from ...base.notes import noted
 from ...house import build_house, changed_house, load_house
@@ -50,7 +50,7 @@ def write_house(row, folder):
     settings, braces = (tuple(filter(None, (text or "").split(";"))) for text in changes(row)[:2])
     data = changed_house(row.house, settings, braces, row.value("strength"), row.where)
     path = Path(folder) / row.name / HOUSE
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     write_text(path, f"# House {row.cells['house']} with the changes of {row.table.name}\n{house_text(data)}")
 
 
