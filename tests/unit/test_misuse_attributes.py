@@ -7,7 +7,7 @@ import yade.wrapper as yw
 import yade_timber as yt
 from column_sample import column_on_plate, is_one_line
 from yade import O
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Quaternion, Vector3
 from yade_timber.plugin import compiled
 
 NAN, INF = math.nan, math.inf
@@ -243,3 +243,13 @@ def test_wrong_argument_is_named(call, words):
     with pytest.raises((ValueError, TypeError)) as error:
         call()
     is_one_line(error, *words)
+
+
+@pytest.mark.parametrize("norm", [0.0, 1e200])
+def test_a_quaternion_that_cannot_be_normalised(norm):
+    state = O.bodies[column_on_plate()[1]].state
+    before = state.ori
+    with pytest.raises(ValueError) as error:
+        state.ori = Quaternion(norm, 0, 0, 0)
+    is_one_line(error, "State.ori", "norm of a quaternion > 0")
+    assert state.ori == before

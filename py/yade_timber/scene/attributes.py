@@ -13,6 +13,7 @@ from contextlib import contextmanager
 
 import numpy as np
 import yade.wrapper as yw
+from yade.minieigenHP import Quaternion
 
 from .arguments import shown
 from .background import between_steps
@@ -44,6 +45,8 @@ RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.Stat
 
 FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
 """Classes of YADE's own whose numbers must be finite, too."""
+NOT_ZERO = dict.fromkeys(("ori", "refOri", "se3"), ", and the norm of a quaternion > 0")
+"""Attributes that YADE divides by their norm: end of the message."""
 MEASURED = ("rows",)
 """Attributes that a monitor fills: in a scene that fails, they are not finite."""
 
@@ -88,11 +91,15 @@ def _require_finite(cls, attributes):
     """Raise ValueError for a value that is not finite, where the class's own value is."""
     for name, value in attributes.items():
         if name not in MEASURED and not _is_finite(value) and _is_finite(getattr(cls(), name, None)):
-            raise ValueError(f"{cls.__name__}.{name} = {shown(value)}: it must be finite")
+            raise ValueError(f"{cls.__name__}.{name} = {shown(value)}: it must be finite{NOT_ZERO.get(name, '')}")
 
 
 def _is_finite(value):
-    """Whether no number of a value, such as a vector or a list of them, is infinite or NaN."""
+    """Whether no number of a value, such as a vector or a list of them, is infinite or NaN, nor becomes so when YADE
+    normalises a quaternion.
+    """
+    if isinstance(value, Quaternion):
+        return 0 < value.norm() < math.inf
     if isinstance(value, (float, np.floating)):
         return math.isfinite(value)
     return (
