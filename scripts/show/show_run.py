@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Make the pictures of recorded runs again: show_run.py results/modelC2_snow [...] [--out DIR]. Needs no YADE."""
+"""Make the pictures of recorded runs again: show_run.py results/C2 [...] [--out DIR] [--pdf]. Needs no YADE."""
 import sys
 
 from show_common import Parser, errors_in_a_line, path
@@ -15,6 +15,7 @@ def arguments():
     parser.add_argument(
         "--out", type=path, help="folder to write to; for several runs a folder for each (default: beside the frames)"
     )
+    parser.add_argument("--pdf", action="store_true", help="write sheets and curves as PDF, too")
     return parser.parse_args()
 
 
@@ -32,7 +33,7 @@ def main():
         with errors_in_a_line(out):
             if out != folder:
                 make_folder(out)
-            written = all_pictures.write(out, folder)
+            written = all_pictures.write(out, folder, options.pdf)
         print("written: " + ", ".join(map(str, written)))
 
 

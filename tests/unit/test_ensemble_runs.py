@@ -48,7 +48,7 @@ def test_an_ensemble_is_extended_and_replaced(tmp_path):
     assert "1 of 3 runs to do" in said and {path: path.stat().st_mtime_ns for path in kept} == kept
     found, summary = read(tmp_path), json.loads((tmp_path / "summary.json").read_text())
     assert found["finished"] == [1, 2, 3] and summary["ensemble"]["runs"] == 3 and summary["sentence"].startswith(f"Run {found['shown']} of 3 (3 undamaged")
-    assert all((tmp_path / name).exists() for name in ("ensemble.csv", "ensemble.png", "ensemble.pdf", "front.png", "player.html", "history.csv"))
+    assert all((tmp_path / name).exists() for name in ("ensemble.csv", "ensemble.png", "front.png", "player.html", "history.csv"))
 
     first, second, third = (history.rows[:, 1:5] for history in histories(tmp_path).values())
     assert all(1e-13 < np.abs(other - first).max() < 1e-6 for other in (second, third, second - third + first))

@@ -171,7 +171,7 @@ def coarse(monkeypatch):
 
 def test_pictures_are_written_whole(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames())
-    written = all_pictures.write(tmp_path)
+    written = all_pictures.write(tmp_path, pdf=True)
     names = [name for name in all_pictures.NAMES if not name.startswith((all_pictures.QUANTITIES, all_pictures.BANDS))]  # no tables of quantities, no ensemble
     assert [path.name for path in written] == names and {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *names}
     assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF", b"<!DO") for path in written)
@@ -192,7 +192,7 @@ def test_pictures_of_a_run_that_has_not_ended(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames(ended=False, shaken=False))
     (tmp_path / "out").mkdir()
     written = all_pictures.write(tmp_path / "out", tmp_path)
-    assert {path.name for path in written} == {"end_state.png", "front.png", "front.pdf", "side.png", "side.pdf", "player.html"}
+    assert {path.name for path in written} == {"end_state.png", "front.png", "side.png", "player.html"}
 
 
 def test_far_wreckage_does_not_shrink_the_house():

@@ -16,43 +16,41 @@ NAMES = [
 """Files that `write` makes."""
 
 
-def write(folder, results=None):
-    """Write the pictures of a run into a folder; returns their paths. results: folder with the run's frames, by default
-    the same.
+def write(folder, results=None, pdf=False):
+    """Write the pictures of a run into a folder; returns their paths.
 
+    results: folder with the run's frames, by default the same; pdf: whether sheets and curves are PDF files, too.
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
-    from matplotlib.backends import backend_pdf  # noqa: F401  here: it takes 22 MB and 0.3 s
-
     from . import figures
 
-    path = (results or folder) / frames.NAME
+    path, endings = (results or folder) / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
     figures.drawable(recorded.title)  # a missing letter is reported here, once
-    with copies.ahead(partial(_sheets, folder, recorded, path)) as sheets:
-        written = [path for paths in (*_pages(folder, recorded, path), *sheets) for path in paths]
+    with copies.ahead(partial(_sheets, folder, recorded, path, endings)) as sheets:
+        written = [path for paths in (*_pages(folder, recorded, path, endings), *sheets) for path in paths]
     return sorted(written, key=lambda path: NAMES.index(path.name))
 
 
-def _sheets(folder, recorded, path):
+def _sheets(folder, recorded, path, endings):
     """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of
     paths. path: of the frames
     """
     from . import player, sheets, views
 
     for view in views.VIEWS:
-        yield sheets.write_sheet(folder / view.name, recorded, view)
+        yield sheets.write_sheet(folder / view.name, recorded, view, endings)
     yield sheets.write_end(folder / END, recorded)
     yield [player.make([(path, recorded)], folder / PLAYER)]
 
 
-def _pages(folder, recorded, path):
+def _pages(folder, recorded, path, endings):
     """Draw the curves, meanwhile in this process; yields lists of paths. path: of the frames"""
     from . import bands, curves, quantities
 
     if recorded.history and recorded.history.samples:
-        yield curves.write(folder / CURVES, recorded)
+        yield curves.write(folder / CURVES, recorded, endings)
         if isinstance(recorded.summary, Summary) and (path.parent / quantities.JOINTS).exists():
-            yield quantities.write(folder / QUANTITIES, quantities.read(path.parent))
+            yield quantities.write(folder / QUANTITIES, quantities.read(path.parent), endings)
         if ensemble.has_runs(path.parent):
-            yield bands.write(folder / BANDS, recorded, path.parent)
+            yield bands.write(folder / BANDS, recorded, path.parent, endings)

@@ -18,11 +18,11 @@ LEGEND_HEIGHT = 0.42
 """Of the legend and of the labels of events above the axes. [inch]"""
 
 
-def write(stem, frames, folder):
-    """Write `stem`.png and `stem`.pdf of the ensemble in a folder; returns the paths. frames: of the run that is shown.
+def write(stem, frames, folder, endings=("png",)):
+    """Write `stem` of the ensemble with each ending in a folder; returns the paths. frames: of the run that is shown.
     Raises OSError, RunError.
     """
-    return save(page(frames, ensemble.histories(folder), DPI), stem, ("png", "pdf"))
+    return save(page(frames, ensemble.histories(folder), DPI), stem, endings)
 
 
 @default_style()

@@ -32,9 +32,9 @@ JOINT_KINDS = {
 }
 
 
-def write(stem, frames):
-    """Write the page of an ended run as `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(frames, DPI), stem, ("png", "pdf"))
+def write(stem, frames, endings=("png",)):
+    """Write the page of an ended run as `stem` with each ending; returns the paths. Raises OSError."""
+    return save(page(frames, DPI), stem, endings)
 
 
 @default_style()

@@ -124,7 +124,7 @@ def _wrapped(subtitle, width):
 
 
 @default_style()
-def save(figure, stem, endings):
+def save(figure, stem, endings=("png",)):
     """Write a figure as files STEM.ENDING, PNG with its own resolution; returns their paths. Raises OSError."""
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
     fonts.apply(figure)

@@ -51,9 +51,9 @@ def read(folder):
     return Results(Summary.read(folder), History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
 
 
-def write(stem, results):
-    """Write `stem`.png and `stem`.pdf; returns the paths. Raises OSError."""
-    return save(page(results, DPI), stem, ("png", "pdf"))
+def write(stem, results, endings=("png",)):
+    """Write `stem` with each ending; returns the paths. Raises OSError."""
+    return save(page(results, DPI), stem, endings)
 
 
 @default_style()

@@ -91,9 +91,9 @@ def layout(form, count, box, result):
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
 
 
-def write_sheet(stem, frames, view):
-    """Write `stem`.png and `stem`.pdf: the key times in one view. Returns the paths. Raises OSError."""
-    return save(sheet(frames, view, PRINT), stem, ("png", "pdf"))
+def write_sheet(stem, frames, view, endings=("png",)):
+    """Write `stem` with each ending: the key times in one view. Returns the paths. Raises OSError."""
+    return save(sheet(frames, view, PRINT), stem, endings)
 
 
 @default_style()
@@ -137,7 +137,7 @@ def result(frames):
 
 def write_end(stem, frames):
     """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
-    return save(both_views(frames, -1, END_DPI), stem, ("png",))
+    return save(both_views(frames, -1, END_DPI), stem)
 
 
 @default_style()
