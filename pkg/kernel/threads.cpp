@@ -2,6 +2,7 @@
 #include "threads.hpp"
 #include <algorithm>
 #include <cassert>
+#include <tbb/info.h>
 #include <tbb/task_scheduler_observer.h>
 #if defined(_OPENMP)
 #include <omp.h>
@@ -21,6 +22,9 @@ namespace {
 	}
 
 	int count = initialCount();
+
+	/// Threads of the arena: more than there are processors gain nothing, and oneTBB warns of them.
+	int arenaSize() { return std::min(count, tbb::info::default_concurrency()); }
 
 	/// YADE's own loops within an item run on one thread.
 	class OneOpenMPThread : public tbb::task_scheduler_observer {
@@ -46,7 +50,7 @@ void setThreadCount(int threads)
 	assert(threads >= 1 && !isInLoop);
 	count = threads;
 	detail::arena().terminate();
-	detail::arena().initialize(threads);
+	detail::arena().initialize(arenaSize());
 }
 
 int threadNumber() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
@@ -56,7 +60,7 @@ bool hasThreads() { return count > 1 && !isInLoop; }
 /// Never destroyed: the order in which a program's threads and libraries end is not ours.
 tbb::task_arena& detail::arena()
 {
-	static tbb::task_arena* const arena = new tbb::task_arena(count);
+	static tbb::task_arena* const arena = new tbb::task_arena(arenaSize());
 	static OneOpenMPThread* const observer = new OneOpenMPThread(*arena);
 	(void)observer;
 	return *arena;
