@@ -2,8 +2,11 @@
 # runner: python
 """Runs of the driver: only missing ones are done, and none is taken that was made from something else."""
 import argparse
+import os
 import sys
 
+import pytest
+from yade_timber.base.errors import RunError
 from yade_timber.recording.summary import Summary
 from yade_timber.run import identity
 from yade_timber.run.identity import made_from
@@ -42,6 +45,14 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     assert "--dt=0.0002" in done[tasks[0]].scenario
     assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
     assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
+
+
+def test_a_pipe_as_log_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
+    scripts = fake_script(tmp_path, WRITES)
+    os.mkfifo(tmp_path / driver.LOG)
+    with pytest.raises(RunError, match="run.log: no regular file"):
+        run_missing([Task("run", tmp_path, RunOptions(house="A"))], scripts, 1, print)
 
 
 def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):

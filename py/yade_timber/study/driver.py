@@ -135,7 +135,10 @@ class _Process:
         for name in (END, SUMMARY):
             remove(task.folder / name)
         arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
-        with open(task.folder / LOG, "w") as log:
+        path = task.folder / LOG
+        if path.exists() and not path.is_file():  # opening a pipe without a reader never ends
+            raise RunError(f"{path}: no regular file; remove it, or take another folder")
+        with open(path, "w") as log:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                           start_new_session=True,
                                           env={**os.environ, "OMP_NUM_THREADS": "1"})
