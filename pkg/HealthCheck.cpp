@@ -32,6 +32,8 @@ HealthCheck::CheckedBody::CheckedBody(const Body& b)
 }
 
 namespace {
+	constexpr Real defaultStep = 1e-8; ///< of a YADE scene whose O.dt was not set [s]
+
 	template <class Part> bool areSame(const boost::weak_ptr<Part>& checked, const shared_ptr<Part>& now)
 	{
 		return !checked.owner_before(now) && !now.owner_before(checked);
@@ -170,6 +172,10 @@ void HealthCheck::action()
 	if (!(scene->dt > 0 && std::isfinite(scene->dt)))
 		throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
 	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
+	if (scene->iter == 0 && scene->dt == defaultStep)
+		std::cerr << "O.dt = " << scene->dt
+		          << " s is YADE's default, with which nothing seems to move; set O.dt, "
+		          << "1e-4 for timber\n";
 	const bool changed = hasSceneChanged();
 	if (changed) checkScene();
 	takeOverRotations();

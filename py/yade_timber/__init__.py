@@ -38,10 +38,11 @@ if _host.running():
     _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
     globals().update(_classes)
 
-    from .scene import attributes as _attributes, background as _background
+    from .scene import attributes as _attributes, background as _background, shown as _shown
 
     _background.guard()
     _attributes.guard(_classes.values())
+    _shown.install(_classes.values())
 
     from .scene.bodies import box, polyhedron, set_velocity, snow, timber  # noqa: E402,F401
     from .scene.engines import engines  # noqa: E402,F401

@@ -5,6 +5,9 @@ import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
+from .joints import present_ids
+
+O = yw.Omega()
 
 LEAST_RADIUS = 1e-4
 """Smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]"""
@@ -201,13 +204,15 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
 
     Parameters
     ----------
-    body : Body
+    body : Body or int
+        The body, or its id.
     velocity : (3,) array_like
         World frame. [m/s]
     angular_velocity : (3,) array_like
         World frame. [rad/s]
     """
-    arguments.instance("body", body, yw.Body, "a Body")
+    if not isinstance(body, yw.Body):
+        body = O.bodies[present_ids("set_velocity", body)[0]]
     body.state.vel = arguments.vector("velocity", velocity, "m/s")
     body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")
     body.state.angMom = angular_momentum(body)

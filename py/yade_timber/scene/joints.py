@@ -54,8 +54,8 @@ def connect(
 
     Parameters
     ----------
-    id1, id2 : int
-        Ids of the bodies.
+    id1, id2 : int or Body
+        The bodies, or their ids.
     points : (n, 3) array_like
         Places of the springs, world frame [m]; the springs are unstretched in the present placement.
     normal : (3,) array_like, optional
@@ -84,7 +84,7 @@ def connect(
     ValueError
         For unknown bodies, no points, and values out of range.
     """
-    require_bodies("connect", id1, id2)
+    id1, id2 = present_ids("connect", id1, id2)
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
@@ -183,23 +183,26 @@ def make_joint(id1, id2, springs):
     )
 
 
-def require_ids(caller, *ids):
-    """Raise ValueError unless each id is that of a body of the scene, present or erased: YADE would read beyond its
-    list.
+def ids_of(caller, *bodies):
+    """Ids of bodies of the scene, each given as Body or id, present or erased. Raises ValueError: YADE would read
+    beyond its list.
     """
+    ids = [body.id if isinstance(body, yw.Body) else body for body in bodies]
     for body in ids:
         if not isinstance(body, (int, np.integer)) or not 0 <= body < len(O.bodies):
             raise ValueError(
                 f"{caller}: there is no body {arguments.shown(body)}; bodies have the ids 0 ... {len(O.bodies) - 1}"
             )
+    return ids
 
 
-def require_bodies(caller, *ids):
-    """Raise ValueError unless each id is that of a body in the scene."""
-    require_ids(caller, *ids)
+def present_ids(caller, *bodies):
+    """Ids of bodies in the scene, each given as Body or id. Raises ValueError."""
+    ids = ids_of(caller, *bodies)
     for body in ids:
         if O.bodies[body] is None:
             raise ValueError(f"{caller}: body {body} was taken out")
+    return ids
 
 
 def joins_bodies(joint):

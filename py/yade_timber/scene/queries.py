@@ -7,9 +7,28 @@ from yade.minieigenHP import Vector3
 from ..base.energy_terms import SIGNS
 from . import arguments
 from .engines import find_engine
-from .joints import require_ids
+from .joints import ids_of
 
 O = yw.Omega()
+
+
+class Points(list):
+    """Contact points; a short table at the prompt."""
+
+    def __repr__(self):
+        rows = (
+            f"{' '.join(f'{x:9.4f}' for x in p['position'])}  {p['overlap'] * 1e6:10.4g}  {p['normal_force']:11.4g}"
+            f"  {p['shear_force'].norm():11.4g}"
+            for p in self
+        )
+        return "\n".join(["position x, y, z [m]           overlap [um]   normal [N]    shear [N]", *rows])
+
+
+class Energies(dict):
+    """Terms of the energy balance; a short table at the prompt."""
+
+    def __repr__(self):
+        return "\n".join(f"{name:17} {value:11.4g} J" for name, value in self.items())
 
 
 def contacts(id1, id2):
@@ -17,8 +36,8 @@ def contacts(id1, id2):
 
     Parameters
     ----------
-    id1, id2 : int
-        Ids of the bodies.
+    id1, id2 : int or Body
+        The bodies, or their ids.
 
     Returns
     -------
@@ -32,17 +51,17 @@ def contacts(id1, id2):
     ValueError
         For an id that no body ever had.
     """
-    require_ids("contacts", id1, id2)
+    id1, id2 = ids_of("contacts", id1, id2)
     interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
     if interaction is None or not interaction.isReal:
-        return []
+        return Points()
     sign = 1 if interaction.id1 == id1 else -1
     forces = {f[0]: f[1:] for f in interaction.phys.points}
-    found = []
+    points = Points()
     for position, normal, overlap, feature in interaction.geom.points:
         elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
         along = dashpot.dot(normal)
-        found.append(
+        points.append(
             {
                 "position": position,
                 "normal": sign * normal,
@@ -51,7 +70,7 @@ def contacts(id1, id2):
                 "shear_force": sign * (shear + dashpot - along * normal),
             }
         )
-    return found
+    return points
 
 
 def energy():
@@ -66,7 +85,7 @@ def energy():
         ``broken_springs``, ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
         The sum of all terms but ``ground_motion``, minus ``ground_motion``, is constant.
     """
-    return dict(yw.HouseMonitor().energy())
+    return Energies(yw.HouseMonitor().energy())
 
 
 def energy_residual(terms):

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One line about each object of the package's classes, for the prompt: units, four digits."""
+
+ATTRIBUTES = {
+    "TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
+    "SnowMat": (("density", "kg/m3"), ("friction", "")),
+    "GroundMotionEngine": (("start", "s"), ("scale", "")),
+    "HouseMonitor": (("interval", "s"),),
+    "StructureMonitor": (("interval", "s"),),
+    "ContactForces": (("sweeps", ""), ("tolerance", ""), ("unconverged", "steps")),
+    "UniformGravity": (("gravity", "m/s2"),),
+}
+"""Class -> attributes that its line names, and their units."""
+
+
+def install(classes):
+    """Give classes of yade.wrapper their lines."""
+    for cls in classes:
+        cls.__repr__ = cls.__str__ = LINES.get(cls.__name__, _line)
+
+
+def _line(part):
+    name = type(part).__name__
+    values = ", ".join(f"{key} {_text(getattr(part, key), unit)}" for key, unit in ATTRIBUTES.get(name, ()))
+    return f"<{name}: {values}>" if values else f"<{name}>"
+
+
+def _text(value, unit):
+    numbers = f"{value:.4g}" if isinstance(value, (int, float)) else " ".join(f"{number:.4g}" for number in value)
+    return f"{numbers} {unit}".rstrip()
+
+
+def _joint(joint):
+    broken, count = sum(map(bool, joint.broken)), len(joint.anchors1)
+    state = "intact" if not broken else "broken" if broken == count else f"{broken} broken"
+    label = " ".join(filter(None, (joint.kind, joint.name)))
+    load = f"load {joint.load:.4g} of {joint.strength / 1e3:.4g} kN{'' if joint.perJoint else ' a spring'}"
+    return f"<TimberJoint{label and f' {label}'}: bodies {joint.id1} and {joint.id2}, {count} springs, {load}, {state}>"
+
+
+def _polyhedron(shape):
+    extent = " x ".join(f"{max(side) - min(side):.4g}" for side in zip(*shape.vertices)) if shape.vertices else "none"
+    return f"<RoundedPolyhedron: {len(shape.vertices)} vertices, {extent} m, radius {shape.radius:.4g} m>"
+
+
+def _engine_of_joints(engine):
+    return f"<JointEngine: {len(engine.joints)} joints, {len(engine.breaks)} springs broken>"
+
+
+def _break(entry):
+    return f"<JointBreak: {entry.time:.4g} s, joint {entry.joint}, spring {entry.spring}, {entry.cause}>"
+
+
+LINES = {
+    "TimberJoint": _joint, "RoundedPolyhedron": _polyhedron, "JointEngine": _engine_of_joints, "JointBreak": _break,
+}
+"""Class -> its line, where attributes alone do not say enough."""
