@@ -42,7 +42,8 @@ def parser(script, file=None, loads=""):
     """
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
     about = (
-        f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of --out."
+        f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"
+        " --out."
     )
     made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
     made._negative_number_matcher = NUMBER
