@@ -273,3 +273,10 @@ def test_a_misspelt_option_is_answered_with_the_nearest(option, remedy):
 
 def test_error_is_a_value_error():
     assert issubclass(RunError, ValueError)
+
+
+@pytest.mark.parametrize("earthquake, loads", [(False, "House A: no earthquake, snow."), (True, "House A: earthquake, snow.")])
+def test_help_states_the_loads(earthquake, loads, capsys):
+    with pytest.raises(SystemExit):
+        cli.read("A", earthquake, True, ["scripts/run.py", "--help"])
+    assert loads in capsys.readouterr().out

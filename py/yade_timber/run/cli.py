@@ -36,13 +36,14 @@ class _Parser(argparse.ArgumentParser):
         return {**read_arguments(RunOptions, arguments), **town}
 
 
-def parser(script, file=None):
+def parser(script, file=None, loads=""):
     """ArgumentParser of the run script of that name. file: kind of its input file, house or town; None: the script
-    gives house and loads
+    gives house and loads; loads: sentence that states them
     """
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
     about = (
-        f"Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of --out."
+        f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"
+        " --out."
     )
     made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
     made._negative_number_matcher = NUMBER
@@ -68,7 +69,8 @@ def read(house, earthquake, snow, argv):
     RecordError.
     """
     script = Path(argv[0]).stem
-    return _checked(scripted(script, house, earthquake, snow, **parser(script).parse(argv)))
+    loads = f"House {house}: {'earthquake' if earthquake else 'no earthquake'}, {'snow' if snow else 'no snow'}. "
+    return _checked(scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)))
 
 
 def read_house(argv):
