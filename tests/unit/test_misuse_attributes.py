@@ -233,7 +233,7 @@ CALLS = [
     (lambda: yt.polyhedron([]), "vertices"),
     (lambda: yt.polyhedron([("a", 0, 0)]), "vertices"),
     (lambda: yt.set_velocity(O.bodies[1], 3), "velocity"),
-    (lambda: yt.set_velocity(1, (0, 0, 1)), "body"),
+    (lambda: yt.set_velocity("x", (0, 0, 1)), "body"),
 ]
 
 
