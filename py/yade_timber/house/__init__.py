@@ -17,7 +17,6 @@ from .town import Lot, Town, load_town
 from .wall_types import LEVELS, has_rated_walls
 from .weight import weigh
 
-__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec", "LEVELS", "Lot", "Town",
-           "brace_parts", "build_house", "changed_house", "check_house", "comparison", "diagnose",
-           "free_bays", "free_wall_bays", "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses",
-           "wall_parts", "weigh"]
+__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec", "LEVELS", "Lot", "Town", "brace_parts",
+           "build_house", "changed_house", "check_house", "comparison", "diagnose", "free_bays", "free_wall_bays",
+           "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses", "wall_parts", "weigh"]

@@ -51,11 +51,8 @@ def _bays(structure, storey):
     for line in structure.table["lines"]:
         along = line["along"]
         for at in line["at"]:
-            nodes = sorted(
-                node[along == "y"]
-                for node in plan
-                if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"]
-            )
+            nodes = sorted(node[along == "y"] for node in plan
+                           if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"])
             for low, high in zip(nodes, nodes[1:]):
                 yield line, at, low, high
 
@@ -83,14 +80,9 @@ def _walled(structure, storey, only_open=False):
     """{(along, at, lower node, higher node)} of the bays that have a wall in this storey. only_open: those with a
     window or a door
     """
-    walls = [
-        line for line in _in_storey(structure.table["walls"], storey) if line["opening"] != "none" or not only_open
-    ]
+    walls = [line for line in _in_storey(structure.table["walls"], storey)
+             if line["opening"] != "none" or not only_open]
     lines = [(line["along"], at, line["from"], line["to"]) for line in walls for at in line["at"]]
     bays = {(line["along"], at, low, high) for line, at, low, high in _bays(structure, storey)}
-    return {
-        bay
-        for bay in bays
-        for along, at, first, last in lines
-        if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last
-    }
+    return {bay for bay in bays for along, at, first, last in lines
+            if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last}

@@ -57,26 +57,16 @@ def _brace(structure, layer, diagonal, plan):
     planes = brace_planes(_clear_bay(structure, diagonal, plan), (layer.z0, layer.z1), table["width"])
     planes = _extruded(planes, diagonal.along, structure.axes[across](diagonal.at), table["thickness"])
     vertices = structure.cut(diagonal.name, planes, diagonal.where)
-    return structure.element(
-        "brace",
-        diagonal.name,
-        vertices,
-        table,
-        diagonal.where,
-        storey=layer.storey,
-        side=structure.sides(**{across: diagonal.at}),
-        section=(table["width"], table["thickness"]),
-    )
+    return structure.element("brace", diagonal.name, vertices, table, diagonal.where, storey=layer.storey,
+                             side=structure.sides(**{across: diagonal.at}),
+                             section=(table["width"], table["thickness"]))
 
 
 def _clear_bay(structure, diagonal, plan):
     """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
     along, foot, head = diagonal.along, diagonal.foot, diagonal.head
-    on_line = {
-        (x if along == "x" else y): section
-        for (x, y), (section, _) in plan.items()
-        if (y if along == "x" else x) == diagonal.at
-    }
+    on_line = {(x if along == "x" else y): section for (x, y), (section, _) in plan.items()
+               if (y if along == "x" else x) == diagonal.at}
     place = (
         f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node"
         f" {diagonal.at:g}, storey {diagonal.storey}"

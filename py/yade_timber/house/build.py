@@ -98,9 +98,8 @@ def _number_repeats(elements):
 
 
 def _structure_elements(structure, depth, snow_material):
-    return [
-        element for layer in structure.layers for element in _layer_elements(structure, layer, depth, snow_material)
-    ]
+    return [element for layer in structure.layers
+            for element in _layer_elements(structure, layer, depth, snow_material)]
 
 
 def _layer_elements(structure, layer, depth, snow_material):
@@ -119,9 +118,8 @@ def _lean(elements, structures, plumb):
 
     A shear keeps bodies convex, faces flush and volumes; horizontal faces stay horizontal.
     """
-    foot = min(
-        (structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys), default=0.0
-    )
+    foot = min((structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys),
+               default=0.0)
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
     for element in elements:
         rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
@@ -141,28 +139,16 @@ def _ground(data, structures):
         )
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
-    return Element(
-        "ground", "ground", vertices, material, data["materials"][material]["density"], True, source=ground.where
-    )
+    return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True,
+                   source=ground.where)
 
 
 def _model(description, elements, joints, structures, depth):
     data = description.data
-    levels = {
-        s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"}
-        for s in structures.values()
-    }
+    levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"}
+              for s in structures.values()}
     grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
-    return HouseModel(
-        data["name"],
-        data["description"],
-        elements,
-        joints,
-        {k: dict(v) for k, v in data["materials"].items()},
-        [(*pair["between"], pair["coefficient"]) for pair in data["friction"]],
-        dict(data["law"]),
-        depth,
-        levels,
-        grids,
-        {name: multiplier(table) for name, table in data["wall_types"].items()},
-    )
+    return HouseModel(data["name"], data["description"], elements, joints,
+                      {k: dict(v) for k, v in data["materials"].items()},
+                      [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
+                      levels, grids, {name: multiplier(table) for name, table in data["wall_types"].items()})

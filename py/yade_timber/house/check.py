@@ -26,11 +26,8 @@ def check_house(model):
     touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
     _check_ends(model, touching)
     _check_supports(model, touching)
-    return {
-        "pairs": len(gaps),
-        "touching": len(touching),
-        "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0)),
-    }
+    return {"pairs": len(gaps), "touching": len(touching),
+            "deepest": max(0.0, -min((g for *_, g in gaps), default=0.0))}
 
 
 def overlaps(model):
@@ -76,11 +73,8 @@ def _lying_at(member, end, touching):
     """[(element, common area [m2])] that the level face at one end of a member lies on."""
     mates = [b if a is member else a for a, b in touching if member in (a, b)]
     contacts = [(mate, contact_polygon(member.solid, mate.solid, TOUCH)) for mate in mates]
-    return [
-        (mate, contact[2])
-        for mate, contact in contacts
-        if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)
-    ]
+    return [(mate, contact[2]) for mate, contact in contacts
+            if contact and (contact[1][2] < -LYING if end == "bottom" else contact[1][2] > LYING)]
 
 
 def _check_supports(model, touching):

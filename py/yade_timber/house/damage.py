@@ -26,11 +26,8 @@ def apply_damage(joints, structures, damage):
 def _break(joints, structure, region, kind, default_end, path):
     wanted, side, storey = region[kind], region["side"], region["storey"]
     end = wanted["end"] or default_end
-    found = [
-        j
-        for j in joints
-        if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end
-    ]
+    found = [j for j in joints
+             if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
     if wanted["count"] > len(found):
         raise HouseError(
             f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall of"

@@ -86,22 +86,16 @@ def _check_references(data):
         for i, line in enumerate(structure["walls"]):
             for wall in line["type"]:
                 if wall not in data["wall_types"]:
-                    fail(
-                        line.at("type"),
-                        f"structures.{name}.walls[{i + 1}].type",
-                        f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}",
-                    )
+                    fail(line.at("type"), f"structures.{name}.walls[{i + 1}].type",
+                         f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}")
     for i, region in enumerate(data["damage"]["regions"]):
         if region["structure"] is not None:
             _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
     for i, pair in enumerate(data["friction"]):
         for key in pair["between"]:
             if key not in data["materials"]:
-                fail(
-                    pair.at("between"),
-                    f"friction[{i + 1}]",
-                    f"unknown material '{key}', {nearest(key, data['materials'])}",
-                )
+                fail(pair.at("between"), f"friction[{i + 1}]",
+                     f"unknown material '{key}', {nearest(key, data['materials'])}")
 
 
 def _material_users(data):

@@ -57,15 +57,9 @@ def diagnose(model):
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     iw, iw_at = _least(structures, "iw")
     ratio, ratio_at = _least(structures, "wall_quantity_ratio")
-    known = {
-        "iw": iw,
-        "iw_at": iw_at,
-        "judgement": judgement(iw),
-        "wall_quantity_ratio": ratio,
-        "wall_quantity_at": ratio_at,
-        "broken_from_start": sum(joint.broken for joint in model.joints),
-        "structures": structures,
-    }
+    known = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
+             "wall_quantity_at": ratio_at, "broken_from_start": sum(joint.broken for joint in model.joints),
+             "structures": structures}
     return {**known, "sentence": sentence(known)}
 
 
@@ -73,13 +67,9 @@ def _least(structures, key):
     """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without
     any.
     """
-    values = [
-        (side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
-        for group, structure in structures.items()
-        for storey, known in structure["storeys"].items()
-        for name, side in known["directions"].items()
-        if side[key] is not None
-    ]
+    values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
+              for group, structure in structures.items() for storey, known in structure["storeys"].items()
+              for name, side in known["directions"].items() if side[key] is not None]
     return min(values, key=lambda value: value[0], default=(None, None))
 
 
@@ -140,10 +130,8 @@ def _structure(model, group):
     roof = _roof_class(model, group)
     return {
         "roof": roof,
-        "storeys": {
-            str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
-            for storey in storeys
-        },
+        "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
+                    for storey in storeys},
         "uplift": _uplift(model, group, bays),
     }
 
@@ -192,16 +180,12 @@ def _direction(bays, axis, area, eccentricity, place):
     qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * existing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
     factor = eccentricity_factor(eccentricity)
     quarters = None if needed is None else _quarters(mine, axis, plan, needed)
-    return {
-        "wall_quantity_m": round(existing, 3),
-        "required_quantity_m": _rounded(needed),
-        "wall_quantity_ratio": _rounded(existing / needed if needed else None),
-        "quarters": quarters,
-        "balanced": None if quarters is None else is_balanced(*quarters, eccentricity),
-        "eccentricity": _rounded(eccentricity),
-        "qu_kn": round(qu, 3), "qr_kn": _rounded(qr), "ekfl": round(factor, 3), "dk": rules.DETERIORATION,
-        "iw": _rounded(qu * factor * rules.DETERIORATION / qr if qr else None),
-    }
+    return {"wall_quantity_m": round(existing, 3), "required_quantity_m": _rounded(needed),
+            "wall_quantity_ratio": _rounded(existing / needed if needed else None), "quarters": quarters,
+            "balanced": None if quarters is None else is_balanced(*quarters, eccentricity),
+            "eccentricity": _rounded(eccentricity), "qu_kn": round(qu, 3), "qr_kn": _rounded(qr),
+            "ekfl": round(factor, 3), "dk": rules.DETERIORATION,
+            "iw": _rounded(qu * factor * rules.DETERIORATION / qr if qr else None)}
 
 
 def _rounded(value):
@@ -244,15 +228,11 @@ def _eccentricities(bays, mass):
     """
     sides = {axis: [bay for bay in bays if bay.axis == axis] for axis in (0, 1)}
     sums = {axis: sum(bay.quantity for bay in mine) for axis, mine in sides.items()}
-    centre = {
-        axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
-        for axis, mine in sides.items()
-        if sums[axis] > 0
-    }
+    centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
+              for axis, mine in sides.items() if sums[axis] > 0}
     torsion = sum(bay.quantity * (bay.centre[1 - axis] - centre[axis]) ** 2 for axis in centre for bay in sides[axis])
-    return {
-        name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis]) for name, axis in DIRECTIONS.items()
-    }
+    return {name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis])
+            for name, axis in DIRECTIONS.items()}
 
 
 def _eccentricity(rigidity, mass, torsion, total):
@@ -298,9 +278,7 @@ def _sheets(model, group):
     """(column, column, multiplier) of sheets without openings."""
     for joint in model.joints:
         if (
-            joint.kind == WALL_COLUMN
-            and joint.group == group
-            and not joint.broken
+            joint.kind == WALL_COLUMN and joint.group == group and not joint.broken
             and not joint.label.endswith((".window.columns", ".door.columns"))
         ):
             yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
@@ -310,10 +288,8 @@ def _braces(model, group):
     """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
     columns = model.of_kind("column", group=group)
     for brace in model.of_kind("brace", group=group):
-        ends = [
-            brace.vertices[np.argmin(brace.vertices[:, 2])][:2],
-            brace.vertices[np.argmax(brace.vertices[:, 2])][:2],
-        ]
+        ends = [brace.vertices[np.argmin(brace.vertices[:, 2])][:2],
+                brace.vertices[np.argmax(brace.vertices[:, 2])][:2]]
         here = [column for column in columns if column.storey == brace.storey]
         foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
         if foot is not head:
@@ -340,21 +316,14 @@ def _uplift(model, group, bays):
     storeys = sorted(model.storey_levels[group])
     columns = {(c.storey, *np.round(c.solid.centroid[:2], 3)): c for c in model.of_kind("column", group=group)}
     strengths = _foot_strengths(model)
-    needs = [
-        (n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
-        for key, column in columns.items()
-    ]
+    needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
+             for key, column in columns.items()]
     rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
     if not rows:
         return None
     need, strength, name = max(rows, key=lambda row: row[0])
-    return {
-        "columns": len(rows),
-        "too_weak": sum(row[0] > row[1] + 1e-9 for row in rows),
-        "largest_kn": round(need, 3),
-        "fitting_kn": round(strength, 3) if np.isfinite(strength) else None,
-        "column": name,
-    }
+    return {"columns": len(rows), "too_weak": sum(row[0] > row[1] + 1e-9 for row in rows), "largest_kn": round(need, 3),
+            "fitting_kn": round(strength, 3) if np.isfinite(strength) else None, "column": name}
 
 
 def n_value(columns, key, bays, storeys):
@@ -365,10 +334,8 @@ def n_value(columns, key, bays, storeys):
     stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
     corner = [len(column.side) > 1 for column in stack]
     vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
-    sums = [
-        sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
-        for axis in (0, 1)
-    ]
+    sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
+            for axis in (0, 1)]
     return max(sums) - vertical
 
 

@@ -21,20 +21,15 @@ BRACE_WIDTH = 0.090
 ROOF_CLASSES = ((1.01, "very_heavy"), (0.69, "heavy"), (0.0, "light"))
 """(least weight of the roof with its ceiling [kN/m2 of its surface], class). Limits (assumed) lie halfway between the
 roofs of the Order, Article 84: slates 0.34, tiles 0.64, tiles on mud 0.98, each with purlins 0.05 and ceiling 0.15."""
-WALL_QUANTITY = {
-    "light": {1: (11,), 2: (29, 15), 3: (46, 34, 18)},
-    "heavy": {1: (15,), 2: (33, 21), 3: (50, 39, 24)},
-}
+WALL_QUANTITY = {"light": {1: (11,), 2: (29, 15), 3: (46, 34, 18)}, "heavy": {1: (15,), 2: (33, 21), 3: (50, 39, 24)}}
 """Required wall quantity of storeys 1, 2, 3 of a house of so many storeys. [cm/m2 of floor] (Order, Article 46, Table
 2; heavy: tiles.
 compared: one and two storeys mnjk.blog, page on wall quantities; two storeys of the light row not on that excerpt: 29
 and 15 in a published calculation; three storeys not verified). The Order has no addition for snow."""
 
-REQUIRED_STRENGTH = {
-    "light": {1: (0.28,), 2: (0.83, 0.37), 3: (1.34, 0.98, 0.43)},
-    "heavy": {1: (0.40,), 2: (1.06, 0.53), 3: (1.66, 1.25, 0.62)},
-    "very_heavy": {1: (0.64,), 2: (1.41, 0.78), 3: (2.07, 1.59, 0.91)},
-}
+REQUIRED_STRENGTH = {"light": {1: (0.28,), 2: (0.83, 0.37), 3: (1.34, 0.98, 0.43)},
+                     "heavy": {1: (0.40,), 2: (1.06, 0.53), 3: (1.66, 1.25, 0.62)},
+                     "very_heavy": {1: (0.64,), 2: (1.41, 0.78), 3: (2.07, 1.59, 0.91)}}
 """Required strength Qr of storeys 1, 2, 3. [kN/m2 of floor] (JBDPA, general diagnosis, zone factor Z = 1, firm soil;
 not verified.
 One storey: 0.2 times the roof and half of the walls that JBDPA assumes, 0.95, 1.3, 2.4 and 0.95, 1.4, 1.65 kN/m2, gives

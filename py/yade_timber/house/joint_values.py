@@ -31,11 +31,8 @@ def _check_slip(table, path):
         fail(table.at("ks"), f"{path}.ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
     start, first, last = table["strength"] / table["kn"], table["softening_stretch"], table["ultimate_stretch"]
     if not start < first < last:
-        fail(
-            table.at("softening_stretch"),
-            path,
-            f"strength / kn = {start:g} m, softening_stretch {first:g} m and ultimate_stretch {last:g} m must ascend",
-        )
+        fail(table.at("softening_stretch"), path,
+             f"strength / kn = {start:g} m, softening_stretch {first:g} m and ultimate_stretch {last:g} m must ascend")
 
 
 def rules_by_kinds(rules):
@@ -60,33 +57,25 @@ def check_joint_rules(rules):
     """
     for name, rule in rules.items():
         if rule["kind"] in WALL_KINDS:
-            fail(
-                rule.at("kind"),
-                f"joints.{name}.kind",
-                f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name",
-            )
+            fail(rule.at("kind"), f"joints.{name}.kind",
+                 f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
     pairs = {}
     for (a, b, across), entries in rules_by_kinds(rules).items():
         pairs.setdefault((*sorted((a, b)), across), []).extend(entries)
     for (a, b, _), entries in pairs.items():
         if len(entries) > 1:
             (first, _), (second, rule) = entries[:2]
-            fail(
-                rule.where,
-                f"joints.{second}",
-                f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited",
-            )
+            fail(rule.where, f"joints.{second}",
+                 f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
 
 
 def joint_values(data, rule):
     """Entries of JointSpec that follow from the house file (checked) and the rule of a joint."""
     table = data["joint_types"][rule["type"]]
     factor = rule["number"] * rule["share"]
-    return {
-        "type": rule["type"], "kind": rule["kind"], "law": table["law"],
-        "kn": factor * table["kn"], "ks": factor * table["ks"],
-        "strength": factor * table["strength"] if rule["strength"] is None else rule["strength"],
-        "per": table["per"] or data["law"]["joint_reading"],
-        "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
-        **{key: table[key] for key in SLIP_KEYS},
-    }
+    return {"type": rule["type"], "kind": rule["kind"], "law": table["law"], "kn": factor * table["kn"],
+            "ks": factor * table["ks"],
+            "strength": factor * table["strength"] if rule["strength"] is None else rule["strength"],
+            "per": table["per"] or data["law"]["joint_reading"],
+            "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
+            **{key: table[key] for key in SLIP_KEYS}}

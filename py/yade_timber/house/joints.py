@@ -65,18 +65,9 @@ def _joint(a, b, rule, contact, data):
         a.kind != "column" or abs(normal[2]) > LYING
     )  # columns of two wings have joints between their sides
     end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if at_end else ""
-    return JointSpec(
-        a.name,
-        b.name,
-        points,
-        normal,
-        area=area,
-        storey=a.storey,
-        side=a.side if end_joined else a.side or b.side,
-        end=end,
-        group=a.group,
-        **joint_values(data, rule),
-    )
+    return JointSpec(a.name, b.name, points, normal, area=area, storey=a.storey,
+                     side=a.side if end_joined else a.side or b.side, end=end, group=a.group,
+                     **joint_values(data, rule))
 
 
 def spring_points(polygon, normal):

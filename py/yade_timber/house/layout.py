@@ -33,23 +33,16 @@ storey = Number("", 1, MAX_STOREYS, whole=True)
 storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
 
 axis = Record(
-    {
-        "module": length(0.1, 20.0, default=None),
-        "count": Number("modules", 1, 200, whole=True, default=1),
-        "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None),
-    },
+    {"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
+     "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)},
     one_of=("module", "positions"),
 )
 
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
 
-column_group = Record({
-    "section": length(0.01, 1.0),
-    "storeys": storeys,
-    "at": ListOf(ListOf(node, 2), default=None),
-    "grid": Record({"x": nodes, "y": nodes}, default=None),
-    "lines": ListOf(line, most=MAX_LINES, default=None),
-}, one_of=("at", "grid", "lines"))
+column_group = Record({"section": length(0.01, 1.0), "storeys": storeys, "at": ListOf(ListOf(node, 2), default=None),
+                       "grid": Record({"x": nodes, "y": nodes}, default=None),
+                       "lines": ListOf(line, most=MAX_LINES, default=None)}, one_of=("at", "grid", "lines"))
 
 brace_line = Record({"along": Choice(("x", "y")), "at": nodes, "runs": ListOf(ListOf(node, 2)), "storeys": storeys})
 braces = Record({"width": length(0.005, 0.5, 0.09), "thickness": length(0.005, 0.5, 0.045),
@@ -61,167 +54,103 @@ def _layer(kind, one_of=(), **fields):
 
 
 def _strip(kind, fixed):
-    return _layer(
-        kind,
-        height=length(0.01, 2.0),
-        width=length(0.01, 2.0),
-        fixed=Flag(fixed),
-        lines=ListOf(line, most=MAX_LINES, default=None),
-    )
+    return _layer(kind, height=length(0.01, 2.0), width=length(0.01, 2.0), fixed=Flag(fixed),
+                  lines=ListOf(line, most=MAX_LINES, default=None))
 
 
 area = Record({"x": ListOf(node, 2), "y": ListOf(node, 2)}, default=None)
 
 
 def _roof(kind, one_of=(), **fields):
-    common = dict(
-        type=Choice((kind,)),
-        thickness=length(0.01, 2.0),
-        eaves=length(high=3.0, default=0.0, open_low=False),
-        area=area,
-        snow=Flag(True),
-    )
+    common = dict(type=Choice((kind,)), thickness=length(0.01, 2.0),
+                  eaves=length(high=3.0, default=0.0, open_low=False), area=area, snow=Flag(True))
     return _layer("roof", one_of=one_of, **common, **fields)
 
 
 _RISE = ("pitch", "ridge_height")
 _rise = dict(pitch=Number("rise over run", 0.02, 3.0, default=None), ridge_height=length(default=None))
-roof = Variants("type", {
-    "hip": _roof("hip", _RISE, corner_cut=length(high=5.0, default=0.2), **_rise),
-    "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
-    "mono": _roof("mono", _RISE, falls=Choice(("west", "east", "south", "north")), **_rise),
-    "flat": _roof("flat"),
-})
+roof = Variants("type", {"hip": _roof("hip", _RISE, corner_cut=length(high=5.0, default=0.2), **_rise),
+                         "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
+                         "mono": _roof("mono", _RISE, falls=Choice(("west", "east", "south", "north")), **_rise),
+                         "flat": _roof("flat")})
 
 layer = Variants("layer", {
-    "foundation": _strip("foundation", True),
-    "sill": _strip("sill", True),
-    "columns": _layer("columns", height=length(0.1, 20.0)),
-    "beams": _strip("beams", False),
+    "foundation": _strip("foundation", True), "sill": _strip("sill", True),
+    "columns": _layer("columns", height=length(0.1, 20.0)), "beams": _strip("beams", False),
     "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
-    "roof": roof,
+    "roof": roof
 })
 
 wall_line = Record(
-    {
-        "along": Choice(("x", "y")),
-        "at": nodes,
-        "from": node,
-        "to": node,
-        "type": ListOf(word(), scalar=True, most=5),
-        "opening": Choice(("none", "window", "door"), "none"),
-        "storeys": storeys,
-    }
+    {"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "type": ListOf(word(), scalar=True, most=5),
+     "opening": Choice(("none", "window", "door"), "none"), "storeys": storeys}
 )
 
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
 
 
-place = Record({
-    "origin": ListOf(Number("m", -1000, 1000), 2, default=None),
-    "beside": word(None),
-    "side": Choice(SIDES, "east"),
-    "align": Choice(("middle", *SIDES), "middle"),
-    "gap": length(high=100.0, default=0.0, open_low=False),
-    "shift": Number("m", -100, 100, default=0.0),
-}, one_of=("origin", "beside"))
+place = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
+                "side": Choice(SIDES, "east"), "align": Choice(("middle", *SIDES), "middle"),
+                "gap": length(high=100.0, default=0.0, open_low=False),
+                "shift": Number("m", -100, 100, default=0.0)}, one_of=("origin", "beside"))
 
-structure = Record({
-    "place": place,
-    "grid": Record({"x": axis, "y": axis}),
-    "margin": length(high=2.0, open_low=False),
-    "lines": ListOf(line, most=MAX_LINES),
-    "stack": ListOf(layer, most=MAX_LAYERS),
-    "columns": ListOf(column_group),
-    "braces": braces,
-    "walls": ListOf(wall_line, default=()),
-    "loads": loads,
-})
+structure = Record({"place": place, "grid": Record({"x": axis, "y": axis}), "margin": length(high=2.0, open_low=False),
+                    "lines": ListOf(line, most=MAX_LINES), "stack": ListOf(layer, most=MAX_LAYERS),
+                    "columns": ListOf(column_group), "braces": braces, "walls": ListOf(wall_line, default=()),
+                    "loads": loads})
 
 material = Variants(
     "law",
     {
         "timber": Record(
-            {
-                "law": Choice(("timber",)),
-                "density": Number("kg/m3", 20, 30000),
-                "young": Number("Pa", 1e6, 1e12),
-                "poisson": Number("", 0.0, 0.49),
-            }
+            {"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000), "young": Number("Pa", 1e6, 1e12),
+             "poisson": Number("", 0.0, 0.49)}
         ),  # of known materials; TimberMat takes (-1, 0.5]
         "snow": Record(
-            {
-                "law": Choice(("snow",)),
-                "density": Number("kg/m3", 10, 1000),
-                "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True),
-            }
+            {"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
+             "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}
         ),
     },
 )
 
 _stretch = Number("m", 1e-5, 10.0, default=None)
-joint_type = Record({
-    "law": Choice(("brittle", "slip"), "brittle"),
-    "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
-    "strength": Number("N", 10.0, infinite=True), "per": Choice(("spring", "joint"), None),
-    "damping_ratio": Number("", 0.0, 1.0, default=None),
-    "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch, "ultimate_stretch": _stretch,
-})
+joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number("N/m", 1e3, 1e12),
+                     "ks": Number("N/m", 1e3, 1e12), "strength": Number("N", 10.0, infinite=True),
+                     "per": Choice(("spring", "joint"), None), "damping_ratio": Number("", 0.0, 1.0, default=None),
+                     "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch,
+                     "ultimate_stretch": _stretch})
 SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
 
 _drift = Number("rad", 1e-4, 1.0, default=None)
 board = Record(
-    {
-        "width": length(0.1, 10.0),
-        "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
-        "thickness": length(0.001, 0.2),
-        "shear_modulus": Number("Pa", 1e6, 1e11),
-        "edge": length(high=0.1, default=0.01, open_low=False),
-    }
+    {"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
+     "thickness": length(0.001, 0.2), "shear_modulus": Number("Pa", 1e6, 1e11),
+     "edge": length(high=0.1, default=0.01, open_low=False)}
 )
 nails = Record(
-    {
-        "k": Number("N/m", 1e4, 1e8),
-        "Pv": Number("N", 10.0, 1e5),
-        "dv": length(high=0.1, default=None),
-        "du": length(1e-4, 0.5),
-        "spacing": length(0.01, 1.0),
-        "inner_spacing": length(0.01, 1.0, default=None),
-        "board": board,
-        "height": length(0.1, 20.0, default=None),
-    },
+    {"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None),
+     "du": length(1e-4, 0.5), "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None),
+     "board": board, "height": length(0.1, 20.0, default=None)},
     default=None,
 )
 wall_type = Record(
-    {
-        "multiplier": Number("", 0.1, 20.0, default=None),
-        "strength": Number("N/m", 10.0, 1e6, default=None),
-        "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
-        "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
-        "nails": nails,
-        "friction_share": Number("", 0.0, 1.0, default=0.2),
-        "softening_drift": _drift,
-        "ultimate_drift": _drift,
-    }
+    {"multiplier": Number("", 0.1, 20.0, default=None), "strength": Number("N/m", 10.0, 1e6, default=None),
+     "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
+     "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
+     "nails": nails, "friction_share": Number("", 0.0, 1.0, default=0.2), "softening_drift": _drift,
+     "ultimate_drift": _drift}
 )
 
 joint_rule = Record(
-    {
-        "between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2),
-        "type": word(),
-        "kind": word(),
-        "across": Flag(False),
-        "number": Number("fittings", 1, 100, whole=True, default=1),
-        "share": Number("", 0.01, 1.0, default=1.0),
-        "strength": Number("N", 10.0, infinite=True, default=None),
-    }
+    {"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(),
+     "across": Flag(False), "number": Number("fittings", 1, 100, whole=True, default=1),
+     "share": Number("", 0.01, 1.0, default=1.0), "strength": Number("N", 10.0, infinite=True, default=None)}
 )
 
-_broken = Record(
-    {"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)}, default=None
-)
+_broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
+                 default=None)
 damage_region = Record(
     {"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken, "brace_beam": _broken}
 )
@@ -231,14 +160,10 @@ HOUSE = Record({
     "description": Text(""),
     "materials": MapOf(material),
     "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
-    "law": Record({
-        "joint_reading": Choice(("spring", "joint"), "joint"),
-        "joint_damping": Number("", 0.0, 1.0, default=0.0),
-        "wall_level": Choice(WALL_LEVELS, "mean"),
-        "vertex_edge_contacts": Flag(False),
-        "flush_supports": Flag(True),
-        "hertz": Choice(("closed", "increment"), "closed"),
-    }, default={}),
+    "law": Record({"joint_reading": Choice(("spring", "joint"), "joint"),
+                   "joint_damping": Number("", 0.0, 1.0, default=0.0), "wall_level": Choice(WALL_LEVELS, "mean"),
+                   "vertex_edge_contacts": Flag(False), "flush_supports": Flag(True),
+                   "hertz": Choice(("closed", "increment"), "closed")}, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
     "structures": MapOf(structure),
     "loads": loads,

@@ -30,11 +30,8 @@ def apply_loads(elements, structures, loads):
 
 def upper_area(element):
     """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
-    return sum(
-        abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T))
-        for face in element.solid.faces
-        if face.normal[2] > 1e-6
-    )
+    return sum(abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T)) for face in element.solid.faces
+               if face.normal[2] > 1e-6)
 
 
 def _hang_walls(structure, members, load):

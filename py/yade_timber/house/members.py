@@ -70,18 +70,9 @@ def _strip(structure, layer, kind, name, line, start, end):
     centre = structure.axes[across](line["at"])
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
-    return structure.block(
-        kind,
-        name,
-        low,
-        high,
-        layer.table,
-        line["where"],
-        fixed=layer.table["fixed"],
-        storey=layer.storey,
-        side=structure.sides(**{across: line["at"]}),
-        section=(width, layer.z1 - layer.z0),
-    )
+    return structure.block(kind, name, low, high, layer.table, line["where"], fixed=layer.table["fixed"],
+                           storey=layer.storey, side=structure.sides(**{across: line["at"]}),
+                           section=(width, layer.z1 - layer.z0))
 
 
 def lay_floors(structure, layer):
@@ -94,9 +85,8 @@ def lay_floors(structure, layer):
         low, high = structure.area(area, [other for other in areas if other is not area])
         name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
         elements.append(
-            structure.block(
-                "floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where, storey=layer.storey
-            )
+            structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where,
+                            storey=layer.storey)
         )
     return elements
 
@@ -107,17 +97,9 @@ def lay_columns(structure, layer):
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
         centre = np.array([structure.axes["x"](x), structure.axes["y"](y)])
         elements.append(
-            structure.block(
-                "column",
-                f"column{layer.storey}.x{x:g}y{y:g}",
-                [*(centre - section / 2), layer.z0],
-                [*(centre + section / 2), layer.z1],
-                layer.table,
-                where,
-                storey=layer.storey,
-                side=structure.sides(x=x, y=y),
-                section=(section, section),
-            )
+            structure.block("column", f"column{layer.storey}.x{x:g}y{y:g}", [*(centre - section / 2), layer.z0],
+                            [*(centre + section / 2), layer.z1], layer.table, where, storey=layer.storey,
+                            side=structure.sides(x=x, y=y), section=(section, section))
         )
     return elements
 

@@ -156,18 +156,14 @@ class HouseModel:
         kind, masses [kg].
         """
         columns, braces = self.of_kind("column"), self.of_kind("brace")
-        return {
-            "elements": len(self.elements),
-            "by_kind": dict(Counter(e.kind for e in self.elements)),
-            "free": sum(not e.fixed for e in self.elements),
-            "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
-            "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)),
-            "braces": len(braces),
-            "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
-            "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
-            "joints": sum(j.kind not in WALL_KINDS for j in self.joints),
-            "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
-            "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
-            "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),
-            "mass_snow": sum(e.mass for e in self.of_kind("snow")),
-        }
+        return {"elements": len(self.elements), "by_kind": dict(Counter(e.kind for e in self.elements)),
+                "free": sum(not e.fixed for e in self.elements),
+                "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
+                "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)), "braces": len(braces),
+                "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
+                "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
+                "joints": sum(j.kind not in WALL_KINDS for j in self.joints),
+                "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
+                "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
+                "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),
+                "mass_snow": sum(e.mass for e in self.of_kind("snow"))}

@@ -50,11 +50,8 @@ class NailedWall:
     @property
     def allowable(self):
         """[N]"""
-        return min(
-            self.yield_moment / self.height,
-            0.2 * (2 * self.ductility - 1) ** 0.5 * self.strength,
-            CODE_DRIFT * self.stiffness,
-        )
+        return min(self.yield_moment / self.height, 0.2 * (2 * self.ductility - 1) ** 0.5 * self.strength,
+                   CODE_DRIFT * self.stiffness)
 
 
 def nailed_wall(nails):

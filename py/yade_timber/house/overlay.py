@@ -153,9 +153,8 @@ def _add_brace(data, name, where):
     structure, storey, along, at, foot, head = brace_parts(name, where)
     runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
     table = _structure(data, structure, name, where).setdefault("braces", Table(where=where))
-    _append(
-        table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs}, where
-    )
+    _append(table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs},
+            where)
 
 
 def _add_wall(data, name, where):

@@ -116,9 +116,8 @@ class _Parser(yaml.SafeLoader):
             return self._table(node, depth)
         if isinstance(node, yaml.SequenceNode) and node.tag == TAG + "seq":
             sources = [self._where(child.start_mark) for child in node.value]
-            return Items(
-                [self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark), sources
-            )
+            return Items([self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark),
+                         sources)
         if isinstance(node, yaml.ScalarNode) and node.tag in _PLAIN_TYPES:
             return self._scalar(node)
         raise HouseError(f"{self._where(node.start_mark)}: unsupported type {shown(node.tag.replace(TAG, '!!'))}; "
@@ -174,11 +173,8 @@ class _Parser(yaml.SafeLoader):
 
 def _refuse_decimal_comma(where, key_node, previous, value_node):
     """`{height: 2,73}` reads as height 2 and a key 73 without a value."""
-    is_number = (
-        isinstance(key_node, yaml.ScalarNode)
-        and re.fullmatch(r"\d{1,20}", key_node.value)
-        and isinstance(previous, int)
-    )
+    is_number = (isinstance(key_node, yaml.ScalarNode) and re.fullmatch(r"\d{1,20}", key_node.value)
+                 and isinstance(previous, int))
     if is_number and isinstance(value_node, yaml.ScalarNode) and not value_node.value:
         raise HouseError(
             f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point:"

@@ -95,9 +95,8 @@ class HipPlan(Plan):
         """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
         opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
         hip_end = self._is_hip_end(side)
-        planes = [
-            self.nearer(side, other) for other in OUTWARD if other != side and not (hip_end and other == opposite)
-        ]
+        planes = [self.nearer(side, other) for other in OUTWARD
+                  if other != side and not (hip_end and other == opposite)]
         return planes + (self._corner_cuts(side) if hip_end else [])
 
     def _is_hip_end(self, side):
@@ -252,9 +251,8 @@ def lay_snow(structure, layer, depth, material):
     if depth == 0 or not layer.table["snow"]:
         return []
     bodies = ROOFS[layer.table["type"]][1](structure, layer, depth)
-    return [
-        _element(structure, layer, "snow", side, vertices, {"material": material}) for side, vertices in bodies.items()
-    ]
+    return [_element(structure, layer, "snow", side, vertices, {"material": material})
+            for side, vertices in bodies.items()]
 
 
 def carry_roofs(structure, elements, joints):
@@ -275,9 +273,8 @@ def _tie_slabs(structure, layer, joints):
     The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of
     one fitting.
     """
-    slabs = {
-        f"{structure.name}.{slab_name(structure, layer, 'roof', side)}" for side in gable_plan(structure, layer).sides
-    }
+    slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
+             for side in gable_plan(structure, layer).sides}
     for joint in joints:
         if {joint.a, joint.b} == slabs:
             joint.points[joint.points[:, 2] < joint.centre[2], 2] = layer.z0
@@ -297,14 +294,10 @@ def _posts(structure, layer, elements, joints):
     """
     side = layer.table["falls"]
     name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
-    plates = {
-        e.name: e
-        for e in elements
-        if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT
-    }
-    eave = next(
-        (joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)), None
-    )
+    plates = {e.name: e for e in elements
+              if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT}
+    eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)),
+                None)
     high = _high_plates(mono_plan(structure, layer), plates.values()) if eave else []
     if not high or {eave.a, eave.b} & {plate.name for plate in high}:
         raise HouseError(
@@ -318,9 +311,8 @@ def _high_plates(plan, plates):
     """Those farthest from the eave, of the plates below the plan."""
     d, e = plan.distance(*plan.sides)
     centres = ((plate.solid.centroid[:2], plate) for plate in plates)
-    runs = [
-        (e - d @ centre, plate) for centre, plate in centres if (plan.low < centre).all() and (centre < plan.high).all()
-    ]
+    runs = [(e - d @ centre, plate) for centre, plate in centres
+            if (plan.low < centre).all() and (centre < plan.high).all()]
     most = max((run for run, _ in runs), default=0.0)
     return [plate for run, plate in runs if most - run < SEAT]
 
@@ -330,16 +322,14 @@ def _post_row(eave, slab, plate):
     (x0, y0, _), (x1, y1, z) = plate.solid.bounds
     points = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]])
     pair = {"a": slab, "b": plate.name} if eave.a == slab else {"a": plate.name, "b": slab}
-    return replace(
-        eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side, **_row(eave, max(x1 - x0, y1 - y0))
-    )
+    return replace(eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side,
+                   **_row(eave, max(x1 - x0, y1 - y0)))
 
 
 def _element(structure, layer, kind, side, vertices, table):
     name = slab_name(structure, layer, kind, side)
-    return structure.element(
-        kind, name, vertices, table, layer.table.where, storey=layer.storey, side=frozenset(filter(None, [side]))
-    )
+    return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey,
+                             side=frozenset(filter(None, [side])))
 
 
 def slab_name(structure, layer, kind, side):

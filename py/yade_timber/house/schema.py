@@ -53,9 +53,8 @@ class Number:
             value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
-        wrong_kind = (
-            math.isnan(value) or (math.isinf(value) and not self.infinite) or (self.whole and value != int(value))
-        )
+        wrong_kind = (math.isnan(value) or (math.isinf(value) and not self.infinite)
+                      or (self.whole and value != int(value)))
         if wrong_kind or not self._admits(value):
             fail(
                 where,
@@ -72,11 +71,8 @@ class Number:
 
     def _other_units(self, value):
         """Hint for a value that would be admissible in another usual unit, e.g. a section of 105."""
-        meant = [
-            f"{value!r} {unit} = {value * factor:g}"
-            for unit, factor in OTHER_UNITS.get(self.unit, ())
-            if self._admits(value * factor)
-        ]
+        meant = [f"{value!r} {unit} = {value * factor:g}" for unit, factor in OTHER_UNITS.get(self.unit, ())
+                 if self._admits(value * factor)]
         return f"; in {self.unit}: {' or '.join(meant)}" if meant else ""
 
     def _range(self):
@@ -143,10 +139,8 @@ class Pair:
                     f" {f'{len(value)} items' if isinstance(value, list) else shown(value)}"
                 ),
             )
-        checked = [
-            field.check(v, value.at(i), f"{name}[{i + 1}]")
-            for i, (field, v) in enumerate(zip((self.first, self.second), value))
-        ]
+        checked = [field.check(v, value.at(i), f"{name}[{i + 1}]")
+                   for i, (field, v) in enumerate(zip((self.first, self.second), value))]
         return Items(checked, value.where, value.entries)
 
 
@@ -197,11 +191,8 @@ class MapOf:
             fail(where, name, f"{len(value)} entries; at most {self.most}")
         for key in value:
             if len(key) > MAX_NAME or not re.fullmatch(NAME, key):
-                fail(
-                    value.at(key),
-                    name,
-                    f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -",
-                )
+                fail(value.at(key), name,
+                     f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -")
         checked = {k: self.item.check(v, value.at(k), f"{name}.{k}" if name else k) for k, v in value.items()}
         return Table(checked, value.where, value.entries)
 

@@ -19,13 +19,8 @@ from .schema import MapOf, Number, Record, fail
 FAR = 20_000.0
 """Largest coordinate of a lot. [m]"""
 LOT = Record(
-    {
-        "house": word(),
-        "x": Number("m", -FAR, FAR),
-        "y": Number("m", -FAR, FAR),
-        "rotation": Number("degrees", -360, 360, default=0.0),
-        "snow": Number("m", 0, MAX_SNOW, default=None),
-    }
+    {"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
+     "rotation": Number("degrees", -360, 360, default=0.0), "snow": Number("m", 0, MAX_SNOW, default=None)}
 )
 WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)
 TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOTS)})
@@ -57,11 +52,8 @@ class Lot:
 
     def motion(self, given):
         """GroundMotion in the axes of the house."""
-        return (
-            given
-            if np.array_equal(self.axes, np.eye(3))
-            else replace(given, acceleration=given.acceleration @ self.axes)
-        )
+        return (given if np.array_equal(self.axes, np.eye(3))
+                else replace(given, acceleration=given.acceleration @ self.axes))
 
     def outline(self, model):
         """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
@@ -114,12 +106,8 @@ def load_town(path):
     if not data["lots"]:
         fail(data.at("lots"), "town.lots", "a town needs at least one lot")
     wave = data["wave"] or {}
-    return Town(
-        data["name"] or one_line(path.stem),
-        path,
-        tuple(_lot(name, lot, path) for name, lot in data["lots"].items()),
-        **wave,
-    )
+    return Town(data["name"] or one_line(path.stem), path,
+                tuple(_lot(name, lot, path) for name, lot in data["lots"].items()), **wave)
 
 
 def _lot(name, entry, path):

@@ -38,10 +38,8 @@ class Level:
         return ratio / drift
 
 
-LEVELS = {
-    "design": Level(((0.01, 1.5),), 1.5, 0.05, 0.103),
-    "mean": Level(((1 / 120, 1.4), (1 / 80, 1.8)), 2.8, 1 / 30, 0.115),
-}
+LEVELS = {"design": Level(((0.01, 1.5),), 1.5, 0.05, 0.103),
+          "mean": Level(((1 / 120, 1.4), (1 / 80, 1.8)), 2.8, 1 / 30, 0.115)}
 """`design`: just passes the test of its multiplier; `mean`: mean of tested walls (sources: docs/house_files.md)."""
 TAIL = LEVELS["mean"].ultimate_drift / 0.0497
 """Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
@@ -89,11 +87,8 @@ def _check_rated(table, path):
         drifts = [drift for drift, _ in points]
         if drifts != sorted(set(drifts)):
             ends = f"softening_drift {drifts[-2]:g} and ultimate_drift {drifts[-1]:g} must ascend"
-            fail(
-                table.at("softening_drift"),
-                path,
-                f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends,
-            )
+            fail(table.at("softening_drift"), path,
+                 f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends)
 
 
 def _check_envelope(table, path):
@@ -108,11 +103,8 @@ def _check_envelope(table, path):
         fail(where, f"{path}.envelope", "only the last point may have no shear")
     largest = max(shear for _, shear in points)
     if largest < LEAST_SHEAR:
-        fail(
-            where,
-            f"{path}.envelope",
-            f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N",
-        )
+        fail(where, f"{path}.envelope",
+             f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
     if table["ultimate_drift"] is None and points[-1][1] == largest:
         fail(
             where,
@@ -123,11 +115,8 @@ def _check_envelope(table, path):
             ),
         )
     if points[-1][1] == 0 and table["ultimate_drift"] is not None:
-        fail(
-            table.at("ultimate_drift"),
-            f"{path}.ultimate_drift",
-            "the last point of envelope has no shear already; remove one of them",
-        )
+        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
+             "the last point of envelope has no shear already; remove one of them")
     _check_end(table, path, drifts[-1], "the last drift of envelope")
 
 
@@ -140,15 +129,11 @@ def _check_nails(table, path):
     if nails["dv"] is not None and abs(nails["dv"] / slip - 1) > SLIP_TOLERANCE:
         fail(nails.at("dv"), f"{path}.nails.dv", f"must be Pv / k = {slip:g} m within 10 %, got {nails['dv']:g}")
     if 2 * board["edge"] >= min(board["width"], *board["heights"]):
-        fail(
-            board.at("edge"), f"{path}.nails.board.edge", f"{board['edge']:g} m from the edge leaves no place for nails"
-        )
+        fail(board.at("edge"), f"{path}.nails.board.edge",
+             f"{board['edge']:g} m from the edge leaves no place for nails")
     if nails["height"] is not None and nails["height"] < sum(board["heights"]):
-        fail(
-            nails.at("height"),
-            f"{path}.nails.height",
-            f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m",
-        )
+        fail(nails.at("height"), f"{path}.nails.height",
+             f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m")
     wall = nailed_wall(nails)
     if wall.ultimate_drift > 1:
         fail(where, f"{path}.nails", f"the wall fails at a drift of {wall.ultimate_drift:.3g}; at most 1: check du")
@@ -157,11 +142,8 @@ def _check_nails(table, path):
 
 def _check_end(table, path, last, name):
     if table["ultimate_drift"] is not None and not table["ultimate_drift"] > last:
-        fail(
-            table.at("ultimate_drift"),
-            f"{path}.ultimate_drift",
-            f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}",
-        )
+        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
+             f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails}
@@ -206,9 +188,8 @@ def multiplier(table):
 def _rated(table, level):
     """Of a multiplier; with an own strength or stiffness: bilinear."""
     allowable = ALLOWABLE * (table["multiplier"] or 0.0)
-    softening, ultimate = (
-        getattr(level, key) if table[key] is None else table[key] for key in ("softening_drift", "ultimate_drift")
-    )
+    softening, ultimate = (getattr(level, key) if table[key] is None else table[key]
+                           for key in ("softening_drift", "ultimate_drift"))
     if table["strength"] is None and table["stiffness"] is None:
         rising = [(drift, ratio * allowable) for drift, ratio in level.points]
         return [*_concave(rising, (softening, level.ratio * allowable)), (ultimate, 0.0)]

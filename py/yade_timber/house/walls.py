@@ -68,9 +68,8 @@ class Bay:
     def end(self, top):
         """(3,) point just above the top or below the foot of the bay, midway between the columns. [m]"""
         level = self.low.solid.bounds[1 if top else 0][2]
-        ends = [
-            column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0) for column in (self.low, self.high)
-        ]
+        ends = [column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0)
+                for column in (self.low, self.high)]
         return np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
 
 
@@ -111,9 +110,8 @@ def _bays(structure, line, by_name):
 def _nodes(structure, line, storey, at):
     """Nodes with columns on a line from its first to its last node, which must be among them."""
     along = line["along"]
-    on_line = sorted(
-        x if along == "x" else y for x, y in column_plan(structure, storey) if (y if along == "x" else x) == at
-    )
+    on_line = sorted(x if along == "x" else y for x, y in column_plan(structure, storey)
+                     if (y if along == "x" else x) == at)
     for key in ("from", "to"):
         if line[key] not in on_line:
             known = ", ".join(f"{node:g}" for node in on_line) or "none"
@@ -149,38 +147,14 @@ def _joints(bay, name, members, data, level):
     below, above = (_member_at(bay, members, top) for top in (False, True))
     points = envelope(data["wall_types"][name], level)
     beams, columns = _values(bay, points, bay.height, 1.0), _values(bay, points, bay.length, bay.height / bay.length)
-    common = dict(
-        points=bay.centre[None],
-        area=0.0,
-        type=name,
-        ks=0.0,
-        per="spring",
-        storey=bay.low.storey,
-        side=bay.side,
-        group=bay.low.group,
-        law="slip",
-        damping_ratio=data["law"]["joint_damping"],
-        friction_share=data["wall_types"][name]["friction_share"],
-    )
+    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey,
+                  side=bay.side, group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"],
+                  friction_share=data["wall_types"][name]["friction_share"])
     return [
-        JointSpec(
-            below.name,
-            above.name,
-            normal=along / np.linalg.norm(along),
-            kind=WALL_BEAM,
-            label=f"{label}.beams",
-            **beams,
-            **common,
-        ),
-        JointSpec(
-            bay.low.name,
-            bay.high.name,
-            normal=np.array([0.0, 0.0, 1.0]),
-            kind=WALL_COLUMN,
-            label=f"{label}.columns",
-            **columns,
-            **common,
-        ),
+        JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams",
+                  **beams, **common),
+        JointSpec(bay.low.name, bay.high.name, normal=np.array([0.0, 0.0, 1.0]), kind=WALL_COLUMN,
+                  label=f"{label}.columns", **columns, **common),
     ]
 
 
@@ -192,13 +166,8 @@ def _values(bay, points, lever, ratio):
     slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *envelope), envelope)]
     strength = max(force for _, force in envelope)
     softening = max(stretch for stretch, force in envelope if force == strength)
-    return {
-        "kn": max(slopes),
-        "strength": strength,
-        "envelope": envelope,
-        "softening_stretch": softening,
-        "ultimate_stretch": envelope[-1][0],
-    }
+    return {"kn": max(slopes), "strength": strength, "envelope": envelope, "softening_stretch": softening,
+            "ultimate_stretch": envelope[-1][0]}
 
 
 def _member_at(bay, members, top):

@@ -21,13 +21,9 @@ def weigh(model):
     """
     area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
     total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
-    return {
-        "total_kn": round(total, 3),
-        "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),
-        "floor_area_m2": round(area, 3),
-        "per_floor_area_kn_m2": round(total / area, 3) if area > 0 else None,
-        "storeys": {group: _storeys(model, group) for group, storeys in model.storey_levels.items() if storeys},
-    }
+    return {"total_kn": round(total, 3), "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),
+            "floor_area_m2": round(area, 3), "per_floor_area_kn_m2": round(total / area, 3) if area > 0 else None,
+            "storeys": {group: _storeys(model, group) for group, storeys in model.storey_levels.items() if storeys}}
 
 
 def floor_area(model, group, storey):
@@ -60,9 +56,8 @@ def sentence(weights):
     """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first
     structure's storeys.
     """
-    per_area = (
-        "" if weights["per_floor_area_kn_m2"] is None else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor"
-    )
+    per_area = ("" if weights["per_floor_area_kn_m2"] is None
+                else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor")
     storeys = next(iter(weights["storeys"].values()), {})
     carried = ", ".join(f"storey {name} {values['carried_kn']:.0f} kN" for name, values in storeys.items())
     return f"weighs {weights['total_kn']:.0f} kN{per_area}; carried by {carried}"

@@ -8,11 +8,8 @@ from . import copies
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
-NAMES = [
-    f"{END}.png",
-    *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")),
-    PLAYER,
-]
+NAMES = [f"{END}.png",
+         *(f"{stem}.{ending}" for stem in (*SHEETS, CURVES, QUANTITIES, BANDS) for ending in ("png", "pdf")), PLAYER]
 """Files that `write` makes."""
 
 

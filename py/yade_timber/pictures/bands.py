@@ -42,15 +42,8 @@ def page(frames, histories, dpi):
     axes[-1].set_xlim(first_shown(frames), time[-1])
     axes[-1].set_xlabel("time [s]", fontsize=9)
     handles, names = axes[0].get_legend_handles_labels()
-    figure.legend(
-        handles,
-        names,
-        loc="upper left",
-        bbox_to_anchor=(0.1, 1 - (head - LEGEND_HEIGHT + 0.02) / A4[1]),
-        ncols=4,
-        frameon=False,
-        fontsize=8,
-    )
+    figure.legend(handles, names, loc="upper left", bbox_to_anchor=(0.1, 1 - (head - LEGEND_HEIGHT + 0.02) / A4[1]),
+                  ncols=4, frameon=False, fontsize=8)
     figure.align_ylabels()
     heading(figure, f"{frames.title}. {len(histories)} runs", result(frames))
     footer(figure, provenance(frames))

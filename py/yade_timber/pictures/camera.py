@@ -45,9 +45,8 @@ def look(name, points, aspect):
             target = target + away * (seen.min() + seen.max()) / 2 * axis
     eye = target + away * toward
     far = away + 200.0 + 5 * np.ptp(points, axis=0).max()
-    return Camera(
-        eye, target, _matrix(eye, right, up, toward, tangent, aspect, (max(0.2, 0.05 * away), far)), 0.5 / tangent
-    )
+    return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, (max(0.2, 0.05 * away), far)),
+                  0.5 / tangent)
 
 
 def kept(start, end):

@@ -141,8 +141,5 @@ class Strip:
         for column, key in ((0, "ew"), (1, "ns")):
             values = np.interp(np.linspace(*self.span, count), motion.time, motion.acceleration[:, column], 0, 0)
             points = np.column_stack([self.left + np.arange(count) / 2, height * (0.5 - 0.48 * values / most)])
-            pen.line(
-                [tuple(point) for point in points],
-                tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,),
-                1,
-            )
+            pen.line([tuple(point) for point in points],
+                     tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)

@@ -22,14 +22,8 @@ LABEL_GAP = 10
 LABEL_PLACE = -0.108
 """Of the labels of y axes, as a part of the axes' width."""
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
-JOINT_KINDS = {
-    "column_beam": colors.ORANGE,
-    "brace_beam": colors.BLUE,
-    "brace_column": colors.SKY_BLUE,
-    "floor_beam": colors.AMBER,
-    "roof_beam": colors.PURPLE,
-    "roof_roof": colors.GREEN,
-}
+JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE,
+               "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
 
 
 def write(stem, frames, endings=("png",)):
@@ -67,10 +61,8 @@ def page(frames, dpi):
 
 def draw_events(axes, summary):
     """Lines through all axes where a storey drift passes 1/10 and where the house collapses, with labels above."""
-    for time, text, side in (
-        (summary.tilt_time_s, "drift 1/10", "right"),
-        (summary.collapse_time_s, "collapses", "left"),
-    ):
+    for time, text, side in ((summary.tilt_time_s, "drift 1/10", "right"),
+                             (summary.collapse_time_s, "collapses", "left")):
         if time is not None:
             for axis in axes:
                 axis.axvline(time, color="black", lw=0.7, ls="--")
@@ -116,15 +108,8 @@ def draw_levels(axis, levels, reach):
         for sign in (-1, 1):
             axis.axhline(sign * level, color="black", lw=0.7, ls=":")
         lowest = max(lowest + LABEL_GAP, level * points)
-        axis.annotate(
-            text,
-            (1, level),
-            (4, lowest - level * points),
-            ("axes fraction", "data"),
-            "offset points",
-            va="center",
-            fontsize=8,
-        )
+        axis.annotate(text, (1, level), (4, lowest - level * points), ("axes fraction", "data"), "offset points",
+                      va="center", fontsize=8)
 
 
 def draw_breaks(axis, frames):
@@ -138,14 +123,8 @@ def draw_breaks(axis, frames):
         name = drawable(kind.replace("_", "-"), 20)
         axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, colors.GREY), label=name)
     if any(sheets):
-        axis.step(
-            frames.time,
-            [row.count("broken") for row in sheets],
-            where="post",
-            lw=1.3,
-            color="black",
-            label="wall sheets",
-        )
+        axis.step(frames.time, [row.count("broken") for row in sheets], where="post", lw=1.3, color="black",
+                  label="wall sheets")
     partly = (states == "partly").sum(1) + [row.count("partly") for row in sheets]
     axis.step(frames.time, partly, where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
     axis.yaxis.get_major_locator().set_params(integer=True)
@@ -157,9 +136,8 @@ def draw_breaks(axis, frames):
 def draw_energy(axis, history):
     """Energy input and its parts, without dissipated terms that are zero; the remainder is printed above."""
     supplied = history.energy("ground_motion") - history.energy("gravity")
-    dissipated = [
-        term for term in DISSIPATED if f"{term.name} [J]" in history.columns and history.energy(term.name).any()
-    ]
+    dissipated = [term for term in DISSIPATED
+                  if f"{term.name} [J]" in history.columns and history.energy(term.name).any()]
     parts = [history.energy(term.name) for term in dissipated]
     parts += [sum(history.energy(term.name) for term in ELASTIC), history.energy("kinetic")]
     names = [*(term.label for term in dissipated), "elastic", "kinetic"]
@@ -168,9 +146,7 @@ def draw_energy(axis, history):
     axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
     residual = abs(sum(parts) - supplied).max()
     share = 100 * residual / max(abs(supplied).max(), 1e-300)
-    axis.set_title(
-        f"largest error of the energy balance: {residual / 1e3:.2g} kJ, {share:.2g} %", fontsize=8, loc="left", pad=3,
-        y=1,
-    )
+    axis.set_title(f"largest error of the energy balance: {residual / 1e3:.2g} kJ, {share:.2g} %", fontsize=8,
+                   loc="left", pad=3, y=1)
     label(axis, "energy [kJ]")
     legend(axis)

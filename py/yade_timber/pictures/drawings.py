@@ -18,15 +18,8 @@ from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, d
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
 """Of the page [inch], and of its shaded parts [1/inch]."""
-OBLIQUE = View(
-    "space",
-    "In space, from the north-east (roof half transparent)",
-    (-0.64, 0.768, 0.0),
-    (0.704, 0.587, 0.4),
-    "",
-    "",
-    (-0.307, -0.256, 0.917),
-)
+OBLIQUE = View("space", "In space, from the north-east (roof half transparent)", (-0.64, 0.768, 0.0),
+               (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
 TRANSPARENT = ("roof", "snow")
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
@@ -68,22 +61,16 @@ def solid(element):
     """Solid of an element in its position as built."""
     faces = [face.points for face in element.solid.faces]
     starts = np.cumsum([0, *map(len, faces)])
-    return Solid(
-        element.kind,
-        np.vstack(faces),
-        [list(range(a, b)) for a, b in zip(starts, starts[1:])],
-        colors.KINDS.get(element.kind, colors.OTHER),
-    )
+    return Solid(element.kind, np.vstack(faces), [list(range(a, b)) for a, b in zip(starts, starts[1:])],
+                 colors.KINDS.get(element.kind, colors.OTHER))
 
 
 def describe(model):
     """Description, counts and weight of a house, in three lines."""
     found = model.counts()
     snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
-    columns = " and ".join(
-        f"{count} columns of {100 * size:g} cm"
-        for size, count in sorted(found["columns_by_section"].items(), reverse=True)
-    )
+    columns = " and ".join(f"{count} columns of {100 * size:g} cm"
+                           for size, count in sorted(found["columns_by_section"].items(), reverse=True))
     walls = f", {found['walls']} bays with walls" if found["walls"] else ""
     description = " ".join(model.description.split())
     return (
@@ -113,16 +100,10 @@ def draw_space(ax, solids, dpi):
     across, up = shown @ OBLIQUE.right, shown @ OBLIQUE.up
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
     window, front = Window(OBLIQUE, box, density(ax, box, dpi)), front_of(solids, OBLIQUE)
-    whole, frame = (
-        shade([s for s in solids if s.kind not in hidden], window, front, sky=1.0)[0]
-        for hidden in (("ground",), ("ground", *TRANSPARENT))
-    )
-    ax.imshow(
-        np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8),
-        extent=box,
-        interpolation="antialiased",
-        aspect="equal",
-    )
+    whole, frame = (shade([s for s in solids if s.kind not in hidden], window, front, sky=1.0)[0]
+                    for hidden in (("ground",), ("ground", *TRANSPARENT)))
+    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8), extent=box,
+              interpolation="antialiased", aspect="equal")
     ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
     ax.axis("off")
 
@@ -147,16 +128,8 @@ def draw_heights(ax, heights, scale):
     lowest = -np.inf
     for z in heights:
         lowest = max(lowest + LABEL_GAP * scale, z)
-        ax.annotate(
-            f"{z:.2f} m" if z else "0",
-            (0, lowest),
-            (-6, 0),
-            ("axes fraction", "data"),
-            "offset points",
-            fontsize=7,
-            va="center",
-            ha="right",
-        )
+        ax.annotate(f"{z:.2f} m" if z else "0", (0, lowest), (-6, 0), ("axes fraction", "data"), "offset points",
+                    fontsize=7, va="center", ha="right")
 
 
 def draw_plan(ax, model):
@@ -168,14 +141,8 @@ def draw_plan(ax, model):
     for element in model.of_kind("sill") or model.of_kind("foundation"):
         draw_outline(ax, element, facecolor="none", edgecolor="#999999", lw=0.5)
     for element in columns:
-        draw_outline(
-            ax,
-            element,
-            facecolor="black" if max(element.section) >= THICK else "white",
-            edgecolor="black",
-            lw=0.8,
-            zorder=3,
-        )
+        draw_outline(ax, element, facecolor="black" if max(element.section) >= THICK else "white", edgecolor="black",
+                     lw=0.8, zorder=3)
     for element in model.of_kind("brace"):
         if element.storey == 1:
             draw_brace(ax, element)
@@ -216,14 +183,8 @@ def draw_wall(ax, model, joint):
     aside = WALL_WIDTH / 2 * np.array([start[1] - end[1], end[0] - start[0]]) / np.linalg.norm(end - start)
     has_opening = any(f".{opening}." in joint.name for opening in ("window", "door"))
     ax.add_patch(
-        Polygon(
-            [start + aside, end + aside, end - aside, start - aside],
-            closed=True,
-            facecolor="white" if has_opening else WALL,
-            edgecolor=WALL,
-            lw=0.8,
-            zorder=1 if has_opening else 1.5,
-        )
+        Polygon([start + aside, end + aside, end - aside, start - aside], closed=True,
+                facecolor="white" if has_opening else WALL, edgecolor=WALL, lw=0.8, zorder=1 if has_opening else 1.5)
     )
 
 
@@ -244,32 +205,15 @@ def finish_plan(ax, columns):
     centres = np.array([e.solid.centroid[:2] for e in columns if e.group == columns[0].group])
     low, high = centres.min(0), centres.max(0)
     positions = np.array([e.solid.centroid[:2] for e in columns])
-    ax.annotate(
-        "",
-        (low[0], low[1] - 0.65),
-        (high[0], low[1] - 0.65),
-        arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0),
-    )
+    ax.annotate("", (low[0], low[1] - 0.65), (high[0], low[1] - 0.65),
+                arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0))
     ax.annotate(f"{high[0] - low[0]:.2f} m", ((low[0] + high[0]) / 2, low[1] - 0.7), fontsize=7, ha="center", va="top")
-    ax.annotate(
-        "",
-        (low[0] - 0.65, low[1]),
-        (low[0] - 0.65, high[1]),
-        arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0),
-    )
-    ax.annotate(
-        f"{high[1] - low[1]:.2f} m",
-        (low[0] - 0.75, (low[1] + high[1]) / 2),
-        fontsize=7,
-        ha="right",
-        va="center",
-        rotation=90,
-    )
-    ax.set(
-        xlim=(positions[:, 0].min() - 1.3, positions[:, 0].max() + 0.6),
-        ylim=(positions[:, 1].min() - 1.3, positions[:, 1].max() + 0.6),
-        aspect="equal",
-    )
+    ax.annotate("", (low[0] - 0.65, low[1]), (low[0] - 0.65, high[1]),
+                arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0))
+    ax.annotate(f"{high[1] - low[1]:.2f} m", (low[0] - 0.75, (low[1] + high[1]) / 2), fontsize=7, ha="right",
+                va="center", rotation=90)
+    ax.set(xlim=(positions[:, 0].min() - 1.3, positions[:, 0].max() + 0.6),
+           ylim=(positions[:, 1].min() - 1.3, positions[:, 1].max() + 0.6), aspect="equal")
     ax.axis("off")
 
 
@@ -281,10 +225,8 @@ def frame_damage(ax, positions):
     low, high = positions.min(0), positions.max(0)
     size = np.maximum(1.1 * (high - low) + DAMAGE_MARGIN, 2 * DAMAGE_MARGIN)
     ax.add_patch(Ellipse((low + high) / 2, *size, fill=False, edgecolor=colors.ORANGE, lw=1.6, zorder=8, clip_on=False))
-    ax.plot(
-        *positions.T, linestyle="none", marker="o", markersize=3.5, markerfacecolor="white", markeredgecolor="black",
-        markeredgewidth=0.8, zorder=9,
-    )
+    ax.plot(*positions.T, linestyle="none", marker="o", markersize=3.5, markerfacecolor="white",
+            markeredgecolor="black", markeredgewidth=0.8, zorder=9)
 
 
 def legend(figure, solids, model):
@@ -297,33 +239,16 @@ def legend(figure, solids, model):
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
         entries.append(
-            Line2D(
-                [],
-                [],
-                linestyle="none",
-                marker=">",
-                markersize=7,
-                color=colors.BLUE,
-                label="brace (plan; thin end: foot)",
-            )
+            Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE,
+                   label="brace (plan; thin end: foot)")
         )
     if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
         entries.append(
-            Line2D(
-                [],
-                [],
-                linestyle="none",
-                marker="o",
-                markersize=4,
-                markerfacecolor="white",
-                markeredgecolor="black",
-                label="joint broken before the start",
-            )
+            Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black",
+                   label="joint broken before the start")
         )
     columns = -(-len(entries) // 2) if len(entries) > 8 else len(entries)
-    figure.legend(
-        handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=8, handletextpad=0.5,
-        columnspacing=1.4,
-    )
+    figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=8, handletextpad=0.5,
+                  columnspacing=1.4)

@@ -23,10 +23,8 @@ from .key_times import first_shown, last_change
 from .provenance import parts
 from .stage import Stage
 
-ENCODING = (
-    "-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f",
-    "mp4",
-)
+ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart",
+            "-f", "mp4")
 WEBP = dict(loop=0, method=2, kmin=0, kmax=1)
 """Each picture is a key frame: a difference to the picture before leaves traces of what has moved."""
 SLOW, BEFORE_FALL, AFTER_FALL = 0.25, 0.7, 1.8
@@ -115,9 +113,8 @@ class Pictures:
         self.picture = Image.new("RGB", (form.width, form.height))
         origins = [parts(run) for run in runs]
         below = runs[:1] if origins[0] == origins[-1] else runs
-        self.strips = [
-            Strip(run, origin, (form.width // len(below), form.height)) for run, origin in zip(below, origins)
-        ]
+        self.strips = [Strip(run, origin, (form.width // len(below), form.height))
+                       for run, origin in zip(below, origins)]
         size = form.width // len(runs), form.height - self.strips[0].height
         starts = [corners(run) for run in runs]
         shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
@@ -145,9 +142,8 @@ def corners(run, frame=None):
 
 def _write_mp4(path, make, form, _count):
     """Pass the images to ffmpeg, which encodes them in another process; the last one is repeated."""
-    source = (
-        "-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i", "-",
-    )
+    source = ("-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i",
+              "-")
     even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
     command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
     try:

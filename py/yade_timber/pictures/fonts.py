@@ -14,10 +14,8 @@ from matplotlib.ft2font import FT2Font
 from .style import default_style
 
 OWN = "DejaVu Sans"
-EAST_ASIAN = (
-    "IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic",
-    "Noto Sans CJK JP", "WenQuanYi Zen Hei",
-)
+EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic",
+              "Noto Sans CJK JP", "WenQuanYi Zen Hei")
 """Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have.
 """
 PACKAGE = "fonts-ipafont-gothic"
@@ -61,10 +59,8 @@ def has(letter):
         _used.add(family)
         return True
     if not _missed and letter.isalpha():
-        print(
-            f"notice: no installed font has the letter '{letter}'; install {PACKAGE} for Japanese names",
-            file=sys.stderr,
-        )
+        print(f"notice: no installed font has the letter '{letter}'; install {PACKAGE} for Japanese names",
+              file=sys.stderr)
         _missed.add(letter)
     return False
 

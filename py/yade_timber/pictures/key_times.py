@@ -83,9 +83,8 @@ def named(frames):
     if frames.motion:
         yield strongest_shaking(frames), "strongest shaking"
     for kind in ("structure_fallen", "snow_fallen"):
-        yield from [
-            (event.time_s, short(event)) for event in (summary.events if summary else ()) if event.kind == kind
-        ][:1]
+        yield from [(event.time_s, short(event)) for event in (summary.events if summary else ())
+                    if event.kind == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
         yield frames.breaks["time"][0], "first damage"
     if frames.history and frames.history.samples and not summary.collapsed:

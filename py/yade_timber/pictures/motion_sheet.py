@@ -6,9 +6,8 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..base.colors import DIRECTIONS
-from ..motion import (
-    GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window, velocity,
-)
+from ..motion import (GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window,
+                      velocity)
 from .figures import A4, heading, heading_height, new_figure, save
 from .style import default_style
 
@@ -69,9 +68,8 @@ def draw_accelerations(axes, motion):
         axis.plot(motion.time, values, color=DIRECTIONS[key], lw=0.6)
         axis.plot(motion.time[peak], values[peak], "o", markersize=4, markerfacecolor="none", color="black")
         text = f"{abs(values[peak]):.0f} gal at {motion.time[peak]:.2f} s"
-        axis.annotate(
-            text, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8, va="center"
-        )
+        axis.annotate(text, (motion.time[peak], values[peak]), (7, 0), textcoords="offset points", fontsize=8,
+                      va="center")
         axis.set_ylim(-reach, reach)
         axis.set_ylabel(f"acceleration {name} [gal]", fontsize=8)
     axes[-1].set_xlabel("time [s]", fontsize=8)

@@ -30,11 +30,8 @@ def pack(info, arrays):
         "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()],
     }
     text = json.dumps(header, allow_nan=False).encode()
-    parts = [
-        len(text).to_bytes(4, "little"),
-        text,
-        *(planes(name, values, step) for name, (values, step) in arrays.items()),
-    ]
+    parts = [len(text).to_bytes(4, "little"), text,
+             *(planes(name, values, step) for name, (values, step) in arrays.items())]
     return base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode()
 
 

@@ -13,11 +13,9 @@ FACING = {(1, 0, 0): "east", (0, 1, 0): "north"}
 """Outer walls that face the viewer: direction towards the viewer -> side."""
 FILL = "#d8c39a"
 """Of a whole wall."""
-STYLES = {
-    "whole": dict(facecolor=FILL, edgecolor=FILL, alpha=0.45, linewidth=0.0),
-    "partly": dict(facecolor=FILL, edgecolor=colors.AMBER, alpha=0.7, linewidth=1.0, hatch="//"),
-    "broken": dict(facecolor="none", edgecolor=colors.ORANGE, alpha=0.9, linewidth=0.8, hatch="x"),
-}
+STYLES = {"whole": dict(facecolor=FILL, edgecolor=FILL, alpha=0.45, linewidth=0.0),
+          "partly": dict(facecolor=FILL, edgecolor=colors.AMBER, alpha=0.7, linewidth=1.0, hatch="//"),
+          "broken": dict(facecolor="none", edgecolor=colors.ORANGE, alpha=0.9, linewidth=0.8, hatch="x")}
 OPENINGS = {"window": (0.2, 0.8, 0.33, 0.78), "door": (0.2, 0.8, 0.0, 0.75)}
 """Left, right, lower and upper edge of an opening as parts of its bay."""
 OPEN = dict(facecolor="#e8f1f8", edgecolor="#777777", linewidth=0.5)
@@ -42,10 +40,8 @@ class Panel:
         foot, other_foot, other_head, head = self.corners
         at = [(left, low), (right, low), (right, high), (left, high)]
         return np.array(
-            [
-                (1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
-                for u, v in at
-            ]
+            [(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
+             for u, v in at]
         )
 
 
@@ -72,14 +68,8 @@ def panels(frames, frame):
         bay = joints.a[k], joints.b[k]
         ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
         sheets.append(
-            Sheet(
-                bay,
-                ends,
-                tuple(joints.side[k].split("+")),
-                joints.name[k],
-                int(frames.elements.storey[joints.a[k]]),
-                list(broken[halves]),
-            )
+            Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]),
+                  list(broken[halves]))
         )
     return of_sheets(sheets)
 
@@ -89,19 +79,11 @@ def panels_as_built(model):
     sheets = []
     for joint in model.joints:
         if joint.kind == WALL_COLUMN:
-            ends = [
-                axis_ends(vertices, vertices)
-                for vertices in (model.element(name).vertices for name in (joint.a, joint.b))
-            ]
+            ends = [axis_ends(vertices, vertices)
+                    for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
             sheets.append(
-                Sheet(
-                    (joint.a, joint.b),
-                    ends,
-                    tuple(joint.side),
-                    joint.name,
-                    model.element(joint.a).storey,
-                    [joint.broken],
-                )
+                Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey,
+                      [joint.broken])
             )
     return of_sheets(sheets)
 
@@ -117,13 +99,8 @@ def of_sheets(sheets):
         broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
         found.append(
-            Panel(
-                np.array([foot, other_foot, other_head, head]),
-                layers[0].storey,
-                layers[0].sides,
-                state(broken),
-                opening,
-            )
+            Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken),
+                  opening)
         )
     return found
 

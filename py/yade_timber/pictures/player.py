@@ -52,9 +52,8 @@ def make(runs, path):
         "policy": POLICY.format(script=digest(script), style=digest(style)),
         "title": html.escape(" / ".join(plain(run.title) for _, run in runs)),
         "style": style,
-        "data": "\n".join(
-            f'<script type="text/plain" class="run-data">{packed(source, run)}</script>' for source, run in runs
-        ),
+        "data": "\n".join(f'<script type="text/plain" class="run-data">{packed(source, run)}</script>'
+                          for source, run in runs),
         "script": script,
     }
     write_text(path, re.sub(r"\{\{(\w+)\}\}", lambda mark: parts[mark[1]], asset("page.html")))
@@ -100,19 +99,13 @@ def info(run, largest):
     e, j = run.elements, run.joints
     return {
         "title": plain(run.title),
-        "result": (
-            plain(english.sentence(run.summary)) if run.summary else f"Not ended yet: the first {run.time[-1]:.1f} s"
-        ),
+        "result": (plain(english.sentence(run.summary)) if run.summary
+                   else f"Not ended yet: the first {run.time[-1]:.1f} s"),
         "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
         "origin": plain(provenance(run)),
         "elements": [
-            {
-                "name": plain(name),
-                "kind": plain(kind),
-                "group": plain(group),
-                "storey": int(storey),
-                **uplift(largest, name),
-            }
+            {"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
+             **uplift(largest, name)}
             for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)
         ],
         "joints": len(j.name),
@@ -136,11 +129,8 @@ def info(run, largest):
 
 def japanese_texts(run):
     """Title, result and origin of an ended run in Japanese."""
-    texts = {
-        "title": japanese.title(run.summary),
-        "result": japanese.result(run.summary),
-        "origin": provenance(run, japanese),
-    }
+    texts = {"title": japanese.title(run.summary), "result": japanese.result(run.summary),
+             "origin": provenance(run, japanese)}
     return {name: plain(text) for name, text in texts.items()}
 
 
@@ -160,9 +150,8 @@ def feet(run):
     """
     e, j = run.elements, run.joints
     below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
-    return [
-        k for k, kind in enumerate(j.kind) if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"
-    ]
+    return [k for k, kind in enumerate(j.kind)
+            if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
 
 
 def breaks(run):
@@ -183,9 +172,8 @@ def main_event(run):
     drift; else None.
     """
     known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
-    falls = [
-        event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run) if event.kind == kind
-    ]
+    falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
+             if event.kind == kind]
     largest = [float(largest_drift(run))] if drifts(run) else []
     return next((time for time in (*known, *falls, *largest) if time is not None), None)
 
@@ -208,14 +196,11 @@ def recorded(run):
 
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    shown = [
-        event for event in (*shaking(run), *passed_levels(run), *recorded(run)) if 0 <= event.time_s <= run.time[-1]
-    ]
+    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded(run))
+             if 0 <= event.time_s <= run.time[-1]]
     shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
-    return [
-        {"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
-        for event in shown
-    ]
+    return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
+            for event in shown]
 
 
 def shaking(run):
@@ -246,35 +231,22 @@ def arrays(run):
 
 def shapes(elements):
     faces = [face for body in elements.faces for face in body]
-    return {
-        "vertices": (np.concatenate(elements.vertices), 1e-4),
-        "vertex_start": (frames.starts(elements.vertices), 1),
-        "faces": (np.concatenate(faces), 1),
-        "face_start": (frames.starts(faces), 1),
-        "element_start": (frames.starts(elements.faces), 1),
-    }
+    return {"vertices": (np.concatenate(elements.vertices), 1e-4),
+            "vertex_start": (frames.starts(elements.vertices), 1), "faces": (np.concatenate(faces), 1),
+            "face_start": (frames.starts(faces), 1), "element_start": (frames.starts(elements.faces), 1)}
 
 
 def joints(found):
-    return {
-        "a": (found.a, 1),
-        "b": (found.b, 1),
-        "strength": (np.where(np.isfinite(found.strength), np.minimum(found.strength, 1e9), 0), 1),
-        "anchor": (found.anchor, 1e-4),
-        "springs": (found.springs, 1),
-        "damaged": (found.damaged, 1),
-    }
+    return {"a": (found.a, 1), "b": (found.b, 1),
+            "strength": (np.where(np.isfinite(found.strength), np.minimum(found.strength, 1e9), 0), 1),
+            "anchor": (found.anchor, 1e-4), "springs": (found.springs, 1), "damaged": (found.damaged, 1)}
 
 
 def series(run):
     orientation = continuous(np.asarray(run.orientation, float))
-    return {
-        "time": times(run.time),
-        "positions": (run.position, POSITION_STEP),
-        "orientations": (orientation[..., [1, 2, 3, 0]], ORIENTATION_STEP),
-        "loads": (np.minimum(run.load, 1.5), 0.01),
-        "broken": (run.broken, 1),
-    }
+    return {"time": times(run.time), "positions": (run.position, POSITION_STEP),
+            "orientations": (orientation[..., [1, 2, 3, 0]], ORIENTATION_STEP),
+            "loads": (np.minimum(run.load, 1.5), 0.01), "broken": (run.broken, 1)}
 
 
 def continuous(orientation):
@@ -293,9 +265,6 @@ def curves(run):
     found = drifts(run)
     time = run.history.time if found else np.empty(0)
     values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
-    motion = (
-        {"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
-        if run.motion
-        else {}
-    )
+    motion = ({"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
+              if run.motion else {})
     return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

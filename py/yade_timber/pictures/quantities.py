@@ -63,9 +63,8 @@ def page(results, dpi):
     text = sentence(results.summary)
     storeys = max(1, results.storeys.count)
     top = 1 - (heading_height(A4[0], text) + 0.25) / A4[1]
-    rows = figure.add_gridspec(
-        4, 2, left=0.1, right=0.975, top=top, bottom=0.05, hspace=0.36, wspace=0.36, height_ratios=(1.1, 0.9, 1.25, 0.9)
-    )
+    rows = figure.add_gridspec(4, 2, left=0.1, right=0.975, top=top, bottom=0.05, hspace=0.36, wspace=0.36,
+                               height_ratios=(1.1, 0.9, 1.25, 0.9))
     loops = rows[0, :].subgridspec(1, 2 * min(storeys, 2), wspace=0.42)
     lower = rows[2, :].subgridspec(1, 2, wspace=0.2, width_ratios=(1, 1.1))
     for k, (storey, direction) in enumerate((s, d) for s in range(1, min(storeys, 2) + 1) for d in DIRECTIONS):
@@ -109,13 +108,8 @@ def draw_shears(axis, results):
     """Base shear over time, without impacts."""
     table = results.storeys
     for direction in DIRECTIONS:
-        axis.plot(
-            table.time,
-            table.column(f"base_shear_{direction}") / 1e3,
-            lw=0.5,
-            color=colors.DIRECTIONS[direction],
-            label=direction_name(direction),
-        )
+        axis.plot(table.time, table.column(f"base_shear_{direction}") / 1e3, lw=0.5, color=colors.DIRECTIONS[direction],
+                  label=direction_name(direction))
     peaks = results.summary.quantities.base_shear.sustained
     weight = weight_of(results.summary.quantities.mass_kg)
     text = ", ".join(f"{direction_name(d)} {peaks[d] / 1e3:.0f} kN" for d in DIRECTIONS)
@@ -129,15 +123,8 @@ def draw_accelerations(axis, results):
     storeys, ground = results.summary.quantities.storeys, results.summary.quantities.ground_acceleration
     for axis_name in ("ns", "ew", "ud"):
         values = [ground[axis_name], *(storey.acceleration[axis_name] for storey in storeys.values())]
-        axis.plot(
-            values,
-            range(len(values)),
-            "o-",
-            ms=3.5,
-            lw=1,
-            color=colors.DIRECTIONS[axis_name],
-            label=direction_name(axis_name).replace("ud", "up-down"),
-        )
+        axis.plot(values, range(len(values)), "o-", ms=3.5, lw=1, color=colors.DIRECTIONS[axis_name],
+                  label=direction_name(axis_name).replace("ud", "up-down"))
     axis.set_yticks(range(len(storeys) + 1), ["ground", *(f"level {k}" for k in range(1, len(storeys) + 1))])
     axis.set_xlim(0)
     style(axis, f"largest accelerations, {BAND_TEXT}", "[m/s²]")
@@ -187,23 +174,16 @@ def draw_modes(axis, results):
                 continue
             shape = [0.0, *(storey[direction] for storey in mode.shape.values())]
             sign = 1 if shape[-1] >= 0 else -1
-            axis.plot(
-                [sign * value for value in shape],
-                range(len(shape)),
-                "o-",
-                ms=3,
-                lw=width,
-                color=colors.DIRECTIONS[direction],
-            )
+            axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width,
+                      color=colors.DIRECTIONS[direction])
             lines.append(
                 f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode.mass_share[direction]:.0f} % of"
                 " the mass"
             )
     if results.summary.collapsed:
         lines.append("after: none, the house has collapsed")
-    axis.text(
-        0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right", fontsize=7
-    )
+    axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right",
+              fontsize=7)
     axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
     levels = len(results.summary.quantities.storeys)
     axis.set_yticks(range(levels + 1), ["ground", *(f"level {k}" for k in range(1, levels + 1))])

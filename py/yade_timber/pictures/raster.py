@@ -79,9 +79,8 @@ def covered(solids, window):
 def _drawn(solids, window, front, sky):
     """(Canvas with the picture, nearest and farthest coordinate towards the viewer [m])."""
     view = window.view
-    bodies = Bodies(
-        Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids], "PLAIN"
-    )
+    bodies = Bodies(Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids],
+                    "PLAIN")
     vertices = np.concatenate([s.vertices for s in solids]) if solids else np.zeros((0, 3))
     toward = vertices @ view.toward
     near, far = (toward.max() + 0.1, toward.min() - 0.1) if len(toward) else (1.0, 0.0)
@@ -89,14 +88,8 @@ def _drawn(solids, window, front, sky):
     light = LIGHT @ np.array([view.right, view.toward, view.up], float) / np.linalg.norm(LIGHT)
     shared = dict(camera=window.matrix(near, far), toward=(*view.toward, front), haze=sky, haziness=(HAZE, HAZE_DEPTH))
     put(program("PLAIN"), **shared, light=light, ambient=(DARKEST, DARKEST), direct=1 - DARKEST)
-    put(
-        program("EDGE"),
-        **shared,
-        eye=(*view.toward, 0),
-        ink=(EDGE_COLOR,) * 3 + (1,),
-        size=window.size,
-        width=EDGE_WIDTH
-    )
+    put(program("EDGE"), **shared, eye=(*view.toward, 0), ink=(EDGE_COLOR,) * 3 + (1,), size=window.size,
+        width=EDGE_WIDTH)
     drawn = canvas(*window.size)
     drawn.begin(sky)
     bodies.render_faces()

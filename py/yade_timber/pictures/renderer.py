@@ -59,10 +59,8 @@ def context():
 @once_per_thread
 def program(name):
     """The compiled program of the shaders NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT."""
-    stages = {
-        f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None)
-        for stage in ("vertex", "geometry", "fragment")
-    }
+    stages = {f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None)
+              for stage in ("vertex", "geometry", "fragment")}
     return context().program(**stages)
 
 

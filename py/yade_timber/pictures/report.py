@@ -80,9 +80,8 @@ def write(folder):
     """
     folder = Path(folder)
     results = quantities.read(folder)
-    frames = recording.load(
-        folder / recording.NAME, missing="the report needs recorded frames: run without --no-frames"
-    )
+    frames = recording.load(folder / recording.NAME,
+                            missing="the report needs recorded frames: run without --no-frames")
     if frames.summary is None:
         raise RunError(f"{folder / recording.NAME}: of a run that has not ended; continue it with --resume")
     write_text(folder / PAGE, page(frames, results))
@@ -140,11 +139,8 @@ def house(frames, found, failures):
     counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {
         "walled bay": len(panels(frames, 0))
     }
-    periods = ", ".join(
-        f"{direction_name(axis)} {period_text(mode)}"
-        for axis in ("ns", "ew")
-        if (mode := found.main_mode("before", axis))
-    )
+    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
+                        if (mode := found.main_mode("before", axis)))
     (_, counts["joint"]), (_, counts["wall sheet"]) = found.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     marks = "; blue: braces (thin end: foot)" * bool(
@@ -182,11 +178,8 @@ def coefficients(storey):
 
 def weight(known):
     """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of a Weight."""
-    per_area = (
-        ""
-        if known.per_floor_area_kn_m2 is None
-        else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor"
-    )
+    per_area = ("" if known.per_floor_area_kn_m2 is None
+                else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor")
     snow = f"; snow {known.snow_kn:.0f} kN" if known.snow_kn else ""
     return f"Weight {known.total_kn:.0f} kN{per_area}{snow}."
 
@@ -202,12 +195,10 @@ def motion(frames, found):
         return "<h2>The motion</h2><p>No earthquake.</p>"
     applied = report_pictures.ground_motion(frames)
     intensity = jma_intensity(applied).official if applied.duration >= 0.3 and applied.acceleration.any() else None
-    peaks = ", ".join(
-        f"{name} {pga(applied, key):.0f}" for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud"))
-    )
-    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + (
-        "" if intensity is None else f", JMA intensity {intensity:.1f}"
-    )
+    peaks = ", ".join(f"{name} {pga(applied, key):.0f}"
+                      for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
+    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None
+                                                                else f", JMA intensity {intensity:.1f}")
     scale = f", times {found.record.scale:g}" if found.record.scale != 1 else ""
     about = f"<p>{text(found.record.source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
     return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
@@ -261,9 +252,8 @@ def failed_joint(number, failure, frames, known):
         f" {joint.side[failure.joint].replace('+', ', ')}"
     )
     drift = "" if failure.drift is None else directed(failure.drift, failure.direction)
-    forces = "".join(
-        f"<td class=number>{float(row[column]) / 1e3:.1f}</td>" for column in ("pull [N]", "shear [N]", "strength [N]")
-    )
+    forces = "".join(f"<td class=number>{float(row[column]) / 1e3:.1f}</td>"
+                     for column in ("pull [N]", "shear [N]", "strength [N]"))
     title = f' title="{joint_name(row["joint"])}"'
     return (f"<tr><td class=number>{number}</td><td "
             f"class=number>{failure.time:.2f}</td><td{title}>{text(place)}</td><td>{text(failure.cause)}</td>"
@@ -282,8 +272,7 @@ def others(frames, results):
     about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {known}"
     used = (
         f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}"
-        if len(loads)
-        else "none is left"
+        if len(loads) else "none is left"
     )
     return f"{about}; of the others {used}."
 
@@ -334,13 +323,10 @@ def print_pdf(source, path):
     sandbox = [] if os.geteuid() else ["--no-sandbox"]  # Chromium has none for root; the page is our own
     try:
         with written_whole(path) as part, tempfile.TemporaryDirectory() as profile:
-            options = [
-                "--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer",
-                f"--print-to-pdf={part}",
-            ]
-            subprocess.run(
-                [browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True, timeout=PATIENCE
-            )
+            options = ["--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}",
+                       "--no-pdf-header-footer", f"--print-to-pdf={part}"]
+            subprocess.run([browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True,
+                           timeout=PATIENCE)
     except subprocess.SubprocessError:
         return []
     return [path]

@@ -63,15 +63,8 @@ def draw_plan(axis, frames, storey):
     for panel in panels(frames, 0):
         if panel.storey == storey:
             (x, y, _), (other_x, other_y, _) = panel.corners[:2]
-            axis.plot(
-                (x, other_x),
-                (y, other_y),
-                color=colors.GREEN,
-                lw=2.2,
-                ls=":" if panel.opening else "-",
-                solid_capstyle="butt",
-                zorder=1.5,
-            )
+            axis.plot((x, other_x), (y, other_y), color=colors.GREEN, lw=2.2, ls=":" if panel.opening else "-",
+                      solid_capstyle="butt", zorder=1.5)
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
     axis.set_title(f"storey {storey}", fontsize=7, pad=2)
@@ -120,13 +113,8 @@ def motion(frames):
     shown = recorded.time <= frames.time[-1]
     for direction, column in (("ew", 0), ("ns", 1)):
         values = np.asarray(recorded.acceleration)[:, column]
-        left.plot(
-            recorded.time[shown],
-            values[shown] / GAL,
-            color=colors.DIRECTIONS[direction],
-            lw=0.4,
-            label=direction_name(direction),
-        )
+        left.plot(recorded.time[shown], values[shown] / GAL, color=colors.DIRECTIONS[direction], lw=0.4,
+                  label=direction_name(direction))
         spectrum = response_spectrum(values, recorded.dt, PERIODS)
         right.semilogx(PERIODS, spectrum.psv * 0.01 * 2 * np.pi / PERIODS, color=colors.DIRECTIONS[direction], lw=1)
     draw_periods(right, frames.summary)

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 from ..text.english import sentence
 from . import key_times
-from .figures import (
-    A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height, new_figure, save,
-)
+from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
+                      new_figure, save)
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids

@@ -23,8 +23,5 @@ def marks(frames, frame):
     panels.
     """
     positions, kinds = frames.joint_places(frame), frames.joints.kind
-    return [
-        Mark(positions[j], state)
-        for j, state in enumerate(frames.joint_states(frame))
-        if state != "whole" and kinds[j] not in WALL_KINDS
-    ]
+    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame))
+            if state != "whole" and kinds[j] not in WALL_KINDS]

@@ -51,9 +51,8 @@ class Stage:
         self.depth.repeat_x = self.depth.repeat_y = False
         self.shadow = made.framebuffer(depth_attachment=self.depth)
         flat = {"GROUND": SQUARE, "SHADE": SQUARE, "SKY": UPPER_HALF}
-        self.ground, self.shade, self.sky = (
-            made.vertex_array(program(name), [(made.buffer(form), "2f", "corner")]) for name, form in flat.items()
-        )
+        self.ground, self.shade, self.sky = (made.vertex_array(program(name), [(made.buffer(form), "2f", "corner")])
+                                             for name, form in flat.items())
         self.marks = made.buffer(reserve=max(16 * len(frames.joints.name), 16), dynamic=True)
         self.points = made.vertex_array(program("MARK"), [(self.marks, "3f 1f", "place", "state")])
 
@@ -107,34 +106,17 @@ class Stage:
         ahead /= np.linalg.norm(ahead)
         width, height = self.canvas.size
         depth, reach = self.spread * HAZE_DEPTH, self.spread * GROUND_REACH
-        shared = dict(
-            camera=view.matrix @ shift,
-            sun=self.sun,
-            toward=(*-ahead, -ahead @ view.target),
-            haze=HORIZON,
-            haziness=(HAZE, depth),
-            shade=0,
-        )
+        shared = dict(camera=view.matrix @ shift, sun=self.sun, toward=(*-ahead, -ahead @ view.target), haze=HORIZON,
+                      haziness=(HAZE, depth), shade=0)
         put(program("SHADOW"), sun=self.sun)
         put(program("SOLID"), **shared, light=self.light, ambient=AMBIENT, direct=DIRECT)
         put(program("EDGE"), **shared, eye=(*view.eye, 1), ink=EDGE_INK, size=(width, height), width=EDGE_WIDTH)
-        put(
-            program("GROUND"),
-            **shared,
-            bounds=np.concatenate([self.middle - 2 * reach, self.middle + 2 * reach]),
-            reach=reach,
-            middle=self.middle
-        )
+        put(program("GROUND"), **shared, bounds=np.concatenate([self.middle - 2 * reach, self.middle + 2 * reach]),
+            reach=reach, middle=self.middle)
         put(program("SHADE"), **shared, bounds=shadows)
         put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
-        put(
-            program("MARK"),
-            **shared,
-            size=MARK_SIZE * view.scale * height,
-            sizes=MARK_PIXELS,
-            partly=rgb(colors.AMBER),
-            broken=rgb(colors.ORANGE)
-        )
+        put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS,
+            partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))
 
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
@@ -142,11 +124,8 @@ class Stage:
         states = self.frames.joint_states(frame_before(self.frames, time))
         numbers = np.flatnonzero(states != "whole")
         places = position[j.a[numbers]] + rotated(orientation[j.a[numbers]], j.anchor[numbers])
-        found = (
-            np.column_stack([places, [STATES[state] for state in states[numbers]]])
-            if len(numbers)
-            else np.zeros((0, 4))
-        )
+        found = (np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers)
+                 else np.zeros((0, 4)))
         found = found[np.isfinite(found).all(1)].astype("f4")
         if not len(found):
             return
@@ -186,9 +165,8 @@ def placements(frames, time):
     span = frames.time[last] - frames.time[first]
     share = min(max((time - frames.time[first]) / span, 0.0), 1.0) if span > 0 else 0.0
     a, b = (np.asarray(frames.position[k], float) for k in (first, last))
-    return a + share * (b - a), slerp(
-        np.asarray(frames.orientation[first], float), np.asarray(frames.orientation[last], float), share
-    )
+    return a + share * (b - a), slerp(np.asarray(frames.orientation[first], float),
+                                      np.asarray(frames.orientation[last], float), share)
 
 
 def slerp(a, b, share):

@@ -92,18 +92,13 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
     "partly": (0.9, dict(marker="^", markerfacecolor=colors.AMBER, markeredgecolor="black")),
     "before": (0.75, dict(marker="o", markerfacecolor="white", markeredgecolor="black")),
 }
-MARK_NAMES = {
-    "broken": "joint broken (pale: hidden)",
-    "partly": "joint partly broken",
-    "before": "joint broken before the start",
-}
+MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken",
+              "before": "joint broken before the start"}
 LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
-LEGEND_KINDS = {
-    "snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor",
-    "foundation": "foundation",
-}
+LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor",
+                "foundation": "foundation"}
 
 
 def box_of(view, starts, later):
@@ -139,9 +134,8 @@ def silhouette(start, view):
     mask = np.pad(covered([s for s in start if s.kind not in ("ground", "snow")], window), 1)[::-1].astype(float)
     found = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
     outers = [points[: ends[1]] for points, ends in zip(*found)]
-    outers = [
-        line for line in outers if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)
-    ]
+    outers = [line for line in outers
+              if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)]
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
 
 
@@ -158,13 +152,8 @@ def draw_marks(ax, window, depth, marks, size):
         place = np.dot(mark.position, window.view.right), mark.position[2]
         groups.setdefault((mark.state, is_hidden(window, depth, mark.position)), []).append(place)
     for (state, hidden), places in groups.items():
-        ax.plot(
-            *np.transpose(places),
-            linestyle="none",
-            alpha=0.4 if hidden else 1.0,
-            zorder=5 if hidden else 6,
-            **marker(state, size),
-        )
+        ax.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6,
+                **marker(state, size))
 
 
 def is_hidden(window, depth, position):
@@ -192,26 +181,16 @@ def scale_bar(ax, box, size):
     length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
     right, up = box[1] - 0.25, box[3] - 0.35
     ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
-    ax.annotate(
-        f"{length:g} m",
-        (right - length / 2, up),
-        (0, -0.4 * size),
-        textcoords="offset points",
-        fontsize=size,
-        ha="center",
-        va="top",
-    )
+    ax.annotate(f"{length:g} m", (right - length / 2, up), (0, -0.4 * size), textcoords="offset points", fontsize=size,
+                ha="center", va="top")
 
 
 def kind_entries(solids):
     """Legend entries of the kinds of elements that occur."""
     found = {s.kind: s.color for s in reversed(solids)}
     names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in found else {})
-    return [
-        Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name)
-        for kind, name in names.items()
-        if kind in found
-    ]
+    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items()
+            if kind in found]
 
 
 def legend(figure, solids, states, size):
@@ -221,22 +200,12 @@ def legend(figure, solids, states, size):
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
     entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]
-    entries += [
-        Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
-        for state, name in MARK_NAMES.items()
-        if state in states
-    ]
+    entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
+                for state, name in MARK_NAMES.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
     place = (0.5, LEGEND_PLACE / figure.get_size_inches()[1])
-    style = dict(
-        handles=entries,
-        loc="lower center",
-        bbox_to_anchor=place,
-        ncols=-(-len(entries) // rows),
-        frameon=False,
-        handletextpad=0.5,
-        columnspacing=1.6,
-    )
+    style = dict(handles=entries, loc="lower center", bbox_to_anchor=place, ncols=-(-len(entries) // rows),
+                 frameon=False, handletextpad=0.5, columnspacing=1.6)
     drawn = figure.legend(**style, fontsize=size)
     fit = 0.98 * figure.bbox.width / drawn.get_window_extent().width
     if fit < 1:

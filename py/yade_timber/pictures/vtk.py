@@ -36,11 +36,9 @@ def export(folder, frames, every=1):
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = sorted({*range(0, last + 1, every), last})
-    series = {
-        "elements": (Elements(frames), [(frames.time[k], k) for k in chosen]),
-        "joints": (Joints(frames), [(frames.time[k], k) for k in chosen]),
-        "contacts": (Contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)]),
-    }
+    series = {"elements": (Elements(frames), [(frames.time[k], k) for k in chosen]),
+              "joints": (Joints(frames), [(frames.time[k], k) for k in chosen]),
+              "contacts": (Contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
     return [write_series(folder, name, made, numbers) for name, (made, numbers) in series.items()]
 
 
@@ -82,12 +80,8 @@ class Elements:
         owner = np.repeat(np.arange(len(e.name)), [len(faces) for faces in e.faces])
         kinds = list(dict.fromkeys(e.kind))
         code = np.array([kinds.index(kind) for kind in e.kind])
-        self.of_cells = {
-            "element": owner,
-            "kind": code[owner],
-            "storey": e.storey[owner],
-            "fixed": e.fixed[owner].astype("u1"),
-        }
+        self.of_cells = {"element": owner, "kind": code[owner], "storey": e.storey[owner],
+                         "fixed": e.fixed[owner].astype("u1")}
         self.names = strings("kind_names", kinds)
 
     def __call__(self, frame):
@@ -120,10 +114,8 @@ class Joints:
         ends_b = frames.position[frame][b] + rotated(frames.orientation[frame][b], self.anchor_b)
         state = np.array([STATES[name] for name in frames.joint_states(frame)], int)
         values = {"joint": np.arange(len(state)), "kind": self.kind, "load": frames.load[frame], "state": state}
-        data = polydata(
-            np.concatenate([frames.joint_places(frame), ends_b]),
-            {name: np.tile(value, 2) for name, value in values.items()},
-        )
+        data = polydata(np.concatenate([frames.joint_places(frame), ends_b]),
+                        {name: np.tile(value, 2) for name, value in values.items()})
         data.SetVerts(self.points)
         data.SetLines(self.lines)
         data.GetFieldData().AddArray(self.names)
@@ -168,10 +160,8 @@ def cells(lists):
     """vtkCellArray of lists of point numbers."""
     made = vtkCellArray()
     starts, flat = np.cumsum([0, *map(len, lists)]), np.concatenate([np.empty(0, int), *lists])
-    made.SetData(
-        numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
-        numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True),
-    )
+    made.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
+                 numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True))
     return made
 
 

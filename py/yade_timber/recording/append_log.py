@@ -59,9 +59,8 @@ class AppendLog:
         self.pending = [record for record in self.pending if record[1] <= time]
         if not os.path.lexists(self.path):
             return 0
-        size = sum(
-            FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run) if when <= time
-        )
+        size = sum(FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run)
+                   if when <= time)
         os.truncate(self.path, size)
         return size
 

@@ -97,10 +97,8 @@ class DamageSurvey:
             **vars(self.count_joints(broken)) | {"wall_sheets": sheets.count("broken") if sheets else None},
             by_side={side: int((counted & there).sum()) for side, there in on_side.items()},
             by_storey={name: int((counted & there).sum()) for name, there in in_storey.items()},
-            by_place={
-                name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()}
-                for name, there in in_storey.items()
-            },
+            by_place={name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()}
+                      for name, there in in_storey.items()},
             partly_broken=int(partly.sum()),
             wall_sheets_partly=sheets.count("partly") if sheets else None,
             springs=springs,
@@ -173,18 +171,15 @@ class DamageSurvey:
 
     def fallen_structures(self, state):
         """Names of the structures of which a level has come down by half its storey."""
-        return [
-            name for name in self.structures if any(-move[2] > height / 2 for move, height in self._moves(state, name))
-        ]
+        return [name for name in self.structures
+                if any(-move[2] > height / 2 for move, height in self._moves(state, name))]
 
     def drift(self, state, structure):
         """Largest storey drift of a structure, N-S or E-W. [-]"""
         moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
         return max(
-            (
-                float(np.abs((above - below)[:2]).max() / height)
-                for (below, _), (above, height) in zip(moves, moves[1:])
-            ),
+            (float(np.abs((above - below)[:2]).max() / height)
+             for (below, _), (above, height) in zip(moves, moves[1:])),
             default=0.0,
         )
 
@@ -195,14 +190,10 @@ class DamageSurvey:
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
         return {
-            name: Structure(
-                peak_drift=peaks[name],
-                residual_drift=self.drift(state, name),
-                broken=int(broken[self._structure_of_joints == name].sum()),
-                partly_broken=int(partly[self._structure_of_joints == name].sum()),
-                columns_lost=int(lost[groups == name].sum()),
-                collapsed=name in fallen,
-            )
+            name: Structure(peak_drift=peaks[name], residual_drift=self.drift(state, name),
+                            broken=int(broken[self._structure_of_joints == name].sum()),
+                            partly_broken=int(partly[self._structure_of_joints == name].sum()),
+                            columns_lost=int(lost[groups == name].sum()), collapsed=name in fallen)
             for name in self.structures
         }
 
@@ -225,9 +216,8 @@ class DamageSurvey:
         if not self._snow:
             return []
         z, vertical = state.position[:, 2], _vertical(state.orientation)
-        lower = [
-            (snow, roof) for snow, roof, place in self._snow if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP
-        ]
+        lower = [(snow, roof) for snow, roof, place in self._snow
+                 if z[roof] + vertical[roof] @ place - z[snow] > SNOW_DROP]
         return [roof for snow, roof in lower if self._has_left(state, snow)]
 
     def _has_left(self, state, snow):

@@ -107,8 +107,7 @@ def lean_start(history, tilt_time, direction):
     if tilt_time is None:
         return None
     last = int(np.searchsorted(history.time, tilt_time, side="right"))
-    drift = max(
-        (history.drift(storey, direction)[:last] for storey in history.storeys), key=lambda values: abs(values[-1])
-    )
+    drift = max((history.drift(storey, direction)[:last] for storey in history.storeys),
+                key=lambda values: abs(values[-1]))
     opposite = np.flatnonzero(drift * drift[-1] <= 0)
     return float(history.time[opposite[-1]]) if len(opposite) else 0.0

@@ -24,9 +24,8 @@ def run_folder(folder, number):
 
 def has_runs(folder):
     """Whether a folder holds an ensemble with the histories of all its finished runs."""
-    return (folder / NAME).is_file() and all(
-        (run_folder(folder, number) / HISTORY).is_file() for number in read(folder)["finished"]
-    )
+    return (folder / NAME).is_file() and all((run_folder(folder, number) / HISTORY).is_file()
+                                             for number in read(folder)["finished"])
 
 
 def read(folder):

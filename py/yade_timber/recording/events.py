@@ -22,17 +22,11 @@ ColumnsLost = table("ColumnsLost", number=int, total=int)
 """number: of `total` columns, inclined by more than 45 degrees or without a joint"""
 SnowFallen = table("SnowFallen", structure=str, side=str, layer=str)
 """structure: '' for the main one; side: '' for a roof of one part; layer: 'roof' or 'roof2'"""
-ShakingBegins, StrongestShaking, LevelPassed = (
-    table("ShakingBegins"),
-    table("StrongestShaking"),
-    table("LevelPassed", drift=float),
-)
+ShakingBegins, StrongestShaking, LevelPassed = (table("ShakingBegins"), table("StrongestShaking"),
+                                                table("LevelPassed", drift=float))
 """drift: one of verdict.LIMITS [-]"""
-RECORDED = {
-    "first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight,
-    "structure_fallen": StructureFallen,
-    "columns_lost": ColumnsLost, "snow_fallen": SnowFallen,
-}
+RECORDED = {"first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight,
+            "structure_fallen": StructureFallen, "columns_lost": ColumnsLost, "snow_fallen": SnowFallen}
 KINDS = {**RECORDED, "shaking_begins": ShakingBegins, "strongest_shaking": StrongestShaking, "level": LevelPassed}
 
 
@@ -55,11 +49,8 @@ class Event:
         if entries.keys() != {"time_s", "kind", "facts", "lot"} or entries["kind"] not in list(RECORDED):
             raise ValueError(f"{path}: not an event of this version")
         facts = decode(RECORDED[entries["kind"]], entries["facts"], f"{path}.facts")
-        return cls(
-            require(entries["time_s"], float, f"{path}.time_s"),
-            facts,
-            decode(str | None, entries["lot"], f"{path}.lot"),
-        )
+        return cls(require(entries["time_s"], float, f"{path}.time_s"), facts,
+                   decode(str | None, entries["lot"], f"{path}.lot"))
 
 
 class EventLog:

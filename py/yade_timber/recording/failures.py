@@ -28,14 +28,11 @@ def first_failures(frames: Frames, most=MOST):
     if frames.breaks is None:
         return []
     first = {}
-    for time, joint, cause in sorted(
-        zip(*(frames.breaks[key] for key in ("time", "joint", "cause"))), key=lambda entry: entry[0]
-    ):
+    for time, joint, cause in sorted(zip(*(frames.breaks[key] for key in ("time", "joint", "cause"))),
+                                     key=lambda entry: entry[0]):
         first.setdefault(int(joint), (float(time), cause))
-    return [
-        Failure(time, joint, cause_of(frames, joint, cause), *_drift(frames, joint, time))
-        for joint, (time, cause) in list(first.items())[:most]
-    ]
+    return [Failure(time, joint, cause_of(frames, joint, cause), *_drift(frames, joint, time))
+            for joint, (time, cause) in list(first.items())[:most]]
 
 
 def cause_of(frames, joint, cause):
@@ -50,9 +47,7 @@ def _drift(frames, joint, time):
     storey = frames.joints.storey[joint]
     if not storey.isdigit() or not frames.history or int(storey) not in frames.history.storeys:
         return None, ""
-    drifts = {
-        key: abs(float(np.interp(time, frames.history.time, frames.history.drift(int(storey), key))))
-        for key in ("ns", "ew")
-    }
+    drifts = {key: abs(float(np.interp(time, frames.history.time, frames.history.drift(int(storey), key))))
+              for key in ("ns", "ew")}
     direction = max(drifts, key=drifts.get)
     return drifts[direction], direction

@@ -54,10 +54,8 @@ NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
-STRINGS = {
-    "elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind",
-    "joints/storey", "joints/side",
-}
+STRINGS = {"elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind",
+           "joints/storey", "joints/side"}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
@@ -73,9 +71,8 @@ class _ShortRepr:
     """Prints sizes instead of contents."""
 
     def __repr__(self):
-        sizes = (
-            f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}" for name, value in vars(self).items()
-        )
+        sizes = (f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}"
+                 for name, value in vars(self).items())
         return f"{type(self).__name__}({', '.join(sizes)})"
 
 
@@ -179,9 +176,8 @@ class Frames:
     def all_corners(self, frame=None):
         """List of the (n, 3) corners of every element in a frame, or (None) before the first step, world frame [m]."""
         e = self.elements
-        position, orientation = (
-            (e.position, e.orientation) if frame is None else (self.position[frame], self.orientation[frame])
-        )
+        position, orientation = ((e.position, e.orientation) if frame is None
+                                 else (self.position[frame], self.orientation[frame]))
         counts = [len(vertices) for vertices in e.vertices]
         body = np.repeat(np.arange(len(counts)), counts)
         corners = np.asarray(position, float)[body] + rotated(np.asarray(orientation)[body], np.concatenate(e.vertices))
@@ -197,9 +193,8 @@ class Frames:
         a number, or a slice of frames.
         """
         j = self.joints
-        state = np.where(
-            np.asarray(self.broken[frame]) == 0, "whole", np.where(self.broken[frame] >= j.springs, "broken", "partly")
-        )
+        state = np.where(np.asarray(self.broken[frame]) == 0, "whole",
+                         np.where(self.broken[frame] >= j.springs, "broken", "partly"))
         return np.where(j.damaged, "before", state)
 
     def at(self, time):
@@ -247,11 +242,8 @@ def save(path, frames):
 
 
 def _save_attributes(file, frames):
-    known = {
-        "format": FORMAT,
-        **{name: getattr(frames, name) for name in ATTRIBUTES},
-        "ended": frames.summary is not None,
-    }
+    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
+             "ended": frames.summary is not None}
     if frames.summary is not None:
         known["summary"] = json.dumps(encode(frames.summary))
     file.attrs.update(known)
@@ -268,10 +260,8 @@ def _series(frames):
     joints.
     """
     types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
-    return {
-        name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
-        for name, kind in types.items()
-    }
+    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
+            for name, kind in types.items()}
 
 
 def starts(lists):
@@ -286,22 +276,15 @@ def _save_elements(group, elements):
     _save_group(group, values)
     _save_group(
         group,
-        {
-            "vertices": np.concatenate(vertices),
-            "vertex_start": starts(vertices),
-            "faces": np.concatenate(faces),
-            "face_start": starts(faces),
-            "element_start": starts(elements.faces),
-        },
+        {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
+         "face_start": starts(faces), "element_start": starts(elements.faces)},
     )
 
 
 def _save_contacts(group, contacts):
     shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
-    flat = {
-        name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
-        for name, (kind, width) in shapes.items()
-    }
+    flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
+            for name, (kind, width) in shapes.items()}
     _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
 
 
@@ -358,14 +341,10 @@ def _check_shapes(frames):
             raise ValueError(
                 f"frames/{name}: shape {getattr(frames, name).shape} instead of {(len(frames.time), *shape)}"
             )
-    numbers = [
-        ("joints/a", j.a, n),
-        ("joints/b", j.b, n),
-        *(("contacts/pair", pair, n) for pair in frames.contacts.pair),
-    ]
-    numbers += [
-        ("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices) for face in faces
-    ]
+    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n),
+               *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
+    numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
+                for face in faces]
     for name, values, limit in numbers:
         if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
             raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
@@ -389,14 +368,12 @@ def _check_finite(frames):
 def _load(file):
     attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
-    loaded = Frames(
-        **attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])), **series
-    )
+    loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])),
+                    **series)
     loaded.contacts = _load_contacts(file["contacts"])
     if "motion" in file:
-        loaded.motion = Motion(
-            float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]), **_values(file["motion"])
-        )
+        loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]),
+                               **_values(file["motion"]))
     if file.attrs["ended"]:
         loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))
@@ -406,10 +383,8 @@ def _load(file):
 
 def _values(group):
     """{name: array, or list of strings}."""
-    return {
-        name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
-        for name, data in group.items()
-    }
+    return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
+            for name, data in group.items()}
 
 
 def _split(flat, start):
@@ -420,15 +395,12 @@ def _load_elements(group):
     values = _values(group)
     begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
     faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
-    values |= {
-        "vertices": _split(values["vertices"], begins["vertex_start"]),
-        "faces": _split(faces, begins["element_start"]),
-    }
+    values |= {"vertices": _split(values["vertices"], begins["vertex_start"]),
+               "faces": _split(faces, begins["element_start"])}
     return Elements(**values)
 
 
 def _load_contacts(group):
     values = _values(group)
-    return Contacts(
-        list(values["time"]), *(_split(values[name], values["start"]) for name in ("pair", "position", "force"))
-    )
+    return Contacts(list(values["time"]),
+                    *(_split(values[name], values["start"]) for name in ("pair", "position", "force")))

@@ -30,9 +30,8 @@ class History(Series):
     @property
     def storeys(self):
         """Numbers of the storeys, from below: (1, 2, ...)."""
-        return tuple(
-            int(name[len("drift_ns") :].partition(" ")[0]) for name in self.columns if name.startswith("drift_ns")
-        )
+        return tuple(int(name[len("drift_ns") :].partition(" ")[0]) for name in self.columns
+                     if name.startswith("drift_ns"))
 
     def drift(self, storey, direction):
         """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError.
@@ -46,9 +45,8 @@ class History(Series):
 
     def drifts(self):
         """(storey, direction, (F,) drift) of each storey and direction, in the order of the columns."""
-        return [
-            (storey, direction, self.drift(storey, direction)) for storey in self.storeys for direction in DIRECTIONS
-        ]
+        return [(storey, direction, self.drift(storey, direction)) for storey in self.storeys
+                for direction in DIRECTIONS]
 
     def largest_drift(self):
         """(F,) largest absolute drift of any storey and direction at each sample. [-]"""

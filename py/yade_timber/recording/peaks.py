@@ -49,11 +49,8 @@ def _values(path, noun, columns, is_shown):
     table = rows(path) if exists(path) else []
     if not table or not {noun, "state", *columns} <= table[0].keys():
         return {}
-    return {
-        row[noun]: tuple(_number(row[column], path, number) for column in columns)
-        for number, row in enumerate(table, 2)
-        if is_shown(row)
-    }
+    return {row[noun]: tuple(_number(row[column], path, number) for column in columns)
+            for number, row in enumerate(table, 2) if is_shown(row)}
 
 
 def _number(text, path, line):

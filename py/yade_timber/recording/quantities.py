@@ -80,9 +80,8 @@ def storeys(samples, masses, motion=None):
         columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
         values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
         if first:
-            name, level = "acceleration_{}" + str(first // 2), (
-                forces[:, first] / masses[first] if masses[first] > 0 else np.zeros((len(forces), 3))
-            )
+            name, level = "acceleration_{}" + str(first // 2), (forces[:, first] / masses[first] if masses[first] > 0
+                                                                else np.zeros((len(forces), 3)))
         else:
             name, level = "ground_acceleration_{}", ground
         columns += [f"{name.format(axis)} [m/s2]" for axis in ("ns", "ew", "ud")]

@@ -20,30 +20,26 @@ Drifts = dict[str, dict[str, float | None]]
 Components = dict[str, float]
 """{direction: value}"""
 
-Weight = table(
-    "Weight", total_kn=float, snow_kn=float, floor_area_m2=float, per_floor_area_kn_m2=float | None,
-    storeys=dict[str, dict[str, Components]])
+Weight = table("Weight", total_kn=float, snow_kn=float, floor_area_m2=float, per_floor_area_kn_m2=float | None,
+               storeys=dict[str, dict[str, Components]])
 Diagnosis = table(
     "Diagnosis", iw=float | None, iw_at=str | None, judgement=str | None, wall_quantity_ratio=float | None,
     wall_quantity_at=str | None, broken_from_start=int, structures=dict, sentence=str, disagreement=str)
 OtherWalls = table("OtherWalls", level=str, verdict=str, peak_drift=Drifts)
 Walls = table("Walls", level=str, other=OtherWalls | None)
 PartOfRecord = table("PartOfRecord", source=str, start_s=float, duration_s=float, scale=float, pga_gal=Components)
-Record = table(
-    "Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float, onset_s=float | None,
-    note=str | None, sequence=list[PartOfRecord] | None)
+Record = table("Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float,
+               onset_s=float | None, note=str | None, sequence=list[PartOfRecord] | None)
 Columns = table("Columns", total=int, fallen=int, loose=int)
-Energy = table(
-    "Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float, residual=float,
-    residual_fraction=float | None, ground_motion=float, gravity_released=float)
+Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float,
+               residual=float, residual_fraction=float | None, ground_motion=float, gravity_released=float)
 Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float)
 Versions = table("Versions", yade=str, package=str)
 Mode = table("Mode", period_s=float | None, direction=str, mass_share=Components, shape=dict[str, Components])
 ModesAt = table("ModesAt", time_s=float, modes=list[Mode])
 Shear = table("Shear", sustained=Components, peak=Components)
-StoreyQuantities = table(
-    "StoreyQuantities", mass_above_kg=float, shear=Shear, shear_coefficient=dict[str, float | None],
-    acceleration=Components)
+StoreyQuantities = table("StoreyQuantities", mass_above_kg=float, shear=Shear,
+                         shear_coefficient=dict[str, float | None], acceleration=Components)
 LargestUtilisation = table("LargestUtilisation", joint=str, value=float)
 LargestForce = table("LargestForce", joint=str, force=float)
 LargestUplift = table("LargestUplift", column=str, uplift_m=float)
@@ -54,14 +50,12 @@ Quantities = table(
     ground_acceleration=Components, storeys=dict[str, StoreyQuantities], largest_utilisation=LargestUtilisation | None,
     largest_pull=LargestForce | None, largest_shear=LargestForce | None,
     largest_uplift=LargestUplift | None)
-JointCounts = table(
-    "JointCounts", total=int, column_beam=int, brace_beam=int, others=others(int),
-    wall_sheets=optional(int))
+JointCounts = table("JointCounts", total=int, column_beam=int, brace_beam=int, others=others(int),
+                    wall_sheets=optional(int))
 """total: without those of walls; others: other kinds that occur. Sheets: None in a house without walls."""
-Broken = table(
-    "Broken", total=int, column_beam=int, brace_beam=int, by_side=dict[str, int], by_storey=dict[str, int],
-    by_place=dict[str, dict[str, JointCounts]], partly_broken=int, springs=int, damaged_at_start=JointCounts,
-    others=others(int), wall_sheets=optional(int), wall_sheets_partly=optional(int))
+Broken = table("Broken", total=int, column_beam=int, brace_beam=int, by_side=dict[str, int], by_storey=dict[str, int],
+               by_place=dict[str, dict[str, JointCounts]], partly_broken=int, springs=int, damaged_at_start=JointCounts,
+               others=others(int), wall_sheets=optional(int), wall_sheets_partly=optional(int))
 Values = table(
     "Values", scenario=str, model=str, earthquake=bool, snow=bool, snow_depth_m=float, snow_mass_kg=float,
     weight=Weight, diagnosis=Diagnosis, joint_damping=float | None, walls=Walls | None, record=Record | None, dt=float,
@@ -72,10 +66,9 @@ Values = table(
     residual_drift=Drifts, final_amplitude=Drifts, still_moving=bool, events=list[Event], energy=Energy, solver=Solver,
     versions=Versions, structures=dict[str, Structure], quantities=Quantities, verdict=str, sentence=str,
     made_from=dict, ensemble=optional(Ensemble))
-TownSummary = table(
-    "TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool, collapse_time_s=float | None,
-    tilt_time_s=float | None, dt=float, record=Record | None, versions=Versions, events=list[Event],
-    ensemble=optional(Ensemble))
+TownSummary = table("TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool,
+                    collapse_time_s=float | None, tilt_time_s=float | None, dt=float, record=Record | None,
+                    versions=Versions, events=list[Event], ensemble=optional(Ensemble))
 """Of a town, for sentences and pictures. Times are those of the first house that tilts or collapses; events have their
 lots.
 """
@@ -88,9 +81,8 @@ class Summary(Values):
     def read(cls, folder):
         """Of the run in a folder. Raises RunError."""
         path = Path(folder) / NAME
-        require_regular(
-            path, "no finished run is there: an interrupted one has no summary before it is resumed to its end"
-        )
+        require_regular(path,
+                        "no finished run is there: an interrupted one has no summary before it is resumed to its end")
         try:
             return parse(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as problem:
@@ -113,15 +105,11 @@ class Summary(Values):
         found = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
             **{"model": "A", **changes, "structures": {}}
         )
-        lost, main = found.columns.fallen + found.columns.loose, {
-            "broken": found.broken.total,
-            "partly_broken": found.broken.partly_broken,
-        }
+        lost, main = found.columns.fallen + found.columns.loose, {"broken": found.broken.total,
+                                                                  "partly_broken": found.broken.partly_broken}
         drifts = {"peak_drift": found.largest_drift()[0], "residual_drift": found.largest_drift("residual_drift")[0]}
-        structures = {
-            "main": {**main, **drifts, "columns_lost": lost, "collapsed": found.collapsed},
-            **changes.get("structures", {}),
-        }
+        structures = {"main": {**main, **drifts, "columns_lost": lost, "collapsed": found.collapsed},
+                      **changes.get("structures", {})}
         found = found.changed(structures=structures)
         return found.changed(verdict=changes.get("verdict", found.main.verdict))
 
@@ -139,12 +127,8 @@ class Summary(Values):
         """(drift, storey, 'ns' | 'ew') of the largest drift; zero where none is known. key: 'peak_drift',
         'residual_drift' or 'final_amplitude'
         """
-        drifts = (
-            (value, storey, direction)
-            for storey, pair in getattr(self, key).items()
-            for direction, value in pair.items()
-            if value is not None
-        )
+        drifts = ((value, storey, direction) for storey, pair in getattr(self, key).items()
+                  for direction, value in pair.items() if value is not None)
         return max(drifts, default=(0.0, "storey1", "ns"))
 
     def main_mode(self, when, direction):

@@ -22,18 +22,12 @@ def summary(name, summaries):
     events = [replace(event, lot=lot) for lot, one in summaries.items() for event in one.events if event.kind in SHOWN]
     lots = list(summaries.values())
     verdicts = [lot.verdict for lot in lots]
-    return TownSummary(
-        model=name,
-        verdict=max(verdicts, key=verdict.STATES.index),
-        verdicts=verdicts,
-        collapsed=any(lot.collapsed for lot in lots),
-        collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
-        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
-        dt=lots[0].dt,
-        record=lots[0].record,
-        versions=lots[0].versions,
-        events=sorted(events, key=lambda event: event.time_s),
-    )
+    return TownSummary(model=name, verdict=max(verdicts, key=verdict.STATES.index), verdicts=verdicts,
+                       collapsed=any(lot.collapsed for lot in lots),
+                       collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
+                       tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
+                       dt=lots[0].dt, record=lots[0].record, versions=lots[0].versions,
+                       events=sorted(events, key=lambda event: event.time_s))
 
 
 def town_frames(name, lots):
@@ -85,12 +79,8 @@ class _Lot:
     def state(self, k):
         """Positions, orientations, loads and broken springs in a frame; the last frame of a run that ended earlier."""
         run, k = self.run, min(k, len(self.run.time) - 1)
-        return (
-            self.placed(run.position[k]).astype("f4"),
-            self.turned(run.orientation[k]).astype("f4"),
-            run.load[k],
-            run.broken[k],
-        )
+        return (self.placed(run.position[k]).astype("f4"), self.turned(run.orientation[k]).astype("f4"), run.load[k],
+                run.broken[k])
 
 
 def _elements(lots):
@@ -99,31 +89,25 @@ def _elements(lots):
     def taken(key):
         return [getattr(e, key)[k] for lot, e in parts for k in lot.kept]
 
-    return frames.Elements(
-        name=[f"{lot.name}.{e.name[k]}" for lot, e in parts for k in lot.kept],
-        group=[f"{lot.name}.{e.group[k]}" for lot, e in parts for k in lot.kept],
-        **{key: taken(key) for key in ("kind", "material", "vertices", "faces")},
-        **{key: np.array(taken(key)) for key in ("storey", "fixed")},
-        position=np.concatenate([lot.placed(e.position) for lot, e in parts]),
-        orientation=np.concatenate([lot.turned(e.orientation) for lot, e in parts]),
-    )
+    return frames.Elements(name=[f"{lot.name}.{e.name[k]}" for lot, e in parts for k in lot.kept],
+                           group=[f"{lot.name}.{e.group[k]}" for lot, e in parts for k in lot.kept],
+                           **{key: taken(key) for key in ("kind", "material", "vertices", "faces")},
+                           **{key: np.array(taken(key)) for key in ("storey", "fixed")},
+                           position=np.concatenate([lot.placed(e.position) for lot, e in parts]),
+                           orientation=np.concatenate([lot.turned(e.orientation) for lot, e in parts]))
 
 
 def _joints(lots, offsets):
     """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
     parts = [lot.run.joints for lot in lots]
-    ends = {
-        key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)]
-        for key in ("a", "b")
-    }
+    ends = {key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)]
+            for key in ("a", "b")}
     return frames.Joints(
         name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
         **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey", "side")},
         **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
-        **{
-            key: np.concatenate([getattr(j, key) for j in parts])
-            for key in ("anchor", "springs", "damaged", "strength")
-        },
+        **{key: np.concatenate([getattr(j, key) for j in parts])
+           for key in ("anchor", "springs", "damaged", "strength")},
     )
 
 

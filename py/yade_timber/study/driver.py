@@ -44,8 +44,7 @@ class Task:
         """Arguments of the script: the options that decide results, and those with which the driver runs it."""
         own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
         alone = dict.fromkeys(("ensemble", "jobs", "export")) | {
-            "report": False,
-            "checkpoint": options(RunOptions)["checkpoint"].default,
+            "report": False, "checkpoint": options(RunOptions)["checkpoint"].default
         }
         return replace(self.options, **own, **alone).words()
 
@@ -140,8 +139,7 @@ class _Process:
             raise RunError(f"{path}: no regular file; remove it, or take another folder")
         with open(path, "w") as log:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                          start_new_session=True,
-                                          env={**os.environ, "OMP_NUM_THREADS": "1"})
+                                          start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
 
     def has_ended(self):
         return self.child is None or self.child.poll() is not None

@@ -23,9 +23,8 @@ class Parser(argparse.ArgumentParser):
     """ArgumentParser that describes itself by a docstring and reports bad input in one line."""
 
     def __init__(self, about, **settings):
-        super().__init__(
-            description=about, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings
-        )
+        super().__init__(description=about, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False,
+                         **settings)
 
     def error(self, message):
         self.exit(1, f"error: {' '.join(message.split())} (options: -h)\n")
@@ -108,10 +107,8 @@ def results_folder(text):
 
 def add_driver_options(parser, folder):
     """Options of every study: folder of the runs and number of processes."""
-    parser.add_argument(
-        "--out", type=results_folder, default=folder, metavar="DIR",
-        help="folder that holds a folder for each run (default %(default)s)",
-    )
+    parser.add_argument("--out", type=results_folder, default=folder, metavar="DIR",
+                        help="folder that holds a folder for each run (default %(default)s)")
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
 
 
@@ -134,9 +131,8 @@ def run_of(script, house, earthquake, snow, given):
     house, earthquake, snow: of the script
     """
     motion = () if earthquake else options(MotionRequest)
-    return scripted(
-        script, house, earthquake, snow, **{name: value for name, value in given.items() if name not in motion}
-    )
+    return scripted(script, house, earthquake, snow,
+                    **{name: value for name, value in given.items() if name not in motion})
 
 
 def selected(text, known, option):

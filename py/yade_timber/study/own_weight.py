@@ -23,12 +23,10 @@ def check_own_weight(house, snow, scripts):
     Raises RunError without YADE, and when the run fails.
     """
     with tempfile.TemporaryDirectory() as folder:
-        options = RunOptions(
-            house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True, out=Path(folder)
-        )
-        done = subprocess.run(
-            [*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL, capture_output=True, text=True
-        )
+        options = RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True,
+                             out=Path(folder))
+        done = subprocess.run([*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True)
         if done.returncode:
             lines = [line for line in done.stderr.splitlines() if line.strip()]
             raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")

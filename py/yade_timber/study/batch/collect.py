@@ -15,16 +15,10 @@ RESULTS = {
     "collapse_time_s": "collapse_time_s",
     "tilt_time_s": "tilt_time_s",
     "tilt_direction": "tilt_direction",
-    **{
-        f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}"
-        for storey in (1, 2)
-        for direction in ("ns", "ew")
-    },
-    **{
-        f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}"
-        for storey in (1, 2)
-        for direction in ("ns", "ew")
-    },
+    **{f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}" for storey in (1, 2)
+       for direction in ("ns", "ew")},
+    **{f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}" for storey in (1, 2)
+       for direction in ("ns", "ew")},
     "joints": "joints.total",
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
@@ -58,15 +52,12 @@ def _result(row, task, columns):
     table = encode(summary) or {}
     error = None if summary else task.error
     return {
-        "run": row.name,
-        "line": row.line,
-        "description": row.description or None,
+        "run": row.name, "line": row.line, "description": row.description or None,
         "status": "failed" if error else "done" if summary else "unfinished",
         "error": error and f"{row.table.name}:{row.line}: {error}",
-        **{column: row.cells.get(column) for column in columns},
-        "peak_drift": summary and summary.largest_drift()[0],
+        **{column: row.cells.get(column) for column in columns}, "peak_drift": summary and summary.largest_drift()[0],
         **{column: _at(table, path) for column, path in RESULTS.items()},
-        "events": "; ".join(f"{one.time_s:.2f} s {event(one)}" for one in (summary.events if summary else ())) or None,
+        "events": "; ".join(f"{one.time_s:.2f} s {event(one)}" for one in (summary.events if summary else ())) or None
     }
 
 

@@ -37,9 +37,8 @@ NO_EARTHQUAKE = "none"
 class HouseChanges:
     """Columns that change the house of a row."""
 
-    set: str = option(
-        str, "changes of the house: key=value;key=value, keys as in house files, list items counted from 1"
-    )
+    set: str = option(str,
+                      "changes of the house: key=value;key=value, keys as in house files, list items counted from 1")
     braces: str = option(str, "names of braces and walls to add to the house, separated by ;")
     strength: float = option(float, "factor on the strength of all joints (default 1)", default=1.0)
 
@@ -77,23 +76,16 @@ class Row:
 
     def value(self, column):
         """The value of a column in its type, or its default. Raises RunError for text that is no such value."""
-        return (
-            read(COLUMNS[column], self.cells[column], f"{self.where(column)}:")
-            if column in self.cells
-            else COLUMNS[column].default
-        )
+        return (read(COLUMNS[column], self.cells[column], f"{self.where(column)}:") if column in self.cells
+                else COLUMNS[column].default)
 
     def options(self, house=None):
         """RunOptions of scripts/house.py. house: file in place of the row's. Raises RunError."""
         files = {"house": str(house or self.house), "record": self.record, "then": self.then}
         calm = self.cells.get("record") == NO_EARTHQUAKE
         door = Door(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
-        return RunOptions(
-            quake=not calm,
-            door=door,
-            **{column: self.value(column) for column in DECISIVE if column not in files},
-            **files,
-        )
+        return RunOptions(quake=not calm, door=door,
+                          **{column: self.value(column) for column in DECISIVE if column not in files}, **files)
 
     @property
     def house(self):
@@ -176,10 +168,8 @@ def read_table(path):
             )
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
-        above = {
-            head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
-            for head, cell in zip(heads, cells)
-        }
+        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
+                 for head, cell in zip(heads, cells)}
         given = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
         if "house" not in rows[-1].cells:

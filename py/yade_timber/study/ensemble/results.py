@@ -15,11 +15,8 @@ from . import statistics
 
 ROWS = (
     ("peak drift", "largest_peak_drift", ratio),
-    *(
-        (f"  storey {k} {name}", f"peak_drift.storey{k}.{key}", ratio)
-        for k in (1, 2, 3)
-        for key, name in (("ns", "N-S"), ("ew", "E-W"))
-    ),
+    *((f"  storey {k} {name}", f"peak_drift.storey{k}.{key}", ratio) for k in (1, 2, 3)
+      for key, name in (("ns", "N-S"), ("ew", "E-W"))),
     ("residual drift", "largest_residual_drift", ratio),
     ("broken joints", "broken.total", "{:.4g}".format),
     ("  column-beam", "broken.column_beam", "{:.4g}".format),
@@ -40,16 +37,10 @@ def content(done, errors):
     """
     found, count = list(done.values()), len(done)
     frequency = statistics.outcomes(found)
-    return {
-        "runs": count + len(errors),
-        "finished": list(done),
-        "errors": errors,
-        "disturbance_m": LARGEST,
-        "shown": statistics.representative(done),
-        "outcomes": {state: statistics.share(number, count) for state, number in frequency.items()},
-        "numbers": statistics.spreads(found),
-        "words": statistics.counts(found),
-    }
+    return {"runs": count + len(errors), "finished": list(done), "errors": errors, "disturbance_m": LARGEST,
+            "shown": statistics.representative(done),
+            "outcomes": {state: statistics.share(number, count) for state, number in frequency.items()},
+            "numbers": statistics.spreads(found), "words": statistics.counts(found)}
 
 
 def write(folder, found, done, planned):
@@ -61,11 +52,8 @@ def write(folder, found, done, planned):
     write_text(folder / NAME, json.dumps(found, indent=1, allow_nan=False) + "\n")
     write_text(folder / TABLE, table_text(found, done, planned))
     shown = found["shown"]
-    return [
-        folder / NAME,
-        folder / TABLE,
-        *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done))),
-    ]
+    return [folder / NAME, folder / TABLE,
+            *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done)))]
 
 
 def table_text(found, done, planned):
@@ -77,11 +65,8 @@ def table_text(found, done, planned):
     rows = []
     for number, task in enumerate(planned, 1):
         summary = done.get(number)
-        known = (
-            {**statistics.words(summary), **statistics.numbers(summary)}
-            if summary
-            else {"error": found["errors"][number]}
-        )
+        known = ({**statistics.words(summary), **statistics.numbers(summary)} if summary
+                 else {"error": found["errors"][number]})
         known = {place: value for place, value in known.items() if value != statistics.NONE}
         place = task.folder.relative_to(task.folder.parents[1])
         rows.append((number, place, *(known.get(column, "") for column in header[2:])))
@@ -94,12 +79,8 @@ def draw(found, done):
     standing = [summary.largest_drift()[0] for summary in done.values() if not summary.collapsed]
     failed = {"failed": len(found["errors"])} if found["errors"] else {}
     outcomes = {**{state: known["runs"] for state, known in found["outcomes"].items()}, **failed}
-    return Ensemble(
-        run=found["shown"],
-        runs=found["runs"],
-        outcomes=outcomes,
-        peak_drift_standing=[min(standing), max(standing)] if standing else None,
-    )
+    return Ensemble(run=found["shown"], runs=found["runs"], outcomes=outcomes,
+                    peak_drift_standing=[min(standing), max(standing)] if standing else None)
 
 
 def show(folder, run, summary):
@@ -126,14 +107,11 @@ def show(folder, run, summary):
 def lines(found, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
     count = len(found["finished"])
-    heads = [
-        f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m",
-        *map(_outcome, found["outcomes"].items()),
-    ]
+    heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m",
+             *map(_outcome, found["outcomes"].items())]
     heads += [f"failed: {counted(len(found['errors']), 'run')}"] if found["errors"] else []
-    rows = [
-        _row(label, found["numbers"][place], text, count) for label, place, text in ROWS if place in found["numbers"]
-    ]
+    rows = [_row(label, found["numbers"][place], text, count) for label, place, text in ROWS
+            if place in found["numbers"]]
     number = found["shown"]
     reason = (
         f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of"
@@ -150,6 +128,5 @@ def _outcome(item):
 
 def _row(label, known, text, count):
     part = f"in {counted(known['runs'], 'run')}" if known["runs"] < count else ""
-    return COLUMNS.format(
-        label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])), part
-    ).rstrip()
+    return COLUMNS.format(label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])),
+                          part).rstrip()

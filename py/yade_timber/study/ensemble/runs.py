@@ -17,10 +17,8 @@ def tasks(script, options):
     """Tasks of the runs of an ensemble, the first one undisturbed. script: name without .py; options: RunOptions of the
     ensemble
     """
-    return [
-        Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
-        for k in range(1, options.ensemble + 1)
-    ]
+    return [Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
+            for k in range(1, options.ensemble + 1)]
 
 
 def complete(script, options):

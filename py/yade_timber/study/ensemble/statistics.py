@@ -33,11 +33,8 @@ def numbers(found):
     """{path: number} of a summary, with the largest of its peak drifts and of its residual drifts. Lists have no
     numbers.
     """
-    own = {
-        place: value
-        for place, value in leaves(encode(found))
-        if isinstance(value, Real) and not isinstance(value, bool)
-    }
+    own = {place: value for place, value in leaves(encode(found))
+           if isinstance(value, Real) and not isinstance(value, bool)}
     largest = {f"largest_{key}": found.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
     return {**largest, **own}
 
@@ -45,11 +42,8 @@ def numbers(found):
 def words(found):
     """{path: text} of the flags and texts among the results of a summary, NONE for what has no value."""
     results = leaves({key: value for key, value in encode(found).items() if key not in FIXED})
-    return {
-        place: str(value).lower() if not isinstance(value, str) else value
-        for place, value in results
-        if isinstance(value, (str, bool)) or value is None
-    }
+    return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results
+            if isinstance(value, (str, bool)) or value is None}
 
 
 # --- of all summaries -------------------------------------------------------------------------------------------------
@@ -58,10 +52,8 @@ def words(found):
 def spread(values):
     """Number, median, quartiles (linear interpolation between ordered values) and range of some values."""
     quantiles = np.quantile(np.array(values, float), (0, 0.25, 0.5, 0.75, 1)).tolist()
-    return {
-        "runs": len(values),
-        **dict(zip(("lowest", "lower_quartile", "median", "upper_quartile", "highest"), quantiles)),
-    }
+    return {"runs": len(values),
+            **dict(zip(("lowest", "lower_quartile", "median", "upper_quartile", "highest"), quantiles))}
 
 
 def spreads(summaries):
@@ -104,9 +96,7 @@ def representative(summaries):
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
     chosen = {number: found for number, found in summaries.items() if found.verdict == outcome}
-    values = {
-        number: found.collapse_time_s if found.collapsed else found.largest_drift()[0]
-        for number, found in chosen.items()
-    }
+    values = {number: found.collapse_time_s if found.collapsed else found.largest_drift()[0]
+              for number, found in chosen.items()}
     middle = np.median(list(values.values()))
     return min(values, key=lambda number: abs(values[number] - middle))

@@ -56,11 +56,9 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [
-        Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", _doubled(name, group)),))
-        for name, group in groups.items()
-        if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])
-    ]
+    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", _doubled(name, group)),))
+            for name, group in groups.items()
+            if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
 
 
 def _doubled(name, group):
@@ -82,10 +80,8 @@ def in_walls(model, names):
     lines = {}
     for name in names:
         lines.setdefault(bay_line(name), []).append(name)
-    return [
-        Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),))
-        for line, bays in lines.items()
-    ]
+    return [Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),))
+            for line, bays in lines.items()]
 
 
 def bay_line(name):
@@ -115,11 +111,8 @@ def line_text(model, name, bays=1):
     at = ys[0] if along == "x" else xs[0]
     lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
     low, high = ("south", "north") if along == "x" else ("west", "east")
-    side = (
-        low
-        if at < min(lines) + 0.01
-        else high if at > max(lines) - 0.01 else f"inner {'E-W' if along == 'x' else 'N-S'}"
-    )
+    side = (low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01
+            else f"inner {'E-W' if along == 'x' else 'N-S'}")
     return f"{measure}{number}: {structure}, storey {storey}, {side} wall"
 
 

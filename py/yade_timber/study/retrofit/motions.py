@@ -42,16 +42,14 @@ def records(folder, target=None, units=None):
     folder = Path(folder).resolve()
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")
-    files = sorted(
-        path for path in folder.iterdir() if path.suffix.lower() in RECORD_FILES and not _is_other_table(path)
-    )
+    files = sorted(path for path in folder.iterdir()
+                   if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
     if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
     found = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
-    return [
-        (name, {"record": record, **stated, **window(record, units), **_text(target)}) for name, record in found.items()
-    ]
+    return [(name, {"record": record, **stated, **window(record, units), **_text(target)})
+            for name, record in found.items()]
 
 
 def _is_other_table(path):
@@ -86,10 +84,8 @@ def window(record, units=None):
     begin = onset(motion)
     if begin is None:
         raise RecordError(f"{record}: no shaking")
-    return {
-        "start": f"{max(0.0, begin - LEAD):.2f}",
-        "end": f"{min(motion.duration, begin + significant_duration(motion) + TAIL):.2f}",
-    }
+    return {"start": f"{max(0.0, begin - LEAD):.2f}",
+            "end": f"{min(motion.duration, begin + significant_duration(motion) + TAIL):.2f}"}
 
 
 def _text(target):

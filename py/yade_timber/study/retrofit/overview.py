@@ -19,9 +19,8 @@ table { border-collapse: collapse; } td, th { padding: 2px 8px; border-bottom: 1
 td.number { text-align: right; white-space: nowrap; } td.measure { min-width: 24em; } .note { color: #444; }
 circle:hover { stroke: black; stroke-width: 2; }
 """
-HEADER = (
-    "rank", "candidate", "description", "motions", "ratio", "collapses", "house_collapses", "p_holm", "test", "result",
-)
+HEADER = ("rank", "candidate", "description", "motions", "ratio", "collapses", "house_collapses", "p_holm", "test",
+          "result")
 
 
 def table_text(results):
@@ -50,15 +49,11 @@ def summary(results):
 def page(title, about, results, house, pictures=()):
     """Text of index.html. about: sentences about the ranking; pictures: [(text, folder)] of runs with pictures."""
     rows = "\n".join(_row(rank, result, house) for rank, result in enumerate(results, 1))
-    shown = [
-        (text, _link(f"{folder}/report.html", "report"), _link(f"{folder}/player.html", "player"))
-        for text, folder in pictures
-    ]
+    shown = [(text, _link(f"{folder}/report.html", "report"), _link(f"{folder}/player.html", "player"))
+             for text, folder in pictures]
     links = "".join(f"<li>{_text(text)}: {report}, {player}</li>" for text, report, player in shown)
-    heads = (
-        "", "measure", "motions", "drift / drift of the house", "collapses (house)", "p", "result",
-        "each motion: 1/3 to 3, log",
-    )
+    heads = ("", "measure", "motions", "drift / drift of the house", "collapses (house)", "p", "result",
+             "each motion: 1/3 to 3, log")
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{_text(title)}</title><style>{STYLE}</style></head><body>
 <h1>{_text(title)}</h1>
@@ -87,11 +82,8 @@ def _text(value):
 
 def _row(rank, result, house):
     entry = result.entry
-    cells = (
-        f"{result.ratio:.2f}" if math.isfinite(result.ratio) else "-",
-        f"{result.collapses} ({result.house_collapses})",
-        "-" if result.p is None else f"{result.p:.3f}",
-    )
+    cells = (f"{result.ratio:.2f}" if math.isfinite(result.ratio) else "-",
+             f"{result.collapses} ({result.house_collapses})", "-" if result.p is None else f"{result.p:.3f}")
     colour = COLORS.get(result.words, "#444")
     numbers = "".join(f"<td class=number>{cell}</td>" for cell in cells)
     return (f"<tr><td class=number>{rank}</td><td class=measure>{_text(entry.candidate.text)}</td><td "
@@ -122,10 +114,8 @@ def strip(entry, house):
 
 def _house(house):
     """Drifts of the house as it is, with links to its runs."""
-    texts = (
-        (motion, run["run"], "collapses" if run["collapsed"] else ratio(run["peak_drift"]))
-        for motion, run in house.runs.items()
-    )
+    texts = ((motion, run["run"], "collapses" if run["collapsed"] else ratio(run["peak_drift"]))
+             for motion, run in house.runs.items())
     return ", ".join(f"{_link(f'{folder}/', motion)}: {result}" for motion, folder, result in texts)
 
 

@@ -38,10 +38,8 @@ def rounds(motions, count):
     """[(motions so far, measures in the round)]: rounds of the selection, then the test under all other motions."""
     number = min(selections(count), (motions - LEAST_TESTS) // ROUND)
     ratio = count / FINALISTS
-    return [
-        *((ROUND * (k + 1), math.ceil(count / ratio ** (k / number) - 1e-9)) for k in range(number)),
-        (motions, min(count, FINALISTS)),
-    ]
+    return [*((ROUND * (k + 1), math.ceil(count / ratio ** (k / number) - 1e-9)) for k in range(number)),
+            (motions, min(count, FINALISTS))]
 
 
 def cost(motions, count):
@@ -139,9 +137,8 @@ class Comparison:
         responses.
         """
         if self.by_collapses:
-            return exact_sign(
-                int((self.collapses & ~self.house_collapses).sum()), int((self.house_collapses & ~self.collapses).sum())
-            )
+            return exact_sign(int((self.collapses & ~self.house_collapses).sum()),
+                              int((self.house_collapses & ~self.collapses).sum()))
         return signed_rank(self.differences)
 
     @property
@@ -211,9 +208,8 @@ def ranking(entries, house, tests):
     finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
     compared = {id(entry): compare(entry, house, tests) for entry in finalists}
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
-    results = [
-        _result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))) for entry in entries
-    ]
+    results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry)))
+               for entry in entries]
     return sorted(
         results,
         key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf), result.comparison.mean),

@@ -136,14 +136,11 @@ class Ranking:
 
     def _rows(self, pairs):
         """Rows of a batch table for [(candidate, motion)], written to the folder."""
-        cells = [
-            {**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"}
-            for candidate, (name, motion) in pairs
-        ]
+        cells = [{**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"}
+                 for candidate, (name, motion) in pairs]
         columns = [column for column in (*COLUMNS, "description") if any(column in row for row in cells)]
-        write_text(
-            self.folder / TABLE, csv_text(columns, [[row.get(column, "") for column in columns] for row in cells])
-        )
+        write_text(self.folder / TABLE,
+                   csv_text(columns, [[row.get(column, "") for column in columns] for row in cells]))
         return read_table(self.folder / TABLE)
 
     def task(self, entry, motion):
