@@ -17,9 +17,8 @@ from yade_timber.base.table import csv_text
 from yade_timber.house.disturbance import LARGEST
 from yade_timber.study.driver import run_missing
 from yade_timber.study.ensemble import tasks
-from yade_timber.study.options import (
-    Parser, add_driver_options, count, non_negative, positive, results_folder, run_script, selected,
-)
+from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, results_folder,
+                                       run_script, selected)
 
 CASES = ("modelC2_snow", "modelA_quake", "modelB1_quake")
 SMALL_STEP = 1e-4
@@ -31,23 +30,17 @@ NAMES = ("small", "default")
 def arguments():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/ensemble_steps")
-    parser.add_argument(
-        "--runs", type=count, default=16, metavar="N", help="runs of each case at each time step (default %(default)s)"
-    )
-    parser.add_argument(
-        "--dt", type=positive, default=SMALL_STEP, metavar="S", help="the small time step [s] (default %(default)g)"
-    )
+    parser.add_argument("--runs", type=count, default=16, metavar="N",
+                        help="runs of each case at each time step (default %(default)s)")
+    parser.add_argument("--dt", type=positive, default=SMALL_STEP, metavar="S",
+                        help="the small time step [s] (default %(default)g)")
     parser.add_argument("--cases", metavar="RUN,RUN", help=f"run scripts (default {','.join(CASES)})")
-    parser.add_argument(
-        "--start", type=non_negative, default=15.0, metavar="S",
-        help="start of the part of the motion that is run [s] (default %(default)g)",
-    )
-    parser.add_argument(
-        "--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)"
-    )
-    parser.add_argument(
-        "--to", type=results_folder, metavar="DIR", help="folder of the tables (default: the folder of the runs)"
-    )
+    parser.add_argument("--start", type=non_negative, default=15.0, metavar="S",
+                        help="start of the part of the motion that is run [s] (default %(default)g)")
+    parser.add_argument("--end", type=positive, default=29.0, metavar="S",
+                        help="end of that part [s] (default %(default)g)")
+    parser.add_argument("--to", type=results_folder, metavar="DIR",
+                        help="folder of the tables (default: the folder of the runs)")
     parser.add_argument("--collect", action="store_true", help="run nothing; compare the runs there are")
     return parser.parse_args()
 
@@ -56,16 +49,10 @@ def plan(options):
     """{(case, name of the time step): tasks}"""
     same = ("--start", f"{options.start:g}", "--end", f"{options.end:g}", "--until-collapse")
     steps = dict(zip(NAMES, (("--dt", f"{options.dt:g}"), ())))
-    cases = (
-        selected(options.cases, sorted(path.stem for path in SCRIPTS.glob("model*.py")), "--cases")
-        if options.cases
-        else CASES
-    )
-    return {
-        (case, name): tasks(case, options.out / case / name, (*same, *step), options.runs, frames=False)
-        for case in cases
-        for name, step in steps.items()
-    }
+    cases = (selected(options.cases, sorted(path.stem for path in SCRIPTS.glob("model*.py")), "--cases")
+             if options.cases else CASES)
+    return {(case, name): tasks(case, options.out / case / name, (*same, *step), options.runs, frames=False)
+            for case in cases for name, step in steps.items()}
 
 
 def collect(planned):
@@ -73,10 +60,8 @@ def collect(planned):
     done = {key: [found for task in group if (found := task.summary)] for key, group in planned.items()}
     cases = dict.fromkeys(case for case, _ in done)
     found = [entry for case in cases for entry in two_ensembles.compare(case, *(done[case, name] for name in NAMES))]
-    steps = {
-        name: sorted({run["dt"] for (_, other), runs in done.items() for run in runs if other == name})
-        for name in NAMES
-    }
+    steps = {name: sorted({run["dt"] for (_, other), runs in done.items() for run in runs if other == name})
+             for name in NAMES}
     return found, steps, sum(map(len, done.values()))
 
 

@@ -21,11 +21,8 @@ def main():
     options = parser.parse_args()
     given = run_options(options)
     tasks = [Task(run, options.out / run, run_of(run, *parse_run(run), given)) for run in RUNS]
-    summaries = {
-        task.script: summary
-        for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items()
-        if summary is not None
-    }
+    summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items()
+                 if summary is not None}
     results = judge(summaries)
     print(report.markdown(results, summaries))
     for path in report.write(options.out, results, summaries):

@@ -29,38 +29,23 @@ def all_cases(seeds, records):
 
 def tasks_of(case, options, folder):
     """{run: task} of a motion. Only the shipped case has the runs without an earthquake."""
-    return {
-        run: Task(run, folder / case / run, scripted(run, *parse_run(run), **options))
-        for run in RUNS
-        if case == SHIPPED or parse_run(run)[1]
-    }
+    return {run: Task(run, folder / case / run, scripted(run, *parse_run(run), **options)) for run in RUNS
+            if case == SHIPPED or parse_run(run)[1]}
 
 
 def main():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/robustness")
-    parser.add_argument(
-        "--seeds",
-        type=list_of(seed),
-        default=[0, 1, 2, 4, 5],
-        metavar="N,N",
-        help="other synthetic motions (default 0,1,2,4,5)",
-    )
-    parser.add_argument(
-        "--record",
-        type=record,
-        action="append",
-        default=[],
-        metavar="FILE_OR_PREFIX",
-        help="a recorded motion besides; may be repeated",
-    )
+    parser.add_argument("--seeds", type=list_of(seed), default=[0, 1, 2, 4, 5], metavar="N,N",
+                        help="other synthetic motions (default 0,1,2,4,5)")
+    parser.add_argument("--record", type=record, action="append", default=[], metavar="FILE_OR_PREFIX",
+                        help="a recorded motion besides; may be repeated")
     options = parser.parse_args()
     cases = all_cases(options.seeds, options.record)
     tasks = {case: tasks_of(case, given, options.out) for case, (_, given) in cases.items()}
     done = run_missing([task for some in tasks.values() for task in some.values()], SCRIPTS, options.jobs)
-    summaries = {
-        case: {run: done[task] for run, task in some.items() if done[task] is not None} for case, some in tasks.items()
-    }
+    summaries = {case: {run: done[task] for run, task in some.items() if done[task] is not None}
+                 for case, some in tasks.items()}
     print(comparison.write({case: about for case, (about, _) in cases.items()}, summaries, options.out))
     if None in done.values():
         raise RunError("some runs failed; run.json in their folders contains the error")

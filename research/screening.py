@@ -17,17 +17,15 @@ from timber_research.screening import cells, picture, report
 from timber_research.screening.collect import collect
 from yade_timber.study.batch import read_table, run_rows, write_runs
 from yade_timber.study.batch.tasks import task_of
-from yade_timber.study.options import (
-    Parser, add_driver_options, list_of, non_negative, positive, record, run_script, seed,
-)
+from yade_timber.study.options import (Parser, add_driver_options, list_of, non_negative, positive, record, run_script,
+                                       seed)
 
 
 def arguments():
     parser = Parser(__doc__)
     add_driver_options(parser, "results/screening")
-    parser.add_argument(
-        "--seeds", type=list_of(seed), default=[3, 0, 1, 2], metavar="N,N", help="synthetic motions (default 3,0,1,2)"
-    )
+    parser.add_argument("--seeds", type=list_of(seed), default=[3, 0, 1, 2], metavar="N,N",
+                        help="synthetic motions (default 3,0,1,2)")
     parser.add_argument(
         "--record",
         type=record,
@@ -39,13 +37,10 @@ def arguments():
             " repeated"
         ),
     )
-    parser.add_argument(
-        "--start", type=non_negative, default=15.0, metavar="S",
-        help="start of the part of synthetic motions [s] (default %(default)g)",
-    )
-    parser.add_argument(
-        "--end", type=positive, default=29.0, metavar="S", help="end of that part [s] (default %(default)g)"
-    )
+    parser.add_argument("--start", type=non_negative, default=15.0, metavar="S",
+                        help="start of the part of synthetic motions [s] (default %(default)g)")
+    parser.add_argument("--end", type=positive, default=29.0, metavar="S",
+                        help="end of that part [s] (default %(default)g)")
     parser.add_argument("--dt", type=positive, default=4e-4, metavar="S", help="time step [s] (default %(default)g)")
     parser.add_argument("--cells", type=numbers, default=range(design.RUNS), metavar="0-7,9",
                         help=f"cells to run (default 0-{design.RUNS - 1}); all that are done are analysed")

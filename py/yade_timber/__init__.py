@@ -22,10 +22,8 @@ for _package, _function in ((house, House), (motion, _ground_motion), (run, _run
     _make_callable(_package, _function)
 
 __all__ = ["House", "RunResult", "house", "load_run", "motion", "run"]
-IN_YADE = (
-    "SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "polyhedron",
-    "set_velocity", "snow", "stable_dt", "timber",
-)
+IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene",
+           "polyhedron", "set_velocity", "snow", "stable_dt", "timber")
 """Functions that need a YADE session."""
 
 if _host.running():

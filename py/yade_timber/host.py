@@ -36,11 +36,8 @@ def host_facts() -> dict:
     """Version, features (space separated, sorted) and Python of the running YADE."""
     import yade.config
 
-    return {
-        "yade": yade.config.version,
-        "features": " ".join(sorted(set(yade.config.features))),
-        "python": "%d.%d" % sys.version_info[:2],
-    }
+    return {"yade": yade.config.version, "features": " ".join(sorted(set(yade.config.features))),
+            "python": "%d.%d" % sys.version_info[:2]}
 
 
 def build_record(module_file) -> dict:
@@ -152,8 +149,7 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
     loop = wrapper.InteractionLoop(
         [wrapper.Ig2_Sphere_Sphere_ScGeom()],
-        [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()],
-        [],
+        [wrapper.Ip2_FrictMat_FrictMat_FrictPhys(), wrapper.Ip2_ElastMat_ElastMat_NormPhys()], []
     )
     check_value("InteractionLoop functors", (1, 2, 0), plugin.count_contact_functors(loop), record, host)
 
@@ -206,14 +202,10 @@ def close_servers():
     YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the
     other one lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
     """
-    handlers = {"PythonConsoleSocketEmulator"} | (
-        {"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ else set()
-    )
-    servers = [
-        o
-        for o in gc.get_objects()
-        if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers
-    ]
+    handlers = {"PythonConsoleSocketEmulator"} | ({"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ
+                                                  else set())
+    servers = [o for o in gc.get_objects()
+               if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers]
     threads = [threading.Thread(target=_close, args=(server,), daemon=True) for server in servers]
     for server, thread in zip(servers, threads):
         with suppress(OSError):  # an earlier call closes it

@@ -188,12 +188,8 @@ def very_stable(c2):
 
 
 def snow_increases_damage(b1_snow, b1):
-    holds = (
-        not b1_snow.collapsed
-        and lost_columns(b1_snow) > lost_columns(b1)
-        and leaning(b1_snow) > leaning(b1)
-        and more_damaged(b1_snow, b1)
-    )
+    holds = (not b1_snow.collapsed and lost_columns(b1_snow) > lost_columns(b1) and leaning(b1_snow) > leaning(b1)
+             and more_damaged(b1_snow, b1))
     return holds, runs_text(b1_snow, b1)
 
 
@@ -221,11 +217,8 @@ CLAIMS = {  # name -> (claim, check, runs that the check takes)
            tilts_and_collapses_when_shaken, ("modelA_quake",)),
     "E2": ("B, earthquake: does not collapse", does_not_collapse, ("modelB_quake",)),
     "E3": ("C, earthquake: does not collapse", does_not_collapse, ("modelC_quake",)),
-    "S1": (
-        "A, snow: tilts as soon as the run begins, has collapsed at about 12 s",
-        tilts_and_collapses_under_snow,
-        ("modelA_snow",),
-    ),
+    "S1": ("A, snow: tilts as soon as the run begins, has collapsed at about 12 s", tilts_and_collapses_under_snow,
+           ("modelA_snow",)),
     "S2": ("B, snow: stands still", stands_still, ("modelB_snow",)),
     "S3": ("C, snow: stands still", stands_still, ("modelC_snow",)),
     "D1": (
@@ -236,11 +229,8 @@ CLAIMS = {  # name -> (claim, check, runs that the check takes)
         east_side_broken,
         ("modelB1_quake",),
     ),
-    "D2": (
-        "B2, earthquake: sways N-S; more damage N-S and less E-W than B1",
-        south_side_broken,
-        ("modelB2_quake", "modelB1_quake"),
-    ),
+    "D2": ("B2, earthquake: sways N-S; more damage N-S and less E-W than B1", south_side_broken,
+           ("modelB2_quake", "modelB1_quake")),
     "D3": ("C1, earthquake: sways E-W, deforms less than B1", sways_less, ("modelC1_quake", "modelB1_quake")),
     "D4": ("C2, earthquake: very stable in both directions", very_stable, ("modelC2_quake",)),
     "Q1": ("B1, earthquake and snow: no collapse, but more columns fall, leans more, more damage than without snow",

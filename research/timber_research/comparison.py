@@ -28,15 +28,8 @@ def write(cases, summaries, folder):
     write_text(folder / "sways.csv", csv_text(*sways))
     text = (
         "\n".join(
-            [
-                "x: the claim holds; -: it does not; empty: not run.",
-                "",
-                *markdown_table(*claims),
-                "",
-                OUTCOME,
-                "",
-                *markdown_table(*sways),
-            ]
+            ["x: the claim holds; -: it does not; empty: not run.", "", *markdown_table(*claims), "", OUTCOME, "",
+             *markdown_table(*sways)]
         )
         + "\n"
     )
@@ -54,21 +47,16 @@ def claims_table(results):
     for same in zip(*results.values()):
         judged = [result.holds for result in same if result.holds is not None]
         rows.append(
-            (
-                f"{same[0].name}: {same[0].claim}",
-                f"{sum(judged)} of {len(judged)}",
-                *(SIGNS[result.holds] for result in same),
-            )
+            (f"{same[0].name}: {same[0].claim}", f"{sum(judged)} of {len(judged)}",
+             *(SIGNS[result.holds] for result in same))
         )
     return ("claim", "motions", *results), rows
 
 
 def houses_table(cases, summaries):
     """(heads, rows): outcome of each house in the earthquake without snow."""
-    rows = [
-        (case, about, *(outcome(summaries[case].get(f"model{house}_quake")) for house in HOUSES))
-        for case, about in cases.items()
-    ]
+    rows = [(case, about, *(outcome(summaries[case].get(f"model{house}_quake")) for house in HOUSES))
+            for case, about in cases.items()]
     return ("motion", "description", *HOUSES), rows
 
 

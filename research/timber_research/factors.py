@@ -49,9 +49,8 @@ def house_entries(house, factors, signs):
         level = factor.level(sign)
         entries = merged(merged(entries, level.entries), level.houses.get(house[0], {}))
     if "friction" in entries:
-        entries["friction"] = [
-            {"between": [name, name], "coefficient": entries["friction"][name]} for name in MATERIALS
-        ]
+        entries["friction"] = [{"between": [name, name], "coefficient": entries["friction"][name]}
+                               for name in MATERIALS]
     return {"extends": house, **entries}
 
 
@@ -81,10 +80,8 @@ def supports(support):
     """Frame and joints with columns and braces that stand on sills or on the foundation itself. support: 'sill' or
     'foundation'.
     """
-    stacks = {
-        name: _stack(structure["stack"], support == "sill")
-        for name, structure in shipped("paper")["structures"].items()
-    }
+    stacks = {name: _stack(structure["stack"], support == "sill")
+              for name, structure in shipped("paper")["structures"].items()}
     ends = [support, "beam", "floor"]
     joined = rules(column_ends={"between": ["column", ends]}, brace_ends={"between": ["brace", ends]})
     return {"structures": {name: {"stack": stack} for name, stack in stacks.items()}, **joined}
@@ -102,18 +99,15 @@ def fastened(**values):
 
 def inner_columns(*nodes):
     """The seven inner columns of a storey at these nodes (x, y)."""
-    groups = [
-        {**group, "at": [list(node) for node in nodes]} if "at" in group else group
-        for group in shipped("paper")["structures"]["main"]["columns"]
-    ]
+    groups = [{**group, "at": [list(node) for node in nodes]} if "at" in group else group
+              for group in shipped("paper")["structures"]["main"]["columns"]]
     return {"structures": {"main": {"columns": groups}}}
 
 
 def braces(house, turned):
     """Lines of braces of a shipped house; turned: foot and head of each brace exchanged."""
-    lines = {
-        name: structure["braces"].get("lines", []) for name, structure in shipped(f"model{house}")["structures"].items()
-    }
+    lines = {name: structure["braces"].get("lines", [])
+             for name, structure in shipped(f"model{house}")["structures"].items()}
     step = -1 if turned else 1
     return {
         "structures": {
@@ -138,9 +132,8 @@ FACTORS = (
     Factor("fittings", "two fittings a column end", (
         Level("one fitting at a column end", rules(column_ends={"number": 1})),
         Level("two fittings at a column end", rules(column_ends={"number": 2})))),
-    Factor("beams", "butting beams joined", (
-        Level("butting beams not joined", rules(beams=None)),
-        Level("butting beams joined by corner fittings", rules(beams=BEAMS)))),
+    Factor("beams", "butting beams joined", (Level("butting beams not joined", rules(beams=None)),
+                                             Level("butting beams joined by corner fittings", rules(beams=BEAMS)))),
     Factor("floors", "floors and roof with fittings", (
         Level("floors and roof nailed, unbreakable", fastened(kn=1e7, ks=1e7, strength=float("inf"), per="joint")),
         Level("floors and roof with the corner fitting's values", fastened(kn=58800, ks=58800, strength=5880,
@@ -148,9 +141,8 @@ FACTORS = (
     Factor("supports", "columns on the foundation", (
         Level("columns on sills", supports("sill")),
         Level("columns on the foundation itself", supports("foundation")))),
-    Factor("friction", "friction of timber 0.3", (
-        Level("friction of timber 0.5", {"friction": {"timber": 0.5}}),
-        Level("friction of timber 0.3", {"friction": {"timber": 0.3}}))),
+    Factor("friction", "friction of timber 0.3", (Level("friction of timber 0.5", {"friction": {"timber": 0.5}}),
+                                                  Level("friction of timber 0.3", {"friction": {"timber": 0.3}}))),
     Factor("damaged_end", "damage at column heads", (
         Level("damaged joints at column feet", {"damage": {"end": "bottom"}}),
         Level("damaged joints at column heads", {"damage": {"end": "top"}}))),

@@ -48,12 +48,10 @@ def _falls(run):
     return run.collapsed
 
 
-QUANTITIES = (
-    Quantity("largest drift [-]", drift, _stands, "{:.3g}".format),
-    Quantity("residual drift [-]", lean, _stands, "{:.3g}".format),
-    Quantity("broken springs + 1 [-]", lambda run: 1 + damage(run), _all, "{:.0f}".format),
-    Quantity("collapse time [s]", lambda run: run.collapse_time_s, _falls, "{:.2f}".format),
-)
+QUANTITIES = (Quantity("largest drift [-]", drift, _stands, "{:.3g}".format),
+              Quantity("residual drift [-]", lean, _stands, "{:.3g}".format),
+              Quantity("broken springs + 1 [-]", lambda run: 1 + damage(run), _all, "{:.0f}".format),
+              Quantity("collapse time [s]", lambda run: run.collapse_time_s, _falls, "{:.2f}".format))
 """Positive numbers, whose logarithms are compared. Drifts are those of runs that stand; the collapses are compared as
 shares.
 """
@@ -96,14 +94,8 @@ def _numbers(case, quantity, a, b):
     """Tests of the medians and of the ranges of two samples [lists of positive numbers]."""
     texts = _range(quantity, a), _range(quantity, b)
     enough = min(len(a), len(b)) >= FEWEST
-    yield Comparison(
-        case,
-        quantity.name,
-        "Mann-Whitney",
-        *texts,
-        median_ratio(a, b) if enough else None,
-        mann_whitney(a, b) if enough else None,
-    )
+    yield Comparison(case, quantity.name, "Mann-Whitney", *texts, median_ratio(a, b) if enough else None,
+                     mann_whitney(a, b) if enough else None)
     yield Comparison(case, quantity.name, "Brown-Forsythe", *texts, None, brown_forsythe(a, b) if enough else None)
 
 
@@ -121,14 +113,8 @@ def _shares(case, first, second):
     for state in occurring[-1:] if len(occurring) <= 2 else occurring:
         counts = [sum(run.verdict == state for run in runs) for runs in (first, second)]
         texts = [f"{count} of {len(runs)}" for count, runs in zip(counts, (first, second))]
-        yield Comparison(
-            case,
-            state,
-            "Fisher",
-            *texts,
-            None,
-            fisher(counts, (len(first), len(second))) if len(occurring) > 1 else None,
-        )
+        yield Comparison(case, state, "Fisher", *texts, None,
+                         fisher(counts, (len(first), len(second))) if len(occurring) > 1 else None)
 
 
 # --- tests ------------------------------------------------------------------------------------------------------------
@@ -171,9 +157,8 @@ def rows(comparisons):
 
 
 def _row(found, p):
-    middle, interval = (
-        (f"{found.ratio[0]:.3f}", f"{found.ratio[1]:.3f} to {found.ratio[2]:.3f}") if found.ratio else ("", "")
-    )
+    middle, interval = ((f"{found.ratio[0]:.3f}", f"{found.ratio[1]:.3f} to {found.ratio[2]:.3f}") if found.ratio
+                        else ("", ""))
     result = "no test" if p is None else "differ" if p < SIGNIFICANCE else "no difference shown"
     values = ("", "") if p is None else (f"{found.p:.2g}", f"{p:.2g}")
     return (found.case, found.quantity, found.first, found.second, middle, interval, found.test, *values, result)

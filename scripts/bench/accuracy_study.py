@@ -27,12 +27,10 @@ HEADS = ("section", "quantity", "expected", "computed", "error", "bound", "dt [s
 
 def arguments():
     parser = Parser(__doc__)
-    parser.add_argument(
-        "--only", nargs="+", default=[], metavar="NAME", help="files of cases (impact, friction, ...) or single cases"
-    )
-    parser.add_argument(
-        "--out", type=results_folder, default="results/accuracy", help="folder of the results (default %(default)s)"
-    )
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME",
+                        help="files of cases (impact, friction, ...) or single cases")
+    parser.add_argument("--out", type=results_folder, default="results/accuracy",
+                        help="folder of the results (default %(default)s)")
     return parser.parse_args()
 
 
@@ -43,19 +41,12 @@ def rows_of(function):
         rows = function()
     except Exception as error:  # shown in the table; the other cases run
         rows = [
-            Row(
-                "?",
-                function.__name__,
-                math.nan,
-                math.nan,
-                note=f"did not run: {type(error).__name__}: {error}".splitlines()[0],
-            )
+            Row("?", function.__name__, math.nan, math.nan,
+                note=f"did not run: {type(error).__name__}: {error}".splitlines()[0])
         ]
     passed = sum(row.passes for row in rows)
-    print(
-        f"{function.__name__:45} {passed:3} of {len(rows):3} within bounds {time.monotonic() - start:7.1f} s",
-        flush=True,
-    )
+    print(f"{function.__name__:45} {passed:3} of {len(rows):3} within bounds {time.monotonic() - start:7.1f} s",
+          flush=True)
     return rows
 
 
@@ -72,11 +63,8 @@ def comma_separated(rows):
 
 def main():
     options = arguments()
-    wanted = [
-        f
-        for f in all_cases()
-        if not options.only or {f.__name__, f.__module__.removesuffix("_cases")} & set(options.only)
-    ]
+    wanted = [f for f in all_cases()
+              if not options.only or {f.__name__, f.__module__.removesuffix("_cases")} & set(options.only)]
     if not wanted:
         known = sorted({f.__module__.removesuffix("_cases") for f in all_cases()})
         raise RunError(f"--only: no such cases; tests/physics has the files {', '.join(known)}")

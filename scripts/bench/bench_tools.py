@@ -39,14 +39,11 @@ def parser(about, steps, blocks=None, house_name=None):
     """
     made = Parser(about)
     if house_name:
-        made.add_argument(
-            "--house", type=house, default=house_name, help="shipped house or YAML file (default %(default)s)"
-        )
+        made.add_argument("--house", type=house, default=house_name,
+                          help="shipped house or YAML file (default %(default)s)")
     if blocks:
-        made.add_argument(
-            "--blocks", type=count, default=blocks,
-            help="number of repeated measurements; their median counts (default %(default)s)",
-        )
+        made.add_argument("--blocks", type=count, default=blocks,
+                          help="number of repeated measurements; their median counts (default %(default)s)")
     made.add_argument("--steps", type=count, default=steps, help="steps per block (default %(default)s)")
     made.add_argument("--out", type=results_folder, help="folder of the CSV file (default: print only)")
     return made

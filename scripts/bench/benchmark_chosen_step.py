@@ -45,13 +45,10 @@ HEADS = ("case", "steps", "dt [s] or target [m/s]", "CPU [s]", "steps computed",
 def arguments():
     parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(STEP_CASES), default=list(STEP_CASES), help="default: all")
-    parser.add_argument(
-        "--repeats", type=count, default=2, help="runs of which the median CPU time counts (default %(default)s)"
-    )
-    parser.add_argument(
-        "--out", type=results_folder, default="results/performance",
-        help="folder of chosen_step.csv, chosen_gain.csv, changed_step.csv",
-    )
+    parser.add_argument("--repeats", type=count, default=2,
+                        help="runs of which the median CPU time counts (default %(default)s)")
+    parser.add_argument("--out", type=results_folder, default="results/performance",
+                        help="folder of chosen_step.csv, chosen_gain.csv, changed_step.csv")
     return parser.parse_args()
 
 
@@ -185,10 +182,8 @@ def curve(rows, case, kind):
 def cost_of_fixed(rows, case, wanted):
     """CPU time of fixed steps with that error, interpolated between them in logarithms [s]; beyond them nan."""
     # errors of a case with chance need not grow with the step: the cheapest run at least as exact counts
-    points = [
-        (min(cpu for cpu, other, _ in curve(rows, case, "fixed") if other <= e), e)
-        for _, e, _ in curve(rows, case, "fixed")
-    ]
+    points = [(min(cpu for cpu, other, _ in curve(rows, case, "fixed") if other <= e), e)
+              for _, e, _ in curve(rows, case, "fixed")]
     points.sort(key=lambda p: p[1])
     if not points or not points[0][1] <= wanted:
         return math.nan
@@ -198,9 +193,8 @@ def cost_of_fixed(rows, case, wanted):
 
 def gains(rows, kind):
     """[(case, target, gain)]: CPU time of fixed steps over that of the chosen ones at their error [-]."""
-    return [
-        (c, dt, cost_of_fixed(rows, c, e) / cpu) for c, k, dt, cpu, _, _, e in rows if k == kind and math.isfinite(e)
-    ]
+    return [(c, dt, cost_of_fixed(rows, c, e) / cpu) for c, k, dt, cpu, _, _, e in rows
+            if k == kind and math.isfinite(e)]
 
 
 def bound(rows, case):
@@ -239,12 +233,8 @@ def main():
         rows += study(case, options.repeats)
         write_table(options.out, "chosen_step", HEADS, rows)
     gained = [(case, kind, target, gain) for kind in ("chosen", "foreseen") for case, target, gain in gains(rows, kind)]
-    write_table(
-        options.out,
-        "chosen_gain",
-        ("case", "steps", "target [m/s]", "CPU time of fixed steps over it at equal error [-]"),
-        gained,
-    )
+    write_table(options.out, "chosen_gain",
+                ("case", "steps", "target [m/s]", "CPU time of fixed steps over it at equal error [-]"), gained)
     print(verdict(rows))
     print(f"written to {options.out}")
 

@@ -37,28 +37,19 @@ PLATE, CUBE, ASIDE = (1.0, 1.0, 0.2), (0.3, 0.3, 0.3), (0.01, 0.02)
 SPACING = 3.0
 """Between pairs [m]."""
 WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
-HEADS = (
-    "program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
-    "error of depth [m]",
-)
-NAMES = {
-    "timber": "this package: points, law, solver",
-    "timber points": "this package: points alone",
-    "timber cold": "this package: points, nothing cached",
-    "Bullet": "Bullet: points",
-    "Bullet hulls": "Bullet: points, boxes as hulls",
-    "Bullet cold": "Bullet: points, nothing cached",
-    "ODE": "ODE: points (never cached)",
-}
+HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
+         "error of depth [m]")
+NAMES = {"timber": "this package: points, law, solver", "timber points": "this package: points alone",
+         "timber cold": "this package: points, nothing cached", "Bullet": "Bullet: points",
+         "Bullet hulls": "Bullet: points, boxes as hulls", "Bullet cold": "Bullet: points, nothing cached",
+         "ODE": "ODE: points (never cached)"}
 
 
 def arguments():
     made = parser(__doc__, blocks=7, steps=50)
     made.add_argument("--pairs", type=count, default=100, help="pairs in the scenes of YADE (default %(default)s)")
-    made.add_argument(
-        "--repetitions", type=count, default=5,
-        help="repetitions of Google Benchmark; their median counts (default %(default)s)",
-    )
+    made.add_argument("--repetitions", type=count, default=5,
+                      help="repetitions of Google Benchmark; their median counts (default %(default)s)")
     return made.parse_args()
 
 
@@ -68,40 +59,29 @@ def kernel_rows(repetitions):
     if not PROGRAM.exists():
         raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
     interleaving = "--benchmark_enable_random_interleaving=true"  # other load affects all alike
-    options = [
-        "--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1", interleaving,
-    ]
+    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1",
+               interleaving]
     found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
     median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
     rows = []
     for b in sorted(median, key=lambda b: b["family_index"]):
         program, pair = b["run_name"].split("/", 1)
         rows.append(
-            (
-                program,
-                pair,
-                b["cpu_time"] * 1e-3,
-                round(b["points"]),
-                round(b["expected"]),
-                b["normal_error"],
-                b["depth_error"],
-            )
+            (program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"],
+             b["depth_error"])
         )
     return rows
 
 
 # --- scenes in YADE ---------------------------------------------------------------------------------------------------
 def corners(extents):
-    return [
-        Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
-        for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
-    ]
+    return [Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
+            for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))]
 
 
 def polyhedra_body(extents, centre, fixed):
-    body = polyhedra_utils.polyhedra(
-        yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340), v=corners(extents), fixed=fixed
-    )
+    body = polyhedra_utils.polyhedra(yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340), v=corners(extents),
+                                     fixed=fixed)
     body.state.pos = Vector3(*centre)
     return body
 
@@ -114,11 +94,9 @@ def polyhedra_engines():
     return [
         yw.ForceResetter(),
         yw.InsertionSortCollider([yw.Bo1_Polyhedra_Aabb()], verletDist=0),
-        yw.InteractionLoop(
-            [yw.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
-            [yw.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-            [yw.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
-        ),
+        yw.InteractionLoop([yw.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
+                           [yw.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
+                           [yw.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()]),
     ]
 
 
@@ -158,14 +136,11 @@ def yade_rows(options):
     """Rows of the face configuration: YADE's Polyhedra and this package in YADE."""
     O.reset()
     kinds = {WHOLE: (timber_body, timber_engines), POLYHEDRA: (polyhedra_body, polyhedra_engines)}
-    scenes = {
-        (program, full): load(*kind, options.pairs, full) for program, kind in kinds.items() for full in (True, False)
-    }
+    scenes = {(program, full): load(*kind, options.pairs, full) for program, kind in kinds.items()
+              for full in (True, False)}
     times = interleaved([(key, timed(number, options.steps)) for key, number in scenes.items()], options.blocks)
-    return [
-        row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs)
-        for program in kinds
-    ]
+    return [row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs)
+            for program in kinds]
 
 
 def row_of(program, number, seconds):

@@ -32,14 +32,9 @@ O = yw.Omega()
 
 STEPS = (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 2.5e-4, MAX_DT)
 """[s]"""
-VARIANTS = {
-    "default": {},
-    "tolerance 1e-2": {"tolerance": 1e-2},
-    "tolerance 1e-4": {"tolerance": 1e-4},
-    "explicit dashpots": {"sweeps": 0},
-    "increment form": {"increment": True},
-    "vertex-edge contacts": {"vertex_edge": True},
-}
+VARIANTS = {"default": {}, "tolerance 1e-2": {"tolerance": 1e-2}, "tolerance 1e-4": {"tolerance": 1e-4},
+            "explicit dashpots": {"sweeps": 0}, "increment form": {"increment": True},
+            "vertex-edge contacts": {"vertex_edge": True}}
 SHAKEN = 6.0
 """Duration of shaking for the energy balance [s]."""
 HEADS = ("case", "variant", "dt [s]", "run time [s]", "quantity", "error [-]")
@@ -48,17 +43,13 @@ HEADS = ("case", "variant", "dt [s]", "run time [s]", "quantity", "error [-]")
 def arguments():
     parser = Parser(__doc__)
     parser.add_argument("--cases", nargs="+", choices=list(CASES), default=list(CASES), help="default: all")
-    parser.add_argument(
-        "--steps", nargs="+", type=positive, default=STEPS, metavar="S", help="time steps [s] (default 1e-6 ... 5e-4)"
-    )
-    parser.add_argument(
-        "--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME", help="default: all"
-    )
+    parser.add_argument("--steps", nargs="+", type=positive, default=STEPS, metavar="S",
+                        help="time steps [s] (default 1e-6 ... 5e-4)")
+    parser.add_argument("--variants", nargs="+", choices=list(VARIANTS), default=list(VARIANTS), metavar="NAME",
+                        help="default: all")
     parser.add_argument("--no-limits", action="store_true", help="do not measure stable time steps and energy balance")
-    parser.add_argument(
-        "--out", type=results_folder, default="results/performance",
-        help="folder of precision.csv, stable_dt.csv, balance.csv",
-    )
+    parser.add_argument("--out", type=results_folder, default="results/performance",
+                        help="folder of precision.csv, stable_dt.csv, balance.csv")
     return parser.parse_args()
 
 
@@ -94,18 +85,15 @@ def run(case, dt, options):
 def study(case, options):
     """Rows of one case."""
     finest = CASES[case][3]
-    references = {
-        edge: run(case, finest, {**REFERENCE, "vertex_edge": edge})[0]
-        for edge in {VARIANTS[v].get("vertex_edge", False) for v in options.variants}
-    }
+    references = {edge: run(case, finest, {**REFERENCE, "vertex_edge": edge})[0]
+                  for edge in {VARIANTS[v].get("vertex_edge", False) for v in options.variants}}
     rows = []
     for variant in options.variants:
         reference = references[VARIANTS[variant].get("vertex_edge", False)]
         for dt in sorted(s for s in options.steps if s >= finest):
             found, spent = run(case, dt, VARIANTS[variant])
-            rows += [
-                (case, variant, dt, spent, name, error(found and found[name], reference[name])) for name in reference
-            ]
+            rows += [(case, variant, dt, spent, name, error(found and found[name], reference[name]))
+                     for name in reference]
             print(
                 f"{case}, {variant}, dt = {dt:g} s: {spent:.2f} s, "
                 + ", ".join(f"{r[4]} {r[5]:.2g}" for r in rows[-len(reference) :]),
@@ -121,12 +109,8 @@ def limit_rows():
         predicted = stable_steps.settled(build)
         for contacts, damped in (("explicit springs, no dashpots", False), ("default", True)):
             rows.append(
-                (
-                    build.__name__.replace("_", " "),
-                    contacts,
-                    predicted,
-                    stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped),
-                )
+                (build.__name__.replace("_", " "), contacts, predicted,
+                 stable_steps.measured_limit(build, 0.3 * predicted, 16 * predicted, damped=damped))
             )
     return rows
 

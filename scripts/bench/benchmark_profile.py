@@ -33,8 +33,7 @@ PARTS = {  # part -> its functions, and functions called by them that are parts 
     "contact points: update": (("timber::updateManifold(",), ("timber::searchCandidates(",)),
     "elastic law": (("Law2_ManifoldGeom_TimberPhys_Hertz::go(", "Law2_ManifoldGeom_SnowPhys_Linear::go("), ()),
     "contact solver: preparation": (
-        ("ContactForces::collectPairs()", "ContactForces::collectBodies()", "timber::prepareContacts("),
-        (),
+        ("ContactForces::collectPairs()", "ContactForces::collectBodies()", "timber::prepareContacts("), ()
     ),
     "contact solver: sweeps": (("ContactSolver::solve(",), ()),
     "contact solver: forces and energies": (("timber::storeForces(",), ()),
@@ -64,46 +63,27 @@ def run_state(options):
 def count(options, state, folder):
     """{function: instructions per step, with those of the functions it calls}."""
     out = Path(folder) / "callgrind.out"
-    yade = [
-        "--tool=callgrind",
-        "--instr-atstart=no",
-        f"--toggle-collect=*{STEP}",
-        f"--callgrind-out-file={out}",
-        sys.executable,
-        shutil.which("yade"),
-    ]
+    yade = ["--tool=callgrind", "--instr-atstart=no", f"--toggle-collect=*{STEP}", f"--callgrind-out-file={out}",
+            sys.executable, shutil.which("yade")]
     child = ["-j1", "-n", "-x", sys.argv[0], "--house", options.house, "--steps", str(options.steps), "--state", state]
-    subprocess.run(
-        ["valgrind", *yade, *child],
-        check=True,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    text = subprocess.run(
-        ["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(out)],
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
+    subprocess.run(["valgrind", *yade, *child], check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    text = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(out)], check=True,
+                          capture_output=True, text=True).stdout
     found = re.findall(r"^\s*([\d,]+) \([^)]*\)\s+\S+?:(.*?)(?: \[[^]]*\])?$", text, re.M)
     return {name: int(number.replace(",", "")) / options.steps for number, name in found}
 
 
 def instructions(counts, functions):
     """Instructions of these functions; of several matches (a parallel region and its engine) the outermost."""
-    return sum(
-        max((number for name, number in counts.items() if function in name and "[clone" not in name), default=0)
-        for function in functions
-    )
+    return sum(max((number for name, number in counts.items() if function in name and "[clone" not in name), default=0)
+               for function in functions)
 
 
 def parts(counts):
     """Instructions per step of each part, and of a whole step, [1000]."""
-    numbers = {
-        part: (instructions(counts, functions) - instructions(counts, within)) / 1000
-        for part, (functions, within) in PARTS.items()
-    }
+    numbers = {part: (instructions(counts, functions) - instructions(counts, within)) / 1000
+               for part, (functions, within) in PARTS.items()}
     whole = instructions(counts, (STEP,)) / 1000
     return {**numbers, OTHERS: whole - sum(numbers.values()), "whole step": whole}
 
@@ -125,10 +105,8 @@ def profile(options):
     states = {state: parts(found) for state, found in counts.items()}
     shares = {state: [number / found["whole step"] for number in found.values()] for state, found in states.items()}
     names = [*PARTS, OTHERS, "whole step"]
-    return [
-        (name, *(states[state][name] for state in STATES), *(shares[state][k] for state in STATES))
-        for k, name in enumerate(names)
-    ]
+    return [(name, *(states[state][name] for state in STATES), *(shares[state][k] for state in STATES))
+            for k, name in enumerate(names)]
 
 
 def shown(rows):

@@ -20,45 +20,27 @@ from yade_timber.base.errors import RunError
 from yade_timber.recording.summary import Summary
 from yade_timber.study.options import Parser, positive, results_folder, run_script
 
-RUNS = {
-    "A, earthquake": ("modelA_quake.py",),
-    "C2, earthquake and 1 m of snow": ("modelC2_snow.py",),
-    "tiled_house, earthquake": ("house.py", "tiled_house", "--quake"),
-}
-GROUPS = {
-    "frames": ("frames.h5",),
-    "player": ("player.html",),
-    "pictures": (".png", ".pdf"),
-    "checkpoint": ("checkpoint.yade",),
-    "tables": (".csv", ".json"),
-}
+RUNS = {"A, earthquake": ("modelA_quake.py",), "C2, earthquake and 1 m of snow": ("modelC2_snow.py",),
+        "tiled_house, earthquake": ("house.py", "tiled_house", "--quake")}
+GROUPS = {"frames": ("frames.h5",), "player": ("player.html",), "pictures": (".png", ".pdf"),
+          "checkpoint": ("checkpoint.yade",), "tables": (".csv", ".json")}
 """{group: ends of the names of its files}"""
-HEADS = (
-    "run",
-    "elements",
-    "simulated [s]",
-    "CPU time [s]",
-    "CPU time of the pictures [s]",
-    "largest memory [MB]",
-    *(f"{group} [MB]" for group in GROUPS),
-)
+HEADS = ("run", "elements", "simulated [s]", "CPU time [s]", "CPU time of the pictures [s]", "largest memory [MB]",
+         *(f"{group} [MB]" for group in GROUPS))
 
 
 def arguments():
     parser = Parser(__doc__)
-    parser.add_argument(
-        "--duration", type=positive, metavar="S", help="simulated time [s] (default: that of the motion)"
-    )
+    parser.add_argument("--duration", type=positive, metavar="S",
+                        help="simulated time [s] (default: that of the motion)")
     parser.add_argument("--out", type=results_folder, help="folder of the CSV file (default: print only)")
     return parser.parse_args()
 
 
 def sizes(folder):
     """Disk of each group of files [MB]."""
-    return [
-        sum(path.stat().st_size for path in folder.iterdir() if path.name.endswith(ends)) / 1e6
-        for ends in GROUPS.values()
-    ]
+    return [sum(path.stat().st_size for path in folder.iterdir() if path.name.endswith(ends)) / 1e6
+            for ends in GROUPS.values()]
 
 
 def spent(command):
@@ -75,19 +57,8 @@ def measure(name, command, duration):
     with tempfile.TemporaryDirectory() as folder:
         limit = ("--duration", f"{duration:g}") if duration else ()
         steps, memory = spent(
-            [
-                "yade",
-                "-n",
-                "-x",
-                "-j1",
-                SCRIPTS / command[0],
-                *command[1:],
-                *limit,
-                "--out",
-                folder,
-                "--quiet",
-                "--no-views",
-            ]
+            ["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder, "--quiet",
+             "--no-views"]
         )
         pictures, _ = spent([SCRIPTS / "show" / "show_run.py", folder])
         summary = Summary.read(folder)

@@ -93,10 +93,8 @@ def fixed(options, skip):
 
 CASES = {  # (skipped work, scene) -> build
     ("steps while the house rests and the ground is quiet (RestSkipper)", f"at rest under snow, {RESTING:g} s"): rest,
-    (
-        "the collider, until a body may have left its bounding box, and YADE's dispatch",
-        "strong shaking, snow",
-    ): collider,
+    ("the collider, until a body may have left its bounding box, and YADE's dispatch",
+     "strong shaking, snow"): collider,
     ("pairs that cannot touch, and YADE's dispatch", "strong shaking, snow"): pairs,
     ("the joint engine when all joints are broken", "strong shaking, snow, no joints"): joints,
     ("fixed bodies: no integration, no pairs", "200 blocks side by side"): fixed,

@@ -16,9 +16,7 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import (
-    SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step,
-)
+from bench_tools import (SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step)
 from tables import markdown_table
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import DEFAULT_DT
@@ -36,20 +34,16 @@ STRIDES = 100
 """Strides of RestSkipper in a block. The last one, in which YADE stops, is not skipped."""
 QUIET = -1e3
 """Start of the run long before the ground motion [s]."""
-HEADS = (
-    "state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio",
-    "empty, collider in each step [us]",
-)
+HEADS = ("state", "bodies", "interactions", "contact points", "empty step [us]", "whole step [us]", "ratio",
+         "empty, collider in each step [us]")
 
 
 def arguments():
     made = parser(__doc__, blocks=15, steps=300, house_name="C2")
-    made.add_argument(
-        "--snow", type=non_negative, default=1.0, metavar="M", help="snow depth [m] (default %(default)g)"
-    )
-    made.add_argument(
-        "--dt", type=positive, default=DEFAULT_DT, metavar="S", help="time step [s] (default %(default)g)"
-    )
+    made.add_argument("--snow", type=non_negative, default=1.0, metavar="M",
+                      help="snow depth [m] (default %(default)g)")
+    made.add_argument("--dt", type=positive, default=DEFAULT_DT, metavar="S",
+                      help="time step [s] (default %(default)g)")
     made.add_argument("--engines", action="store_true", help="also print YADE's table of the time spent in each engine")
     return made.parse_args()
 
@@ -57,14 +51,8 @@ def arguments():
 def build_house(options, start, skipping):
     """The house in the current scene, `start` seconds into the ground motion, settled."""
     scenario.build(
-        scenario.Scenario(
-            "step",
-            options.house,
-            default_motion(),
-            options.snow,
-            dt=options.dt,
-            options={} if skipping else {"skip_rest": 0},
-        )
+        scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt,
+                          options={} if skipping else {"skip_rest": 0})
     )
     engines.find_engine(yw.GroundMotionEngine).start = -start
     O.run(round((REST if skipping else SETTLING) / options.dt), True)
@@ -88,12 +76,8 @@ def build_empty(placed, dt, verlet):
     collider = yw.InsertionSortCollider(
         [yw.Bo1_RoundedPolyhedron_Aabb(margin=engines.BOUND_MARGIN if verlet == 0 else 0)], verletDist=verlet
     )
-    O.engines = [
-        yw.ForceResetter(),
-        collider,
-        yw.InteractionLoop([], [], []),
-        yw.NewtonIntegrator(damping=0, exactAsphericalRot=True),
-    ]
+    O.engines = [yw.ForceResetter(), collider, yw.InteractionLoop([], [], []),
+                 yw.NewtonIntegrator(damping=0, exactAsphericalRot=True)]
     O.dt = dt
     O.step()
 
@@ -150,16 +134,8 @@ def measure(options, name, start, skipping=False):
     if options.engines:
         print(f"\n{name}:")
         engine_table(options.steps)
-    return (
-        name,
-        len(placed),
-        O.interactions.countReal(),
-        points,
-        times[EMPTY] * 1e6,
-        times[HOUSE] * 1e6,
-        times[HOUSE] / times[EMPTY],
-        times[DEFAULT] * 1e6,
-    )
+    return (name, len(placed), O.interactions.countReal(), points, times[EMPTY] * 1e6, times[HOUSE] * 1e6,
+            times[HOUSE] / times[EMPTY], times[DEFAULT] * 1e6)
 
 
 def section(options, rows):

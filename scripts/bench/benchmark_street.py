@@ -18,9 +18,8 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import (
-    BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory, wall_per_step,
-)
+from bench_tools import (BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory,
+                         wall_per_step)
 from tables import markdown_table
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import DEFAULT_DT
@@ -38,29 +37,18 @@ START = 17.6
 """Start of the run in the time of the ground motion [s]."""
 WARM_UP = 500
 """Steps before the measurement."""
-HEADS = (
-    "houses", "threads", "elements", "CPU time per step [us]", "wall time per step [us]",
-    "CPU time per element and step [us]", "memory per element [kB]", "memory above bare YADE [MB]",
-)
+HEADS = ("houses", "threads", "elements", "CPU time per step [us]", "wall time per step [us]",
+         "CPU time per element and step [us]", "memory per element [kB]", "memory above bare YADE [MB]")
 
 
 def arguments():
     made = parser(__doc__, blocks=7, steps=100, house_name="C")
-    made.add_argument(
-        "--houses",
-        type=count,
-        nargs="+",
-        default=[1, 2, 5, 10, 50],
-        metavar="N",
-        help="numbers of houses (default 1 2 5 10 50)",
-    )
-    made.add_argument(
-        "--threads", type=count, nargs="+", default=[1, 2], metavar="N", help="numbers of threads (default 1 2)"
-    )
-    made.add_argument(
-        "--rounds", type=count, default=3,
-        help="processes for each row, run alternately; their median counts (default %(default)s)",
-    )
+    made.add_argument("--houses", type=count, nargs="+", default=[1, 2, 5, 10, 50], metavar="N",
+                      help="numbers of houses (default 1 2 5 10 50)")
+    made.add_argument("--threads", type=count, nargs="+", default=[1, 2], metavar="N",
+                      help="numbers of threads (default 1 2)")
+    made.add_argument("--rounds", type=count, default=3,
+                      help="processes for each row, run alternately; their median counts (default %(default)s)")
     # Of the process that measures one row of houses
     made.add_argument("--single", action="store_true", help=argparse.SUPPRESS)
     return made.parse_args()
@@ -111,36 +99,20 @@ def engine_times(steps):
 def single(options):
     """Measurements of one row of houses as a dictionary."""
     build(options, options.houses[0])
-    times = interleaved(
-        [("cpu", lambda: cpu_per_step(options.steps)), ("wall", lambda: wall_per_step(options.steps))], options.blocks
-    )
+    times = interleaved([("cpu", lambda: cpu_per_step(options.steps)), ("wall", lambda: wall_per_step(options.steps))],
+                        options.blocks)
     memory = resident_memory() - BARE_MEMORY
-    return {
-        "houses": options.houses[0],
-        "threads": O.numThreads,
-        "elements": len(O.bodies),
-        "memory": memory,
-        **times,
-        "engines": engine_times(options.steps),
-    }
+    return {"houses": options.houses[0], "threads": O.numThreads, "elements": len(O.bodies), "memory": memory, **times,
+            "engines": engine_times(options.steps)}
 
 
 # --- all of them ------------------------------------------------------------------------------------------------------
 def measure(options, houses, threads):
     """`single` in a process of its own."""
-    arguments = [
-        *command(sys.argv[0], threads),
-        "--single",
-        "--house",
-        options.house,
-        "--houses",
-        str(houses),
-        "--steps",
-        str(options.steps),
-    ]
-    done = subprocess.run(
-        [*arguments, "--blocks", str(options.blocks)], stdin=subprocess.DEVNULL, capture_output=True, text=True
-    )
+    arguments = [*command(sys.argv[0], threads), "--single", "--house", options.house, "--houses", str(houses),
+                 "--steps", str(options.steps)]
+    done = subprocess.run([*arguments, "--blocks", str(options.blocks)], stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True)
     lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
     if done.returncode or not lines:
         raise RunError(f"{houses} houses on {threads} thread(s): {done.stderr.strip().splitlines()[-1:]}")
@@ -151,11 +123,8 @@ def median(measured):
     """Medians of the measurements of one row; a single measurement may err by half when other processes use the memory.
     """
     engines = {name: statistics.median(m["engines"][name] for m in measured) for name in measured[0]["engines"]}
-    return {
-        **measured[0],
-        **{key: statistics.median(m[key] for m in measured) for key in ("cpu", "wall", "memory")},
-        "engines": engines,
-    }
+    return {**measured[0], **{key: statistics.median(m[key] for m in measured) for key in ("cpu", "wall", "memory")},
+            "engines": engines}
 
 
 def measure_all(options):
@@ -166,16 +135,8 @@ def measure_all(options):
 
 
 def row(m):
-    return (
-        m["houses"],
-        m["threads"],
-        m["elements"],
-        m["cpu"] * 1e6,
-        m["wall"] * 1e6,
-        m["cpu"] * 1e6 / m["elements"],
-        m["memory"] * 1e3 / m["elements"],
-        m["memory"],
-    )
+    return (m["houses"], m["threads"], m["elements"], m["cpu"] * 1e6, m["wall"] * 1e6, m["cpu"] * 1e6 / m["elements"],
+            m["memory"] * 1e3 / m["elements"], m["memory"])
 
 
 def section(found, house, rounds):
@@ -186,22 +147,18 @@ def section(found, house, rounds):
         base, same = one.get(min(one, default=None)), one.get(m["houses"])
         share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if m["threads"] == 1 else None
         speed_up = same["wall"] / m["wall"] if same and m["threads"] > 1 else None
-        cells = [
-            m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}", f"{m['cpu'] * 1e6 / m['elements']:.2f}",
-        ]
+        cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
+                 f"{m['cpu'] * 1e6 / m['elements']:.2f}"]
         shown.append(
             cells
             + [f"{x:.2f}" if x else "" for x in (share, speed_up)]
             + [f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}"]
         )
-    heads = (
-        "houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-        "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]",
-    )
+    heads = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
+             "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
     names = [name for name in found[0]["engines"] if any(m["engines"][name] > 0.01 for m in found)]
-    engines = [
-        (m["houses"], m["threads"], *(f"{m['engines'][n] / m['elements'] * 1e3:.0f}" for n in names)) for m in found
-    ]
+    engines = [(m["houses"], m["threads"], *(f"{m['engines'][n] / m['elements'] * 1e3:.0f}" for n in names))
+               for m in found]
     return (
         f"## Rows of houses\n\nHouse {house} in strong shaking, dt = {DEFAULT_DT:g} s: medians of {rounds} processes"
         f" each, run alternately. {machine()}.\n\n{markdown_table(heads, shown)}\nWall time of each engine per element"

@@ -34,41 +34,28 @@ START = 17.6
 """Start of the run in the time of the ground motion [s]."""
 WARM_UP = 1
 """Chunks before the measurement."""
-HEADS = (
-    "houses", "threads", "elements", "time per element and step [us]", "wall time per step of all houses [us]",
-    "memory per element [kB]", "memory above bare YADE [MB]",
-)
+HEADS = ("houses", "threads", "elements", "time per element and step [us]", "wall time per step of all houses [us]",
+         "memory per element [kB]", "memory above bare YADE [MB]")
 
 
 def arguments():
     made = parser(__doc__, blocks=1, steps=1, house_name="C")
-    made.add_argument(
-        "--houses",
-        type=count,
-        nargs="+",
-        default=[1, 5, 50, 200],
-        metavar="N",
-        help="numbers of houses (default 1 5 50 200)",
-    )
-    made.add_argument(
-        "--threads", type=count, nargs="+", default=[1, 2], metavar="N", help="numbers of threads (default 1 2)"
-    )
-    made.add_argument(
-        "--chunks", type=count, default=10, help="measured chunks of steps; their median counts (default %(default)s)"
-    )
-    made.add_argument(
-        "--rounds", type=count, default=3,
-        help="processes for each row, run alternately; their median counts (default %(default)s)",
-    )
+    made.add_argument("--houses", type=count, nargs="+", default=[1, 5, 50, 200], metavar="N",
+                      help="numbers of houses (default 1 5 50 200)")
+    made.add_argument("--threads", type=count, nargs="+", default=[1, 2], metavar="N",
+                      help="numbers of threads (default 1 2)")
+    made.add_argument("--chunks", type=count, default=10,
+                      help="measured chunks of steps; their median counts (default %(default)s)")
+    made.add_argument("--rounds", type=count, default=3,
+                      help="processes for each row, run alternately; their median counts (default %(default)s)")
     made.add_argument("--single", action="store_true", help=argparse.SUPPRESS)  # of the process that measures one town
     return made.parse_args()
 
 
 def town_file(folder, house, houses):
     """Write a town file of equal houses; returns its path."""
-    lots = "".join(
-        f"  h{k}: {{house: {house}, x: {SPACING * (k % 10)}, y: {SPACING * (k // 10)}}}\n" for k in range(houses)
-    )
+    lots = "".join(f"  h{k}: {{house: {house}, x: {SPACING * (k % 10)}, y: {SPACING * (k // 10)}}}\n"
+                   for k in range(houses))
     path = Path(folder) / "town.yaml"
     path.write_text(f"lots:\n{lots}")
     return path
@@ -79,21 +66,8 @@ def single(options):
     houses = options.houses[0]
     with tempfile.TemporaryDirectory() as folder:
         path = town_file(folder, options.house, houses)
-        given = [
-            "town.py",
-            str(path),
-            "--quake",
-            "--start",
-            str(START),
-            "--snow",
-            "0",
-            "--out",
-            folder,
-            "--checkpoint",
-            "0",
-            "--quiet",
-            "--no-views",
-        ]
+        given = ["town.py", str(path), "--quake", "--start", str(START), "--snow", "0", "--out", folder, "--checkpoint",
+                 "0", "--quiet", "--no-views"]
         chosen = cli.read_town(given)
         plan = planned(chosen)
         run = town.TownRun(plan.town, plan.lots, chosen)
@@ -115,16 +89,8 @@ def single(options):
 
 def measure(options, houses, threads):
     """`single` in a process of its own."""
-    arguments = [
-        *command(sys.argv[0], threads),
-        "--single",
-        "--house",
-        options.house,
-        "--houses",
-        str(houses),
-        "--chunks",
-        str(options.chunks),
-    ]
+    arguments = [*command(sys.argv[0], threads), "--single", "--house", options.house, "--houses", str(houses),
+                 "--chunks", str(options.chunks)]
     done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
     if done.returncode or not lines:
@@ -136,22 +102,13 @@ def measure_all(options):
     """Measurement of each number of houses and threads: medians of alternating rounds."""
     cases = [(houses, threads) for houses in options.houses for threads in options.threads]
     rounds = [[measure(options, *case) for case in cases] for _ in range(options.rounds)]
-    return [
-        {**same[0], **{key: statistics.median(m[key] for m in same) for key in ("cpu", "wall", "memory")}}
-        for same in zip(*rounds)
-    ]
+    return [{**same[0], **{key: statistics.median(m[key] for m in same) for key in ("cpu", "wall", "memory")}}
+            for same in zip(*rounds)]
 
 
 def row(m):
-    return (
-        m["houses"],
-        m["threads"],
-        m["elements"],
-        m["cpu"] * 1e6 / m["elements"],
-        m["wall"] * 1e6,
-        m["memory"] * 1e3 / m["elements"],
-        m["memory"],
-    )
+    return (m["houses"], m["threads"], m["elements"], m["cpu"] * 1e6 / m["elements"], m["wall"] * 1e6,
+            m["memory"] * 1e3 / m["elements"], m["memory"])
 
 
 def section(found, options):
@@ -162,18 +119,15 @@ def section(found, options):
         alone = m["threads"] == 1
         share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if base and alone else None
         speed_up = one[m["houses"]]["wall"] / m["wall"] if m["houses"] in one and not alone else None
-        cells = [
-            m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}", f"{m['cpu'] * 1e6 / m['elements']:.2f}",
-        ]
+        cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
+                 f"{m['cpu'] * 1e6 / m['elements']:.2f}"]
         shown.append(
             cells
             + [f"{x:.2f}" if x else "" for x in (share, speed_up)]
             + [f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}"]
         )
-    heads = (
-        "houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-        "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]",
-    )
+    heads = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
+             "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
     return (
         f"## Towns\n\nHouse {options.house} on each lot, in strong shaking, dt = {DEFAULT_DT:g} s, with frames: medians"
         f" of {options.chunks} chunks in {options.rounds} process(es) each, run alternately."

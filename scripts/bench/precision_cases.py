@@ -60,9 +60,8 @@ def build_frame(dt, options):
     O.dt, O.engines = dt, yt.engines(ground_motion=GroundMotion(0.01, sway, "sine"), **options)
     for column, x in zip(ids, (-0.6, 0.6)):
         for other, z in ((0, 0.0), (ids[2], 1.2)):
-            yt.connect(
-                other, column, [(x + a, b, z) for a in (-0.06, 0.06) for b in (-0.06, 0.06)], strength=UNBREAKABLE
-            )
+            yt.connect(other, column, [(x + a, b, z) for a in (-0.06, 0.06) for b in (-0.06, 0.06)],
+                       strength=UNBREAKABLE)
 
 
 def build_house(house, strength=None, start=STRONG):
@@ -81,9 +80,8 @@ def build_house(house, strength=None, start=STRONG):
 def build_fall(dt, options):
     """House C, without joints to its foundation and with unbreakable ones else, falls from DROP onto its foundation."""
     scenario.build(scenario.Scenario("fall", "C", dt=dt, options={"skip_rest": 0, **options}))
-    joints = [
-        j for j in engines.find_engine(yw.JointEngine).joints if O.bodies[j.id1].dynamic and O.bodies[j.id2].dynamic
-    ]
+    joints = [j for j in engines.find_engine(yw.JointEngine).joints
+              if O.bodies[j.id1].dynamic and O.bodies[j.id2].dynamic]
     for joint in joints:
         joint.strength = UNBREAKABLE
     for body in O.bodies:
@@ -104,10 +102,8 @@ def drifts():
     monitor = engines.find_engine(yw.HouseMonitor)
     if monitor is None:
         return {"drift": [*O.bodies[len(O.bodies) - 1].state.displ()]}
-    displacements = {
-        level: [O.bodies[b].state.displ() for b, l in zip(monitor.bodies, monitor.levels) if l == level]
-        for level in set(monitor.levels)
-    }
+    displacements = {level: [O.bodies[b].state.displ() for b, l in zip(monitor.bodies, monitor.levels) if l == level]
+                     for level in set(monitor.levels)}
     means = {level: np.mean([[*d][:2] for d in all], axis=0) for level, all in displacements.items()}
     return {"drift": np.concatenate([means[level] - means.get(level - 1, 0) for level in sorted(means)])}
 
@@ -152,9 +148,8 @@ STEP_CASES = {
     "impact": StepCase(build_impact, path, 0.03, 1e-6, 1e-5, SAMPLE / 64, False),
     "rocking block": StepCase(build_rocking, path, 1.0, 2e-6, 5e-5, SAMPLE / 64, False),
     "jointed frame": StepCase(build_frame, drifts, 1.0, 2e-6, 5e-5, SAMPLE / 8, True),
-    "standing house C": StepCase(
-        build_house("C", UNBREAKABLE, start=17.2), drifts, 1.2, 2.5e-5, 2e-5, SAMPLE / 8, True
-    ),
+    "standing house C": StepCase(build_house("C", UNBREAKABLE, start=17.2), drifts, 1.2, 2.5e-5, 2e-5, SAMPLE / 8,
+                                 True),
     "collapsing house A": StepCase(build_house("A"), drifts, 1.6, 5e-5, 2e-5, SAMPLE / 8, False),
     "falling house C": StepCase(build_fall, height, 0.7, 2.5e-5, 2e-5, SAMPLE / 8, False),
 }

@@ -23,29 +23,24 @@ from yade_timber.base.time_step import DEFAULT_DT
 TOLERATED = 0.01
 """Error up to which a time step is called exact [-]"""
 SHAKING, REST = "strong shaking", "at rest"
-SECTIONS = {
-    "1": ("Contact", "Hertz's impact, Runge-Kutta solutions of the damped one"),
-    "2": ("Friction", "incline, sliding block, closed paths of the tangential spring"),
-    "3": ("Rocking", "rigid rocking block, Housner's periods"),
-    "4": ("Joint", "modes, strength, cycles of yielding springs"),
-    "5": ("Free motion", "Jacobi's elliptic functions for a body that flips"),
-    "6": ("Assemblies", "stack, arch, wedge, frames, weight of a house"),
-    "7": ("Energy balance", "input against stored and dissipated energy"),
-    "8": ("Invariance", "rotated, mirrored, moved, reordered, saved and loaded scenes; 1 and 2 threads"),
-    "9": ("Independent reference", "a portal computed by a second program"),
-}
+SECTIONS = {"1": ("Contact", "Hertz's impact, Runge-Kutta solutions of the damped one"),
+            "2": ("Friction", "incline, sliding block, closed paths of the tangential spring"),
+            "3": ("Rocking", "rigid rocking block, Housner's periods"),
+            "4": ("Joint", "modes, strength, cycles of yielding springs"),
+            "5": ("Free motion", "Jacobi's elliptic functions for a body that flips"),
+            "6": ("Assemblies", "stack, arch, wedge, frames, weight of a house"),
+            "7": ("Energy balance", "input against stored and dissipated energy"),
+            "8": ("Invariance", "rotated, mirrored, moved, reordered, saved and loaded scenes; 1 and 2 threads"),
+            "9": ("Independent reference", "a portal computed by a second program")}
 ERRORS = {
     "duration of an impact of 200 steps": ("Hertz impact, plate, worst of 0.01-10 m/s: duration [s]", None),
-    "restitution of a damped corner, one step per impact": (
-        "restitution, damping ratio 1, contact of 1 steps [-]",
-        None,
-    ),
+    "restitution of a damped corner, one step per impact": ("restitution, damping ratio 1, contact of 1 steps [-]",
+                                                            None),
     "distance of a sliding block": ("sliding distance from 1 m/s [m]", "0.0004"),
     "period of a rocking block": ("quarter period from 0.6 alpha, rolling rigid block [s]", None),
     "stiffness of a braced frame": ("braced frame: lateral stiffness [N/m]", None),
     "energy dissipated by a yielding joint in a cycle": (
-        "yielding joint, per joint, steady cycle of 6 mm: energy dissipated [J]",
-        None,
+        "yielding joint, per joint, steady cycle of 6 mm: energy dissipated [J]", None
     ),
     "portal beside a second program": ("portal: implicit dashpots, largest distance / peak [-]", "0.0001"),
     "energy balance of house B in strong shaking": ("house B, strong shaking: residual / input [-]", "0.00025"),
@@ -55,17 +50,15 @@ ERRORS = {
     "numbers that differ between 1 and 2 threads": ("1 and 2 threads: numbers that differ [-]", None),
 }
 """{row of the page: (quantity, time step) of accuracy.csv}"""
-CURVES = {
-    "impact, closed form": "Hertz impact, closed form (Eq. 37): duration [s]",
-    "impact, increments (Eq. 38)": "Hertz impact, increment form (Eq. 38): duration [s]",
-    "restitution, critical dashpot": "restitution, critical dashpot, implicit [-]",
-    "sliding distance": "sliding distance from 1 m/s [m]",
-    "highest mode of a joint": "joint, highest mode [rad/s]",
-    "yielding oscillator": "oscillator that yields: largest stretch [m]",
-    "flips, this package": "SymplecticIntegrator: time of the third flip [s]",
-    "flips, NewtonIntegrator": "NewtonIntegrator: time of the third flip [s]",
-    "house B, energy": "house B, strong shaking: residual / input [-]",
-}
+CURVES = {"impact, closed form": "Hertz impact, closed form (Eq. 37): duration [s]",
+          "impact, increments (Eq. 38)": "Hertz impact, increment form (Eq. 38): duration [s]",
+          "restitution, critical dashpot": "restitution, critical dashpot, implicit [-]",
+          "sliding distance": "sliding distance from 1 m/s [m]",
+          "highest mode of a joint": "joint, highest mode [rad/s]",
+          "yielding oscillator": "oscillator that yields: largest stretch [m]",
+          "flips, this package": "SymplecticIntegrator: time of the third flip [s]",
+          "flips, NewtonIntegrator": "NewtonIntegrator: time of the third flip [s]",
+          "house B, energy": "house B, strong shaking: residual / input [-]"}
 """{label: quantity of accuracy.csv}"""
 
 
@@ -146,15 +139,13 @@ def stability_text(folder):
         limits.setdefault(row["contacts"].replace("default", "implicit contacts"), []).append(
             float(row["measured [s]"]) / float(row["predicted [s]"])
         )
-    return "stable over predicted step: " + "; ".join(
-        f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}" for contacts, ratios in limits.items()
-    )
+    return "stable over predicted step: " + "; ".join(f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}"
+                                                      for contacts, ratios in limits.items())
 
 
 def balance_text(folder):
-    worst = max(
-        abs(float(row["energy gained [-]"])) for row in table(folder, "balance") if float(row["dt [s]"]) == DEFAULT_DT
-    )
+    worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance")
+                if float(row["dt [s]"]) == DEFAULT_DT)
     return (
         f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
     )
@@ -162,11 +153,8 @@ def balance_text(folder):
 
 def chosen_text(folder):
     column = "CPU time of fixed steps over it at equal error [-]"
-    gains = [
-        float(row[column])
-        for row in table(folder, "chosen_gain")
-        if row["steps"] == "chosen" and "house" in row["case"]
-    ]
+    gains = [float(row[column]) for row in table(folder, "chosen_gain")
+             if row["steps"] == "chosen" and "house" in row["case"]]
     return (
         f"steps chosen by the error are {statistics.median(g for g in gains if math.isfinite(g)):.2f} times as fast as"
         " fixed ones at equal error"
@@ -183,10 +171,8 @@ def changed_text(folder):
 def town_text(folder):
     rows = table(folder, "town")
     most = max(int(row["houses"]) for row in rows)
-    wall, element, memory = (
-        next(name for name in rows[0] if name.startswith(begin))
-        for begin in ("wall time", "time per element", "memory per element")
-    )
+    wall, element, memory = (next(name for name in rows[0] if name.startswith(begin))
+                             for begin in ("wall time", "time per element", "memory per element"))
     one, many = (number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most))
     ratio = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
     return (
@@ -197,11 +183,8 @@ def town_text(folder):
 
 
 def pair_text(folder):
-    time = {
-        row["program"]: float(row["time per pair and step [us]"])
-        for row in table(folder, "peers")
-        if row["pair"] == "face on face"
-    }
+    time = {row["program"]: float(row["time per pair and step [us]"]) for row in table(folder, "peers")
+            if row["pair"] == "face on face"}
     return (
         f"two faces, points and law: this package {time['this package in YADE']:.2g} us, YADE's Polyhedra"
         f" {time['YADE Polyhedra']:.2g} us; points alone: this package {time['timber points']:.2g} us, Bullet"
@@ -209,17 +192,9 @@ def pair_text(folder):
     )
 
 
-TEXTS = {
-    "step": step_text,
-    "skips": skips_text,
-    "peers": pair_text,
-    "precision": precision_text,
-    "stable_dt": stability_text,
-    "balance": balance_text,
-    "chosen_gain": chosen_text,
-    "changed_step": changed_text,
-    "town": town_text,
-}
+TEXTS = {"step": step_text, "skips": skips_text, "peers": pair_text, "precision": precision_text,
+         "stable_dt": stability_text, "balance": balance_text, "chosen_gain": chosen_text, "changed_step": changed_text,
+         "town": town_text}
 """{CSV file: function that words its numbers}"""
 
 
@@ -228,11 +203,8 @@ def run_table(folder):
     rows = table(folder, "runs")
     heads = list(rows[0])
     shown = [
-        (
-            row["run"],
-            row["elements"],
-            *(f"{float(row[head]):.{0 if float(row[head]) > 20 else 1}f}" for head in heads[2:]),
-        )
+        (row["run"], row["elements"],
+         *(f"{float(row[head]):.{0 if float(row[head]) > 20 else 1}f}" for head in heads[2:]))
         for row in rows
     ]
     return markdown_table(heads, shown)
@@ -243,29 +215,17 @@ def draw_profile(axis, rows):
     for k, row in enumerate(rows[:-1]):
         for y, state in enumerate((REST, SHAKING)):
             left = sum(float(other[f"{state}, share"]) for other in rows[:k])
-            axis.barh(
-                y,
-                float(row[f"{state}, share"]),
-                left=left,
-                height=0.6,
-                color=plt.cm.tab20(k),
-                label=row["part"] if y == 0 else None,
-            )
-    axis.set(
-        yticks=(0, 1),
-        yticklabels=(REST, SHAKING),
-        xlabel="share of the instructions of a step",
-        title="Where the time goes",
-    )
+            axis.barh(y, float(row[f"{state}, share"]), left=left, height=0.6, color=plt.cm.tab20(k),
+                      label=row["part"] if y == 0 else None)
+    axis.set(yticks=(0, 1), yticklabels=(REST, SHAKING), xlabel="share of the instructions of a step",
+             title="Where the time goes")
     axis.legend(fontsize=6.5, ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.2), frameon=False)
 
 
 def draw_pairs(axis, rows):
     """Time per contact of two faces of each program."""
-    names = {
-        "this package in YADE": "this package,\nlaw and solver", "YADE Polyhedra": "YADE's Polyhedra,\nlaw",
-        "timber points": "this package,\npoints", "Bullet": "Bullet,\npoints", "ODE": "ODE,\npoints",
-    }
+    names = {"this package in YADE": "this package,\nlaw and solver", "YADE Polyhedra": "YADE's Polyhedra,\nlaw",
+             "timber points": "this package,\npoints", "Bullet": "Bullet,\npoints", "ODE": "ODE,\npoints"}
     time = {row["program"]: float(row["time per pair and step [us]"]) for row in rows if row["pair"] == "face on face"}
     axis.bar(names.values(), [time[name] for name in names], color=["tab:blue", "0.6", "tab:blue", "0.6", "0.6"])
     axis.set(yscale="log", ylabel="time [us]", title="Contact of two faces")
@@ -274,11 +234,8 @@ def draw_pairs(axis, rows):
 
 def draw_errors(axis, rows, case):
     """Error over run time of one case, for several forms of the contact law."""
-    labels = {
-        "default": "implicit contacts (default)",
-        "increment form": "the same, Eq 38",
-        "explicit dashpots": "explicit dashpots",
-    }
+    labels = {"default": "implicit contacts (default)", "increment form": "the same, Eq 38",
+              "explicit dashpots": "explicit dashpots"}
     for (variant, label), mark in zip(labels.items(), "oD^"):
         points = {}
         for row in rows:
@@ -307,9 +264,8 @@ def write_performance(folder):
     fill(
         page,
         "numbers",
-        markdown_table(
-            ("file", "result"), [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]
-        ),
+        markdown_table(("file", "result"),
+                       [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]),
     )
     fill(page, "runs", run_table(folder))
 
@@ -331,13 +287,8 @@ def section_rows(rows):
     for section, (title, subject) in SECTIONS.items():
         checks = bounded(rows, section)
         entries.append(
-            (
-                title,
-                subject,
-                len(checks),
-                sum(error <= bound for error, bound in checks),
-                f"{max(share(*check) for check in checks):.2g}",
-            )
+            (title, subject, len(checks), sum(error <= bound for error, bound in checks),
+             f"{max(share(*check) for check in checks):.2g}")
         )
     return entries
 
@@ -357,13 +308,8 @@ def draw_margins(axis, rows):
         shares = [max(share(*check), 1e-12) for check in bounded(rows, section)]
         axis.plot(shares, [y] * len(shares), "o", ms=4, alpha=0.5, color="tab:blue")
     axis.axvline(1, color="tab:red", lw=1)
-    axis.set(
-        xscale="log",
-        xlabel="error over its bound (left edge: exact)",
-        yticks=range(len(SECTIONS)),
-        yticklabels=[title for title, _ in SECTIONS.values()],
-        title="All checks",
-    )
+    axis.set(xscale="log", xlabel="error over its bound (left edge: exact)", yticks=range(len(SECTIONS)),
+             yticklabels=[title for title, _ in SECTIONS.values()], title="All checks")
     axis.invert_yaxis()
 
 
@@ -374,9 +320,8 @@ def draw_convergence(axis, rows):
         axis.loglog(*zip(*points), "o-", ms=3, lw=1, label=label)
     steps = (2e-6, 2e-3)
     for order, style in ((1, ":"), (2, "--")):
-        axis.loglog(
-            steps, [3e-8 * (dt / steps[0]) ** order for dt in steps], style, color="0.6", label=f"order {order}"
-        )
+        axis.loglog(steps, [3e-8 * (dt / steps[0]) ** order for dt in steps], style, color="0.6",
+                    label=f"order {order}")
     axis.set(xlabel="time step [s]", ylabel="error [-]", title="Convergence")
     axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
 
@@ -390,9 +335,8 @@ def write_accuracy(folder):
     fill(
         folder / "accuracy.md",
         "checks",
-        markdown_table(
-            ("part", "compared with", "checks", "within their bound", "largest error / bound"), section_rows(rows)
-        ),
+        markdown_table(("part", "compared with", "checks", "within their bound", "largest error / bound"),
+                       section_rows(rows)),
     )
     fill(folder / "accuracy.md", "errors", markdown_table(("quantity", "error [-]", "time step [s]"), error_rows(rows)))
 

@@ -24,9 +24,8 @@ START = 17.0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--house", default="storehouse", help="shipped house or house file (default %(default)s)")
-    parser.add_argument(
-        "--duration", type=float, default=10.0, help="simulated time of each run [s] (default %(default)g)"
-    )
+    parser.add_argument("--duration", type=float, default=10.0,
+                        help="simulated time of each run [s] (default %(default)g)")
     parser.add_argument("--out", type=Path, default=Path("results/ten_motions"), help="folder (default %(default)s)")
     return parser.parse_args()
 
@@ -36,9 +35,8 @@ def plot(house, runs, path):
     time = runs[0].history.time
     so_far = np.array([np.maximum.accumulate(run.history.largest_drift()) for run in runs])
     low, first, median, third, high = np.percentile(so_far, (0, 25, 50, 75, 100), axis=0)
-    figure, (left, right) = plt.subplots(
-        1, 2, figsize=(8.4, 3.6), width_ratios=[3, 1], sharey=True, constrained_layout=True
-    )
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.6), width_ratios=[3, 1], sharey=True,
+                                         constrained_layout=True)
     left.fill_between(time, low, high, color=BLUE, alpha=0.15, lw=0, label="all ten motions")
     left.fill_between(time, first, third, color=BLUE, alpha=0.35, lw=0, label="quartiles")
     left.plot(time, median, color=BLUE, lw=1.2, label="median")
@@ -46,16 +44,14 @@ def plot(house, runs, path):
     left.set_title(f"House {house.name}, ten motions")
     left.legend(loc="upper left")
     right.plot((np.arange(len(runs)) + 0.5) / len(runs), np.sort(so_far[:, -1]), "o", color=ORANGE)
-    right.set(
-        xlabel="share of motions [-]", xlim=(0, 1), xticks=(0, 0.5, 1), title=f"peaks, median {ratio(median[-1])}"
-    )
+    right.set(xlabel="share of motions [-]", xlim=(0, 1), xticks=(0, 0.5, 1),
+              title=f"peaks, median {ratio(median[-1])}")
     for value, text in DRIFT_LINES:
         if value < left.get_ylim()[1]:
             left.axhline(value, color="0.7", lw=0.8, zorder=0)
             right.axhline(value, color="0.7", lw=0.8, zorder=0)
-            right.annotate(
-                text.partition(" ")[0], (1.02, value), xycoords=("axes fraction", "data"), va="center", color="0.4"
-            )
+            right.annotate(text.partition(" ")[0], (1.02, value), xycoords=("axes fraction", "data"), va="center",
+                           color="0.4")
     figure.savefig(path, dpi=150)
 
 
@@ -63,9 +59,8 @@ def main():
     options = arguments()
     house = yt.house(options.house)
     runs = [
-        yt.run(
-            house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}", no_frames=True
-        )
+        yt.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
+               no_frames=True)
         for seed in SEEDS
     ]
     plot(house, runs, options.out / "bands.png")

@@ -39,10 +39,9 @@ AFTER_COLLAPSE = 1.0
 """Time shown in the comparison, after the collapse of the first run. [s]"""
 FILM, SPAN = film.Format(width=640, height=370, rate=10, quality=30), (-3.0, 2.2)
 """Films of the runs FILMS, from and to these times after the collapse of the first [s]: below 3 MB each."""
-CHROMIUM = (
-    "chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader", "--window-size=1200,800", "--virtual-time-budget=5000",
-)
+CHROMIUM = ("chromium", "--headless=new", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle",
+            "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1200,800",
+            "--virtual-time-budget=5000")
 DPI = 130
 LARGEST = 150_000
 """Largest picture for a web page. [bytes]"""
@@ -89,9 +88,7 @@ def compared(runs, time):
         player.make([(name, runs[name]) for name in COMPARED], page)
         subprocess.run(
             [*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
-            env={**os.environ, "TMPDIR": folder},
-            check=True,
-            capture_output=True,
+            env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True
         )
         return Image.open(picture).convert("RGB")
 
@@ -115,11 +112,8 @@ def make(results, out):
     gallery.mkdir(parents=True, exist_ok=True)
     runs = {name: ended(results / name) for name in {*SHEETS, *sum(FILMS.values(), ()), HISTORY, LEAD}}
     written = [
-        write(
-            gallery / f"{name}.png",
-            sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN),
-            sheets.SCREEN.dpi,
-        )
+        write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN),
+              sheets.SCREEN.dpi)
         for name in SHEETS
     ]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
@@ -138,13 +132,8 @@ def make(results, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "results",
-        type=Path,
-        nargs="?",
-        default=Path("results"),
-        help="folder with the results of the runs (default: results)",
-    )
+    parser.add_argument("results", type=Path, nargs="?", default=Path("results"),
+                        help="folder with the results of the runs (default: results)")
     parser.add_argument("--out", type=Path, default=Path("docs"), help="folder to write to (default: docs)")
     options = parser.parse_args()
     try:

@@ -16,15 +16,9 @@ from yade_timber.motion import DEFAULT_RECORD, synthetic_motion, write_csv
 from yade_timber.motion.synthetic import DEFAULT_SEED, GENERATOR_VERSION, TARGETS, achieved
 from yade_timber.study.options import Parser, run_script, seed
 
-LABELS = {
-    "pga_ns": "PGA NS [gal]",
-    "pga_ew": "PGA EW [gal]",
-    "pga_ud": "PGA UD [gal]",
-    "pga_h": "PGA horizontal vector [gal]",
-    "pgv_h": "PGV horizontal vector [cm/s]",
-    "jma": "JMA intensity",
-    "psv_ew": "5 % pSv of EW at 0.6-0.7 s, smallest [cm/s]",
-}
+LABELS = {"pga_ns": "PGA NS [gal]", "pga_ew": "PGA EW [gal]", "pga_ud": "PGA UD [gal]",
+          "pga_h": "PGA horizontal vector [gal]", "pgv_h": "PGV horizontal vector [cm/s]", "jma": "JMA intensity",
+          "psv_ew": "5 % pSv of EW at 0.6-0.7 s, smallest [cm/s]"}
 
 
 def provenance(seed, got):
@@ -43,12 +37,10 @@ def target_text(key):
 
 def main():
     parser = Parser(__doc__)
-    parser.add_argument(
-        "--seed", type=seed, default=DEFAULT_SEED, help="whole number >= 0 (default %(default)s, the shipped motion)"
-    )
-    parser.add_argument(
-        "--out", type=Path, help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)"
-    )
+    parser.add_argument("--seed", type=seed, default=DEFAULT_SEED,
+                        help="whole number >= 0 (default %(default)s, the shipped motion)")
+    parser.add_argument("--out", type=Path,
+                        help="CSV file (default: the shipped file for the default seed, else ojiya_like_N.csv)")
     options = parser.parse_args()
     out = options.out or (DEFAULT_RECORD if options.seed == DEFAULT_SEED else Path(f"ojiya_like_{options.seed}.csv"))
     motion = synthetic_motion(options.seed)

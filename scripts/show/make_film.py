@@ -55,36 +55,24 @@ def arguments():
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
     parser.add_argument("--compare", type=path, metavar="RUN", help="a second run, shown at the right")
+    parser.add_argument("--view", choices=tuple(camera.CAMERAS), default="space",
+                        help="from the east, from the north, or from the north-east above (default)")
     parser.add_argument(
-        "--view", choices=tuple(camera.CAMERAS), default="space",
-        help="from the east, from the north, or from the north-east above (default)",
-    )
-    parser.add_argument(
-        "--speed",
-        type=number(0.01, 20),
-        help="simulated seconds in a second of the film (default: 1, and 0.25 around the first collapse)",
+        "--speed", type=number(0.01, 20),
+        help="simulated seconds in a second of the film (default: 1, and 0.25 around the first collapse)"
     )
     parser.add_argument("--start", type=instant, help="begin at this time [s] (default: 1 s before the shaking)")
+    parser.add_argument("--end", type=instant,
+                        help="end at this time [s] (default: when no picture differs visibly from the last one)")
+    parser.add_argument("--size", type=size, default=(form.width, form.height), metavar="WIDTHxHEIGHT",
+                        help="[pixel] (default 1920x1080)")
+    parser.add_argument("--rate", type=number(1, 120), default=form.rate,
+                        help="pictures per second (default %(default)g)")
+    parser.add_argument("--quality", type=number(1, 100, int), default=form.quality,
+                        help="of WebP (default %(default)d)")
     parser.add_argument(
-        "--end", type=instant, help="end at this time [s] (default: when no picture differs visibly from the last one)"
-    )
-    parser.add_argument(
-        "--size",
-        type=size,
-        default=(form.width, form.height),
-        metavar="WIDTHxHEIGHT",
-        help="[pixel] (default 1920x1080)",
-    )
-    parser.add_argument(
-        "--rate", type=number(1, 120), default=form.rate, help="pictures per second (default %(default)g)"
-    )
-    parser.add_argument(
-        "--quality", type=number(1, 100, int), default=form.quality, help="of WebP (default %(default)d)"
-    )
-    parser.add_argument(
-        "--out",
-        type=film_path,
-        help="film to write, .mp4 or .webp (default: film.mp4 in the folder of the run; film.webp without ffmpeg)",
+        "--out", type=film_path,
+        help="film to write, .mp4 or .webp (default: film.mp4 in the folder of the run; film.webp without ffmpeg)"
     )
     return parser.parse_args()
 

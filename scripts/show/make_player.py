@@ -19,9 +19,8 @@ def arguments():
     parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
     parser.add_argument("other", type=path, nargs="?", help="a second run, for comparison")
     parser.add_argument(
-        "--out",
-        type=path,
-        help=f"page to write (default: {PLAYER} in the first folder; for two runs compare_with_<second>.html)",
+        "--out", type=path,
+        help=f"page to write (default: {PLAYER} in the first folder; for two runs compare_with_<second>.html)"
     )
     return parser.parse_args()
 

@@ -11,9 +11,8 @@ from yade_timber.pictures import report
 
 def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "folder", type=path, nargs="+", help="folder of a run's results (with frames.h5 and summary.json)"
-    )
+    parser.add_argument("folder", type=path, nargs="+",
+                        help="folder of a run's results (with frames.h5 and summary.json)")
     return parser.parse_args()
 
 

@@ -14,19 +14,8 @@ from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber.base.notes import noted
 from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import (
-    add_motion_options,
-    arias,
-    interpolation_error,
-    jma_intensity,
-    motion_request,
-    pga,
-    pgd,
-    pgv,
-    scaled,
-    significant_duration,
-    with_then,
-)
+from yade_timber.motion import (add_motion_options, arias, interpolation_error, jma_intensity, motion_request, pga, pgd,
+                                pgv, scaled, significant_duration, with_then)
 from yade_timber.pictures import motion_sheet
 from yade_timber.pictures.figures import stem_of
 
@@ -58,15 +47,12 @@ def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("positional", nargs="?", metavar="RECORD", help="same as --record")
     add_motion_options(parser)
-    parser.add_argument(
-        "--dt", type=float, default=DEFAULT_DT, help="time step of a run, for --resample [s] (default %(default)g)"
-    )
-    parser.add_argument(
-        "--corner", type=float, default=0.05, help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none"
-    )
-    parser.add_argument(
-        "--out", type=path, help="picture to write, as .png and .pdf (default: NAME.png in this folder)"
-    )
+    parser.add_argument("--dt", type=float, default=DEFAULT_DT,
+                        help="time step of a run, for --resample [s] (default %(default)g)")
+    parser.add_argument("--corner", type=float, default=0.05,
+                        help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
+    parser.add_argument("--out", type=path,
+                        help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
     options = parser.parse_args(with_then(sys.argv[1:]))
     if options.record and options.positional:
         parser.error("RECORD and --record name the same option: give one")

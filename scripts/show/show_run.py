@@ -12,9 +12,8 @@ from yade_timber.pictures import all_pictures
 def arguments():
     parser = Parser(description=__doc__)
     parser.add_argument("folder", type=path, nargs="+", help="folder of a run's results (with frames.h5)")
-    parser.add_argument(
-        "--out", type=path, help="folder to write to; for several runs a folder for each (default: beside the frames)"
-    )
+    parser.add_argument("--out", type=path,
+                        help="folder to write to; for several runs a folder for each (default: beside the frames)")
     parser.add_argument("--pdf", action="store_true", help="write sheets and curves as PDF, too")
     return parser.parse_args()
 
@@ -25,11 +24,8 @@ def main():
     if options.out and len(set(names)) < len(names):
         sys.exit("error: --out: two runs have folders of the same name; show them one by one")
     for folder in options.folder:
-        out = (
-            folder
-            if options.out is None
-            else options.out if len(options.folder) == 1 else options.out / folder.resolve().name
-        )
+        out = (folder if options.out is None else options.out if len(options.folder) == 1
+               else options.out / folder.resolve().name)
         with errors_in_a_line(out):
             if out != folder:
                 make_folder(out)

@@ -38,12 +38,8 @@ class Evaluation:
     @property
     def allowable(self):
         """The least of the four loads. [N]"""
-        return min(
-            self.yield_load,
-            2 / 3 * self.largest_load,
-            self.code_load,
-            0.2 * (2 * self.ductility - 1) ** 0.5 * self.ultimate_load,
-        )
+        return min(self.yield_load, 2 / 3 * self.largest_load, self.code_load,
+                   0.2 * (2 * self.ductility - 1) ** 0.5 * self.ultimate_load)
 
 
 def evaluate(envelope, end=None):
@@ -63,15 +59,8 @@ def evaluate(envelope, end=None):
     ultimate = _end(drift, load, top, end)
     area = _area(drift, load, ultimate)
     ultimate_load = stiffness * (ultimate - np.sqrt(ultimate**2 - 2 * area / stiffness))
-    return Evaluation(
-        float(np.interp(CODE_DRIFT, drift, load)),
-        float(yield_load),
-        float(ultimate_load),
-        float(load[top]),
-        float(drift[top]),
-        float(ultimate),
-        float(ultimate * stiffness / ultimate_load),
-    )
+    return Evaluation(float(np.interp(CODE_DRIFT, drift, load)), float(yield_load), float(ultimate_load),
+                      float(load[top]), float(drift[top]), float(ultimate), float(ultimate * stiffness / ultimate_load))
 
 
 def _end(drift, load, top, end):

@@ -40,9 +40,8 @@ from yade_timber.house import LEVELS, build_house, load_house
 from yade_timber.motion import processing, read_motion, write_csv
 from yade_timber.run.options import RunOptions
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import (
-    Parser, add_driver_options, count, non_negative, positive, record, results_folder, run_script, seed, selected,
-)
+from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, record,
+                                       results_folder, run_script, seed, selected)
 
 GRADES = (1.0, 1.25, 1.5)
 TEST = {1.0: "storey 1 collapses", 1.25: "stands, joints loosened", 1.5: "stands, 1/26"}
@@ -53,13 +52,8 @@ def tasks(files, shaking, seeds, folder):
     runs = {}
     for (grade, level), path in files.items():
         for number in range(1, seeds + 1):
-            options = RunOptions(
-                house=str(path.resolve()),
-                **shaking,
-                until_collapse=True,
-                disturb=number if number > 1 else None,
-                no_frames=True,
-            )
+            options = RunOptions(house=str(path.resolve()), **shaking, until_collapse=True,
+                                 disturb=number if number > 1 else None, no_frames=True)
             task = Task("house", folder / path.stem / f"{number:03d}", options)
             runs.setdefault((grade, level), []).append(task)
     return runs

@@ -51,10 +51,6 @@ def column_ends(data, columns, width, height):
     rule = data["joints"]["column_ends"]
     fitting, lever = data["joint_types"][rule["type"]], (1 - ROUNDING) * width
     many = columns * rule["number"] * lever / height
-    return slip_spring(
-        stiffness=many * fitting["kn"] * lever,
-        strength=many * fitting["strength"],
-        friction_share=fitting["friction_share"],
-        softening=fitting["softening_stretch"] / lever,
-        ultimate=fitting["ultimate_stretch"] / lever,
-    )
+    return slip_spring(stiffness=many * fitting["kn"] * lever, strength=many * fitting["strength"],
+                       friction_share=fitting["friction_share"], softening=fitting["softening_stretch"] / lever,
+                       ultimate=fitting["ultimate_stretch"] / lever)

@@ -50,9 +50,8 @@ class Rack:
         path.write_text(HOUSE.format(type=type, length=length, height=height, opening=opening))
         self.length, self.height = length, height
         self.model = scenario.build(scenario.Scenario("bay", str(path), wall_level=level))
-        self.beams, self.columns = (
-            joint for joint in engines.find_engine(yw.JointEngine).joints if joint.kind.startswith("wall")
-        )
+        self.beams, self.columns = (joint for joint in engines.find_engine(yw.JointEngine).joints
+                                    if joint.kind.startswith("wall"))
         self.joints = yw.JointEngine()
         for joint in (self.beams, self.columns):
             self.joints.append(joint)
@@ -77,11 +76,8 @@ class Rack:
 
     def path(self, *angles, step=1e-4):
         """[(theta, shear)] along straight paths from one angle to the next."""
-        return [
-            (theta, self.drift(theta))
-            for a, b in zip(angles, angles[1:])
-            for theta in np.linspace(a, b, max(2, round(abs(b - a) / step)))
-        ]
+        return [(theta, self.drift(theta)) for a, b in zip(angles, angles[1:])
+                for theta in np.linspace(a, b, max(2, round(abs(b - a) / step)))]
 
     def test(self, drifts=DRIFTS, cycles=CYCLES, step=STEP):
         """[(theta, shear)] of the usual test: cycles of growing amplitude, then a push until the wall breaks."""

@@ -35,10 +35,8 @@ HEIGHT, MODULE, BAYS = 2.73, 0.91, 8
 """Of a storey, of the grid [m]; bays of a side."""
 NAILS = {1: (5.5, 0.3), 2: (5.5, 0.2), 3: (4.5, 0.05), 4: (5.0, 0.1), 5: (5.5, 0.2), 6: (6.0, 0.3)}
 """Diameter [mm] and initial modulus of the foundation [kN/mm2] of the wall types; E of the nails is 200 kN/mm2."""
-WALLS = {
-    "ew": ({1: 7, 2: 4, 3: 2, 4: 1, 5: 2, 6: 1}, {1: 5, 2: 3, 3: 3, 4: 1, 5: 2}, {1: 5, 3: 4, 4: 2, 5: 1, 6: 1}),
-    "ns": ({1: 9, 2: 2, 3: 3, 4: 1, 5: 4, 6: 1}, {1: 7, 2: 1, 3: 3, 4: 3, 5: 4}, {1: 7, 3: 1, 4: 5, 5: 2, 6: 2}),
-}
+WALLS = {"ew": ({1: 7, 2: 4, 3: 2, 4: 1, 5: 2, 6: 1}, {1: 5, 2: 3, 3: 3, 4: 1, 5: 2}, {1: 5, 3: 4, 4: 2, 5: 1, 6: 1}),
+         "ns": ({1: 9, 2: 2, 3: 3, 4: 1, 5: 4, 6: 1}, {1: 7, 2: 1, 3: 3, 4: 3, 5: 4}, {1: 7, 3: 1, 4: 5, 5: 2, 6: 2})}
 """Numbers of walls of each type, storeys from below."""
 ENDS = {"three fittings": (1.7e6, 3, 7800.0), "pinned": (1e9, 1, 1e9)}
 """Stiffness [N/m], number and strength [N] of the fittings of a column end."""
@@ -78,11 +76,8 @@ def house(ends, densities):
     stack = [{"layer": "foundation", "height": 0.3, "width": 0.15}]
     for storey in range(3):
         slab = {"layer": "floor"} if storey < 2 else {"layer": "roof", "type": "flat"}
-        stack += [
-            {"layer": "columns", "height": HEIGHT - 0.43},
-            {"layer": "beams", "height": 0.33, "width": 0.105},
-            {**slab, "thickness": 0.1, "material": f"slab{storey}"},
-        ]
+        stack += [{"layer": "columns", "height": HEIGHT - 0.43}, {"layer": "beams", "height": 0.33, "width": 0.105},
+                  {**slab, "thickness": 0.1, "material": f"slab{storey}"}]
     stiffness, number, strength = ENDS[ends]
     whole = {"from": 0, "to": BAYS}
     lines = [{"along": "y", "at": [0, 4, BAYS], **whole}, {"along": "x", "at": [0, 4, BAYS], **whole, "cut": True}]
@@ -93,19 +88,15 @@ def house(ends, densities):
         "extends": "plated",
         "name": f"ubc3s_{ends.split()[-1]}",
         "description": f"UBC3S, column ends: {ends}",
-        "materials": {
-            "timber": {**timber, "density": 450},
-            **{f"slab{k}": {**timber, "density": density} for k, density in enumerate(densities)},
-        },
+        "materials": {"timber": {**timber, "density": 450},
+                      **{f"slab{k}": {**timber, "density": density} for k, density in enumerate(densities)}},
         "friction": [{"between": [f"slab{k}", "timber"], "coefficient": 0.5} for k in range(3)],
         "structures": {"main": {
             "place": {"origin": [0, 0]},
-            "grid": {"x": {"module": MODULE, "count": BAYS}, "y": {"module": MODULE, "count": BAYS}},
-            "margin": 0.0525,
-            "lines": lines,
-            "stack": stack,
+            "grid": {"x": {"module": MODULE, "count": BAYS}, "y": {"module": MODULE, "count": BAYS}}, "margin": 0.0525,
+            "lines": lines, "stack": stack,
             "columns": [{"section": 0.105, "lines": sides}, {"section": 0.105, "at": [[4, 4]]}],
-            "walls": [{**sides[name == "ew"], "type": f"{name}{k}", "storeys": k + 1} for name, k in storeys],
+            "walls": [{**sides[name == "ew"], "type": f"{name}{k}", "storeys": k + 1} for name, k in storeys]
         }},
         "wall_types": {f"{name}{k}": wall_type(k, name) for name, k in storeys},
         "joint_types": {"column_end": {"kn": stiffness, "ks": stiffness, "strength": strength, **NO_SOFTENING}},

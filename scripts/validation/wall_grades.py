@@ -43,11 +43,8 @@ def bay_length(label):
 
 def factors(model, wall_types, grade, roof="heavy"):
     """{(storey, direction): factor on the sheets} for an existing wall quantity of `grade` times the required one."""
-    return {
-        (k, d): grade * required_quantity(model, k, roof) / existing_quantity(model, wall_types, k, d)
-        for k in (1, 2)
-        for d in AXES
-    }
+    return {(k, d): grade * required_quantity(model, k, roof) / existing_quantity(model, wall_types, k, d)
+            for k in (1, 2) for d in AXES}
 
 
 def required_quantity(model, storey, roof):

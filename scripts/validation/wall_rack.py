@@ -27,20 +27,16 @@ from yade_timber.base.table import csv_text
 from yade_timber.study.options import Parser, results_folder, run_script
 
 MODELS = {"points": "#0072B2", "mean": "#009E73", "design": "#D55E00"}
-HEADS = (
-    "wall", "case", "tests", "multiplier", "P at the code's drift [kN]", "code's drift", "Py [kN]", "Pu [kN]",
-    "Pmax [kN]", "Pmax / allowable", "drift of Pmax", "drift at 0.8 Pmax", "source",
-)
+HEADS = ("wall", "case", "tests", "multiplier", "P at the code's drift [kN]", "code's drift", "Py [kN]", "Pu [kN]",
+         "Pmax [kN]", "Pmax / allowable", "drift of Pmax", "drift at 0.8 Pmax", "source")
 
 
 def arguments():
     parser = Parser(__doc__)
-    parser.add_argument(
-        "--only", nargs="+", default=[], metavar="NAME", help="walls whose names contain one of these texts"
-    )
-    parser.add_argument(
-        "--out", type=results_folder, default="results/wall_rack", help="folder of the results (default %(default)s)"
-    )
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME",
+                        help="walls whose names contain one of these texts")
+    parser.add_argument("--out", type=results_folder, default="results/wall_rack",
+                        help="folder of the results (default %(default)s)")
     return parser.parse_args()
 
 
@@ -62,9 +58,8 @@ def loops(wall, type, level):
 
 def measured_row(wall):
     return _row(
-        wall,
-        "measured, mean",
-        [wall.mean(name) for name in ("code", "yielding", "ultimate", "largest", "largest_drift", "ultimate_drift")],
+        wall, "measured, mean",
+        [wall.mean(name) for name in ("code", "yielding", "ultimate", "largest", "largest_drift", "ultimate_drift")]
     )
 
 
@@ -72,9 +67,8 @@ def model_row(wall, name, curve):
     found = evaluate(curve)
     code = float(np.interp(wall.code_drift, *curve.T))
     return _row(
-        wall,
-        name,
-        [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift, found.ultimate_drift],
+        wall, name,
+        [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift, found.ultimate_drift]
     )
 
 
@@ -82,21 +76,9 @@ def _row(wall, case, values):
     code, yielding, ultimate, largest, top, end = values
     multiplier = wall.mean("multiplier")
     ratio = largest / (1.96 * wall.length * multiplier)
-    return [
-        wall.name,
-        case,
-        len(wall.tests) if case.startswith("measured") else "",
-        _number(multiplier),
-        _number(code),
-        f"1/{1 / wall.code_drift:.0f}",
-        _number(yielding),
-        _number(ultimate),
-        _number(largest),
-        _number(ratio),
-        _fraction(top),
-        _fraction(end),
-        wall.source,
-    ]
+    return [wall.name, case, len(wall.tests) if case.startswith("measured") else "", _number(multiplier), _number(code),
+            f"1/{1 / wall.code_drift:.0f}", _number(yielding), _number(ultimate), _number(largest), _number(ratio),
+            _fraction(top), _fraction(end), wall.source]
 
 
 def _number(value):
@@ -128,13 +110,8 @@ def draw(axes, wall, curves):
 
 def figure(results):
     """results: {wall: curves}"""
-    page, fields = plt.subplots(
-        -(-len(results) // 3),
-        min(3, len(results)),
-        figsize=(12, 3.6 * -(-len(results) // 3)),
-        squeeze=False,
-        constrained_layout=True,
-    )
+    page, fields = plt.subplots(-(-len(results) // 3), min(3, len(results)), figsize=(12, 3.6 * -(-len(results) // 3)),
+                                squeeze=False, constrained_layout=True)
     for axes, (wall, curves) in zip(fields.flat, results.items()):
         draw(axes, wall, curves)
     fields.flat[0].legend(loc="lower right")

@@ -44,10 +44,8 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     """
     record, given = source_of(source)
     request = MotionRequest(
-        **{
-            **read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}),
-            "record": record,
-        }
+        **{**read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}),
+           "record": record}
     )
     request.check("motion: {}".format)
     if given is not None and request.seed is not None:
@@ -66,7 +64,6 @@ def source_of(motion):
     try:
         find_files(motion)
     except RecordError as problem:
-        raise RecordError(
-            f"{problem}; did you mean '{SHIPPED}'?" if close(motion, [SHIPPED]) else str(problem)
-        ) from None
+        raise RecordError(f"{problem}; did you mean '{SHIPPED}'?" if close(motion, [SHIPPED])
+                          else str(problem)) from None
     return str(motion), None

@@ -67,15 +67,11 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     if not host.running():
         raise RunError("yt.run needs YADE: start this script with `yade -n -x script.py`, or call it in a YADE session")
     house = house if isinstance(house, House) else House(house)
-    keywords = read_keywords(
-        RunOptions, "run", {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD
-    )
+    keywords = read_keywords(RunOptions, "run",
+                             {"no_views": True, **options, "snow": snow, "duration": duration, "out": out}, INSTEAD)
     record, ground_motion = (None, None) if motion is None else source_of(motion)
-    shaking = {
-        "record": record,
-        "ground_motion": ground_motion,
-        "quake": motion is not None and record is ground_motion is None,
-    }
+    shaking = {"record": record, "ground_motion": ground_motion,
+               "quake": motion is not None and record is ground_motion is None}
     return _complete(RunOptions(house=house.given, door=DOOR, **{"out": _default_folder(house), **keywords, **shaking}))
 
 

@@ -18,17 +18,12 @@ class Term:
 
 
 ELASTIC = (Term("elastic_contacts"), Term("elastic_joints"))
-DISSIPATED = (
-    Term("dashpot_normal", 1, "contact dashpots,\nnormal", colors.SKY_BLUE),
-    Term("dashpot_shear", 1, "contact dashpots,\ntangential", colors.BLUE),
-    Term("friction", 1, "friction", colors.AMBER),
-    Term("broken_springs", 1, "broken joints", colors.ORANGE),
-    Term("lost_contacts", 1, "contacts lost\nunder load", colors.PURPLE),
-    Term("joint_dashpot", 1, "joint dashpots", colors.GREEN),
-    Term("joint_yield", 1, "yielding joints", colors.GREY),
-)
-SIGNS = {
-    term.name: term.sign
-    for term in (Term("ground_motion", -1), Term("gravity"), Term("kinetic"), *ELASTIC, *DISSIPATED)
-}
+DISSIPATED = (Term("dashpot_normal", 1, "contact dashpots,\nnormal", colors.SKY_BLUE),
+              Term("dashpot_shear", 1, "contact dashpots,\ntangential", colors.BLUE),
+              Term("friction", 1, "friction", colors.AMBER), Term("broken_springs", 1, "broken joints", colors.ORANGE),
+              Term("lost_contacts", 1, "contacts lost\nunder load", colors.PURPLE),
+              Term("joint_dashpot", 1, "joint dashpots", colors.GREEN),
+              Term("joint_yield", 1, "yielding joints", colors.GREY))
+SIGNS = {term.name: term.sign
+         for term in (Term("ground_motion", -1), Term("gravity"), Term("kinetic"), *ELASTIC, *DISSIPATED)}
 """{name: sign}"""

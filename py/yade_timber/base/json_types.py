@@ -82,9 +82,8 @@ def _arguments(kind, entries, path):
     names, arguments = {part.name for part in fields(kind)}, {}
     for part, hint in types(kind):
         if "others" in part.metadata:
-            arguments[part.name] = decode(
-                hint, {key: entry for key, entry in entries.items() if key not in names}, path
-            )
+            arguments[part.name] = decode(hint, {key: entry for key, entry in entries.items() if key not in names},
+                                          path)
         elif part.name in entries:
             arguments[part.name] = decode(hint, entries[part.name], f"{path}.{part.name}")
         elif part.default is MISSING:

@@ -11,13 +11,8 @@ from .input_file import shown
 from .remedies import decimal_point, nearest
 
 FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
-KINDS = {
-    int: ("a whole number", Integral),
-    float: ("a number", Real),
-    bool: ("yes or no", bool),
-    str: ("a text", (str, Path)),
-    Path: ("a path", (str, Path)),
-}
+KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool),
+         str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
 BY_SCRIPT = ("house", "quake", "snow", "walls")
 """Options that a run script decides, unless it is house.py or town.py."""
@@ -30,10 +25,8 @@ def option(kind, about, metavar=None, low=None, high=None, default=None, choices
     default = False if kind is bool else default
     return field(
         default=default,
-        metadata={
-            "kind": kind, "help": about, "metavar": metavar, "low": low, "high": high, "choices": choices,
-            "group": group, "decides": decides,
-        },
+        metadata={"kind": kind, "help": about, "metavar": metavar, "low": low, "high": high, "choices": choices,
+                  "group": group, "decides": decides},
     )
 
 
@@ -55,9 +48,8 @@ def is_given(values, name):
 def check_ranges(values, name, error):
     """Raise `error` for a value out of its range. name: function that names an option in messages"""
     for each in options(type(values)).values():
-        value, low, high, choices = getattr(values, each.name), *(
-            each.metadata[key] for key in ("low", "high", "choices")
-        )
+        value, low, high, choices = getattr(values, each.name), *(each.metadata[key]
+                                                                  for key in ("low", "high", "choices"))
         if value is None:
             continue
         if choices and value not in choices:
@@ -106,11 +98,8 @@ def add_options(parser, wanted):
 def read_arguments(kind, arguments):
     """{option: value} of the options that a command line (argparse.Namespace) gives. Raises RunError."""
     texts = {name: getattr(arguments, name, None) for name in options(kind)}
-    return {
-        name: text if text is True else read(options(kind)[name], text, command_option(name))
-        for name, text in texts.items()
-        if text is not None
-    }
+    return {name: text if text is True else read(options(kind)[name], text, command_option(name))
+            for name, text in texts.items() if text is not None}
 
 
 def words(values, named):
@@ -118,10 +107,8 @@ def words(values, named):
     its house is first
     """
     given = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
-    return [
-        *([] if named else [values["house"]]),
-        *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items()),
-    ]
+    return [*([] if named else [values["house"]]),
+            *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items())]
 
 
 # --- keywords ---------------------------------------------------------------------------------------------------------
@@ -135,11 +122,8 @@ def read_keywords(kind, function, keywords, instead={}):
     for name in keywords:
         if name not in names:
             raise TypeError(f"{function}() has no option '{name}'; {instead.get(name) or nearest(name, names)}")
-    return {
-        name: _keyword(options(kind)[name], value, f"{function}: {name}")
-        for name, value in keywords.items()
-        if value is not None
-    }
+    return {name: _keyword(options(kind)[name], value, f"{function}: {name}") for name, value in keywords.items()
+            if value is not None}
 
 
 def _keyword(each, value, name):

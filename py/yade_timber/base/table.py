@@ -9,9 +9,8 @@ def csv_text(header, rows):
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
-    writer.writerows(
-        [f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row] for row in rows
-    )
+    writer.writerows([f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row]
+                     for row in rows)
     return text.getvalue()
 
 

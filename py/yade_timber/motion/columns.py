@@ -59,8 +59,5 @@ def equal_step(path, stated, times):
 
 def channels_of(path, names, rows, step, begins=None):
     """One channel for each column of accelerations; rows (n, columns) in m/s2."""
-    return [
-        Channel(path, step, rows[:, index], DIRECTIONS[name], begins)
-        for index, name in enumerate(names)
-        if name in DIRECTIONS
-    ]
+    return [Channel(path, step, rows[:, index], DIRECTIONS[name], begins) for index, name in enumerate(names)
+            if name in DIRECTIONS]

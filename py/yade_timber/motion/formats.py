@@ -129,9 +129,8 @@ def _unit_in(line):
     words = _words(line, "()=:,")
     for i, word in enumerate(words):
         if word in ("unit", "units") and (i == 0 or words[i - 1] in ("in", "the")):
-            rest = (
-                words[i + 2 :] if words[i + 1 : i + 2] and words[i + 1] in ("of", "are", "is", "in") else words[i + 1 :]
-            )
+            rest = (words[i + 2 :] if words[i + 1 : i + 2] and words[i + 1] in ("of", "are", "is", "in")
+                    else words[i + 1 :])
             return rest[0].rstrip(".") if rest and rest[0][0].isalpha() else None
     return None
 
@@ -219,9 +218,8 @@ def _plain_csv(path, lines, units):
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
-    step = equal_step(
-        path, comments, _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None
-    )
+    step = equal_step(path, comments,
+                      _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
     if "samples" in comments:
         require_count(path, len(rows), whole(*comments["samples"]), "'# samples:'")
     return channels_of(path, names, rows * factor, step)
@@ -236,9 +234,8 @@ def _csv_columns(lines):
     for index, line in enumerate(lines):
         if line.startswith(COMMENT) or not line.strip(FILLING):
             continue
-        return _named_columns(index, line) or (
-            _named_columns(index - 1, uncommented(lines[index - 1])) if index else None
-        )
+        return _named_columns(index, line) or (_named_columns(index - 1, uncommented(lines[index - 1])) if index
+                                               else None)
     return None
 
 

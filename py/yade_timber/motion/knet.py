@@ -36,14 +36,8 @@ Headers print 3 to 6 digits; a damaged sample moves the peak by far more.
 
 # --- ASCII --------------------------------------------------------------------------------------
 
-_FIELDS = {
-    "Record Time": "",
-    "Sampling Freq": "(Hz)",
-    "Duration Time": "(s)",
-    "Dir.": "",
-    "Scale Factor": "",
-    "Max": "(gal)",
-}
+_FIELDS = {"Record Time": "", "Sampling Freq": "(Hz)", "Duration Time": "(s)", "Dir.": "", "Scale Factor": "",
+           "Max": "(gal)"}
 """Beginning of a header line -> unit before its value. There are two spellings: 'Max. Acc. (gal)' and 'Max Acc. (gal)'.
 """
 _OPTIONAL = ("Record Time", "Max")
@@ -61,9 +55,8 @@ def read_ascii(path, lines, units):
     sampling, where = fields["Sampling Freq"]
     rate = positive(sampling.removesuffix("Hz"), where)
     counts = numbers(path, lines[HEADER_LINES:], HEADER_LINES + 1)
-    require_count(
-        path, len(counts), round(finite(*fields["Duration Time"]) * rate), "Duration Time x Sampling Freq", PLAIN_CSV
-    )
+    require_count(path, len(counts), round(finite(*fields["Duration Time"]) * rate), "Duration Time x Sampling Freq",
+                  PLAIN_CSV)
     values = (counts - counts.mean()) * _scale(*fields["Scale Factor"])
     if "Max" in fields:
         _compare_peak(path, values, finite(*fields["Max"]))
@@ -82,10 +75,8 @@ def _fields(path, lines):
         for label, unit in _FIELDS.items():
             value = text.removeprefix(label).partition(unit)[2] if unit else text.removeprefix(label)
             if text.startswith(label) and value.strip() and label not in fields:
-                fields[label] = (
-                    " ".join(value.split()[: 2 if label == "Record Time" else 1]),
-                    f"{path}:{number}: {label}",
-                )
+                fields[label] = (" ".join(value.split()[: 2 if label == "Record Time" else 1]),
+                                 f"{path}:{number}: {label}")
     missing = [f"'{label}'" for label in _FIELDS if label not in fields]
     if any(label not in fields for label in _FIELDS if label not in _OPTIONAL):
         problem = f"K-NET header without {', '.join(missing)} in its {HEADER_LINES} lines"
@@ -104,11 +95,8 @@ def _scale(text, where):
 def _compare_peak(path, values, stated_gal):
     got = np.abs(values).max() / GAL
     if abs(got - stated_gal) > MAX_TOLERANCE * stated_gal + 0.01:
-        warnings.warn(
-            f"{path}: largest acceleration {got:.3f} gal, the header says {stated_gal:g} gal",
-            RecordWarning,
-            stacklevel=2,
-        )
+        warnings.warn(f"{path}: largest acceleration {got:.3f} gal, the header says {stated_gal:g} gal", RecordWarning,
+                      stacklevel=2)
 
 
 def _refuse_units(path, units):
@@ -142,17 +130,11 @@ def read_csv(path, lines, units):
     rows = table(path, lines[last + 1 :], last + 2, len(columns), ",", texts=clocks)
     stated = _labelled(path, lines[: last + 1])
     times = rows[:, cells.index("relativetime")] if "relativetime" in cells else None
-    step = equal_step(
-        path, {"sampling": stated["samplingfrequency(hz)"]} if "samplingfrequency(hz)" in stated else {}, times
-    )
+    step = equal_step(path, {"sampling": stated["samplingfrequency(hz)"]} if "samplingfrequency(hz)" in stated else {},
+                      times)
     if "durationtime(s)" in stated:
-        require_count(
-            path,
-            len(rows),
-            round(positive(*stated["durationtime(s)"]) / step),
-            "DurationTime x SamplingFrequency",
-            PLAIN_CSV,
-        )
+        require_count(path, len(rows), round(positive(*stated["durationtime(s)"]) / step),
+                      "DurationTime x SamplingFrequency", PLAIN_CSV)
     chosen = _surface_columns(columns)
     factors = [unit_factor((_UNIT.search(columns[k]) or ["", "gal"])[1], path) for k in chosen.values()]
     values = rows[:, list(chosen.values())] * factors
@@ -172,11 +154,8 @@ def _csv_columns(path, lines):
 def _labelled(path, header):
     """{label: (value, file:line: label)} of rows of labels, each followed by a row of values."""
     rows = [uncommented(line).split(",") for line in header]
-    return {
-        label.replace(" ", "").lower(): (value.strip(), f"{path}:{number}: {label}")
-        for number, (labels, values) in enumerate(zip(rows, rows[1:]), 2)
-        for label, value in zip(labels, values)
-    }
+    return {label.replace(" ", "").lower(): (value.strip(), f"{path}:{number}: {label}")
+            for number, (labels, values) in enumerate(zip(rows, rows[1:]), 2) for label, value in zip(labels, values)}
 
 
 def _surface_columns(columns):
@@ -197,7 +176,6 @@ def _surface_columns(columns):
 
 def _csv_begin(path, lines, last, clocks):
     """Date and time of the first row, None without a column of times."""
-    row, number = next(
-        ((line, k) for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(",; \t")), ("", 0)
-    )
+    row, number = next(((line, k) for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(",; \t")),
+                       ("", 0))
     return clock(row.split(",")[clocks[0]], f"{path}:{number}: Time") if clocks else None

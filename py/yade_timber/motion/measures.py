@@ -104,11 +104,8 @@ def _integral(motion, corner, times):
     for _ in range(times):
         values = scipy.integrate.cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
     values = values[pad : len(values) - pad]
-    return (
-        values
-        if stride == 1
-        else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T])
-    )
+    return (values if stride == 1
+            else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T]))
 
 
 # --- JMA instrumental intensity -----------------------------------------------------------------

@@ -13,25 +13,19 @@ PLAIN_CSV = (
 HEAD_LINES = 12
 """Lines in which the words of a format are searched."""
 
-TEXTS = (
-    ("COSMOS", ("(format v", "cosmos")),
-    ("GeoNet V1 to V3", ("geonet", "institute of geological and nuclear sciences")),
-    ("SMC (USGS)", ("1 uncorrected accelerogram", "2 corrected accelerogram")),
-    ("CSMIP V1 to V3", ("corrected accelerogram", "accelerogram data", "csmip")),
-    ("ESM or ITACA", ("event_name:", "database_version:", "itaca")),
-    ("AFAD", ("strong ground motion records of turk", "place:")),
-    ("CWA (Taiwan)", ("stationcode:", "station code:")),
-    ("GSE2", ("wid2 ",)),
-    ("SLIST or TSPAIR", ("timeseries ",)),
-    ("SAC in letters", ("-12345.0",)),
-)
+TEXTS = (("COSMOS", ("(format v", "cosmos")),
+         ("GeoNet V1 to V3", ("geonet", "institute of geological and nuclear sciences")),
+         ("SMC (USGS)", ("1 uncorrected accelerogram", "2 corrected accelerogram")),
+         ("CSMIP V1 to V3", ("corrected accelerogram", "accelerogram data", "csmip")),
+         ("ESM or ITACA", ("event_name:", "database_version:", "itaca")),
+         ("AFAD", ("strong ground motion records of turk", "place:")),
+         ("CWA (Taiwan)", ("stationcode:", "station code:")), ("GSE2", ("wid2 ",)),
+         ("SLIST or TSPAIR", ("timeseries ",)), ("SAC in letters", ("-12345.0",)))
 """Name of a format, words of its header in lower case. The first that fits counts."""
 
 BINARIES = (
-    (
-        *("archive or workbook", "unpack it and give the files in it, or save the sheet as CSV"),
-        (b"\x1f\x8b", b"PK\x03\x04", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf"),
-    ),
+    (*("archive or workbook", "unpack it and give the files in it, or save the sheet as CSV"),
+     (b"\x1f\x8b", b"PK\x03\x04", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf")),
     ("old Excel workbook", "save the sheet as CSV", (b"\xd0\xcf\x11\xe0",)),
     ("UTF-16 text", "save it as UTF-8", (b"\xff\xfe", b"\xfe\xff")),
     ("HDF5", "", (b"\x89HDF",)),
@@ -58,7 +52,6 @@ def other_binary(raw):
     elif len(raw) >= SAC_VERSION_AT + 4:
         versions = (struct.unpack_from(f"{order}i", raw, SAC_VERSION_AT)[0] for order in "<>")
         name = name or ("SAC" if any(version in SAC_VERSIONS for version in versions) else None)
-    about = (
-        f"{name}, which is not read" if name else "empty or not a text file; a record must be text in UTF-8 or CP932"
-    )
+    about = (f"{name}, which is not read" if name
+             else "empty or not a text file; a record must be text in UTF-8 or CP932")
     return f"{about}; {remedy or f'convert it to {PLAIN_CSV}'}"

@@ -32,9 +32,8 @@ def turned(motion, angle):
         return motion
     sine, cosine = round_off(np.sin(np.radians(angle))), round_off(np.cos(np.radians(angle)))
     ew, ns, ud = motion.acceleration.T
-    return _changed(
-        motion, np.column_stack([cosine * ew + sine * ns, cosine * ns - sine * ew, ud]), f"turned by {angle:g} degrees"
-    )
+    return _changed(motion, np.column_stack([cosine * ew + sine * ns, cosine * ns - sine * ew, ud]),
+                    f"turned by {angle:g} degrees")
 
 
 def round_off(x):
@@ -138,10 +137,8 @@ def _fourier(motion, dt):
         )
     periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
     total = periods * ratio.numerator
-    require_size(
-        max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator,
-        f"{motion.name}: resampling to {dt:g} s",
-    )
+    require_size(max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator,
+                 f"{motion.name}: resampling to {dt:g} s")
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
     kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)
@@ -173,10 +170,8 @@ def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
     """
     dt = motion.dt if dt is None else dt
     source = f"{motion.source}; {change}".lstrip("; ")
-    return replace(
-        motion, dt=dt, acceleration=acceleration, source=source,
-        parts=_changed_parts(motion.parts, acceleration, dt, factor, start),
-    )
+    return replace(motion, dt=dt, acceleration=acceleration, source=source,
+                   parts=_changed_parts(motion.parts, acceleration, dt, factor, start))
 
 
 def _changed_parts(parts, acceleration, dt, factor, start):

@@ -28,11 +28,8 @@ SUFFIXES = (
     ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
     ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
     ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-    (
-        "PEER",
-        r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
-        "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2",
-    ),
+    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
+     "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
 )
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
@@ -92,11 +89,8 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
     peak = np.abs(acceleration).max()
     require_possible(peak, record)
     if peak > SURPRISING:
-        warnings.warn(
-            f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit",
-            RecordWarning,
-            stacklevel=2,
-        )
+        warnings.warn(f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning,
+                      stacklevel=2)
     name, source = one_line(_common_name(paths)), one_line(_provenance(channels, directions))
     return turned(GroundMotion(dt, acceleration, name, source, _beginning(channels)), angle)
 

@@ -18,18 +18,8 @@ STANDARD_GRAVITY = 9.80665
 """One g in m/s2 (the unit of PEER records)."""
 
 
-UNITS = {
-    "gal": GAL,
-    "cm/s2": GAL,
-    "cm/s/s": GAL,
-    "cm/s^2": GAL,
-    "cm/sec2": GAL,
-    "cm/sec/sec": GAL,
-    "m/s2": 1.0,
-    "m/s/s": 1.0,
-    "m/s^2": 1.0,
-    "g": STANDARD_GRAVITY,
-}
+UNITS = {"gal": GAL, "cm/s2": GAL, "cm/s/s": GAL, "cm/s^2": GAL, "cm/sec2": GAL, "cm/sec/sec": GAL, "m/s2": 1.0,
+         "m/s/s": 1.0, "m/s^2": 1.0, "g": STANDARD_GRAVITY}
 """Known spellings of acceleration units and their size in m/s2."""
 
 
@@ -82,9 +72,7 @@ class GroundMotion:
         if not (np.isfinite(self.dt) and self.dt > 0.0):
             raise RecordError(f"{self.name}: time step {self.dt} s; it must be finite and > 0")
         if acceleration.ndim != 2 or acceleration.shape[1] != 3 or len(acceleration) < 2:
-            raise RecordError(
-                f"{self.name}: acceleration of shape {acceleration.shape}; it must be (n, 3) with n >= 2"
-            )
+            raise RecordError(f"{self.name}: acceleration of shape {acceleration.shape}; it must be (n, 3) with n >= 2")
         bad = np.flatnonzero(~np.isfinite(acceleration).all(axis=1))
         if bad.size:
             raise RecordError(f"{self.name}: sample {bad[0]} is not finite; every sample must be a number")

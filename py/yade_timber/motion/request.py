@@ -22,9 +22,8 @@ class MotionRequest:
     """
 
     record: str = option(str, "recorded motion: file, prefix, or files with commas", "FILE", group="main")
-    seed: int = option(
-        int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0, 2**31
-    )
+    seed: int = option(int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0,
+                       2**31)
     component: str = option(
         str,
         (
@@ -35,18 +34,15 @@ class MotionRequest:
         group="expert",
     )
     units: str = option(str, "unit of the record where it states none: gal, m/s2 or g", "UNIT")
-    shortest: bool = option(
-        bool, "cut components of different length at the shortest one instead of refusing them", group="expert"
-    )
+    shortest: bool = option(bool, "cut components of different length at the shortest one instead of refusing them",
+                            group="expert")
     azimuth: float = option(
         float, "direction of the record's north in the house's axes [degrees], clockwise from +y; "
         "with 90 the north component acts along +x (default 0)", "DEG", -360, 360)
     start: float = option(float, "remove the record before this time [s]", "S", 0, 1e5)
     end: float = option(float, "remove the record after this time [s]", "S", 0, 1e5)
-    detrend: int = option(
-        int, "baseline: subtract a polynomial of this order from the accelerations (0: the mean)", "ORDER", 0, 8,
-        group="expert",
-    )
+    detrend: int = option(int, "baseline: subtract a polynomial of this order from the accelerations (0: the mean)",
+                          "ORDER", 0, 8, group="expert")
     highpass: float = option(float, "baseline: zero-phase high-pass at this frequency [Hz]", "HZ", 1e-3, 100)
     pga: float = option(float, "scale all components to this peak of the larger horizontal one [gal]", "GAL", 1e-3, 1e5)
     intensity: float = option(float, "scale all components to this JMA intensity (not rounded)", "I", 0, 8)

@@ -44,15 +44,8 @@ DURATION = 40.0
 P_ARRIVAL, S_ARRIVAL = 15.0, 17.9
 """First shaking and beginning of the strong shaking. [s]"""
 
-TARGETS = {
-    "pga_ns": 1147.0,
-    "pga_ew": 1308.0,
-    "pga_ud": 820.0,
-    "pga_h": 1501.0,
-    "pgv_h": 133.0,
-    "jma": 6.73,
-    "psv_ew": 500.0,
-}
+TARGETS = {"pga_ns": 1147.0, "pga_ew": 1308.0, "pga_ud": 820.0, "pga_h": 1501.0, "pgv_h": 133.0, "jma": 6.73,
+           "psv_ew": 500.0}
 """Published values: peaks of components and of the horizontal vector [gal], [cm/s], JMA intensity, and the value that
 the 5 % pseudo-velocity [cm/s] exceeds at PSV_PERIODS (checked for EW alone, hence for the resultant too)."""
 
@@ -92,15 +85,9 @@ def synthetic_motion(seed=DEFAULT_SEED):
 
 def achieved(motion):
     """What the motion has of TARGETS, under the same names; psv_ew is the smallest over PSV_PERIODS."""
-    return {
-        "pga_ns": pga(motion, "ns"),
-        "pga_ew": pga(motion, "ew"),
-        "pga_ud": pga(motion, "ud"),
-        "pga_h": pga(motion, "h"),
-        "pgv_h": _pgv_h(motion),
-        "jma": jma_intensity(motion).raw,
-        "psv_ew": float(response_spectrum(motion.ew, motion.dt, PSV_PERIODS).psv.min()),
-    }
+    return {"pga_ns": pga(motion, "ns"), "pga_ew": pga(motion, "ew"), "pga_ud": pga(motion, "ud"),
+            "pga_h": pga(motion, "h"), "pgv_h": _pgv_h(motion), "jma": jma_intensity(motion).raw,
+            "psv_ew": float(response_spectrum(motion.ew, motion.dt, PSV_PERIODS).psv.min())}
 
 
 def _pgv_h(motion):
@@ -138,12 +125,10 @@ def _corrected(parameters, got):
     size = (TARGETS["pgv_h"] / got["pgv_h"]) ** 0.6
     spectrum = PSV_GOAL * TARGETS["psv_ew"] / got["psv_ew"] * got["pgv_h"] / TARGETS["pgv_h"]
     strength = 10.0 ** (0.5 * (TARGETS["jma"] - got["jma"]))
-    return _Parameters(
-        pulse=parameters.pulse * size,
-        cycles=float(np.clip(parameters.cycles * spectrum**0.5, 2.0, 5.5)),
-        noise=float(np.clip(parameters.noise * strength**0.8, 1.8, 6.0)),
-        share=float(np.clip(parameters.share * strength**0.5, 0.2, 0.9)),
-    )
+    return _Parameters(pulse=parameters.pulse * size,
+                       cycles=float(np.clip(parameters.cycles * spectrum**0.5, 2.0, 5.5)),
+                       noise=float(np.clip(parameters.noise * strength**0.8, 1.8, 6.0)),
+                       share=float(np.clip(parameters.share * strength**0.5, 0.2, 0.9)))
 
 
 def _assemble(noise, pulses, parameters, seed):
@@ -212,12 +197,9 @@ class _Pulses:
     @classmethod
     def drawn(cls, random):
         first = random.uniform(19.2, 19.8)
-        return cls(
-            times=first + np.array([0.0, random.uniform(2.4, 3.2), random.uniform(3.6, 5.0)]),
-            periods=np.array([0.65, random.uniform(0.55, 0.78), random.uniform(1.7, 2.3)]),
-            phases=random.uniform(0.0, 2.0 * np.pi, 3),
-            signs=random.choice([-1.0, 1.0], 3),
-        )
+        return cls(times=first + np.array([0.0, random.uniform(2.4, 3.2), random.uniform(3.6, 5.0)]),
+                   periods=np.array([0.65, random.uniform(0.55, 0.78), random.uniform(1.7, 2.3)]),
+                   phases=random.uniform(0.0, 2.0 * np.pi, 3), signs=random.choice([-1.0, 1.0], 3))
 
     def acceleration(self, parameters):
         """EW and NS accelerations of the pulses. (n, 2) [m/s2]"""

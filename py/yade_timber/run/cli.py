@@ -26,11 +26,8 @@ class _Parser(argparse.ArgumentParser):
         """{option: value} of a command line (as sys.argv). Raises RunError."""
         arguments, unknown = self.parse_known_args(with_then(argv[1:]))
         if unknown:
-            match = (
-                close(unknown[0].partition("=")[0], self._option_string_actions)
-                if unknown[0].startswith("--")
-                else None
-            )
+            match = (close(unknown[0].partition("=")[0], self._option_string_actions) if unknown[0].startswith("--")
+                     else None)
             self.error(f"unrecognized arguments: {' '.join(unknown)}" + (f"; did you mean '{match}'?" if match else ""))
         town = {"town": arguments.town} if "town" in arguments else {}
         return {**read_arguments(RunOptions, arguments), **town}
@@ -47,17 +44,11 @@ def parser(script, file=None, loads=""):
     )
     made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
     made._negative_number_matcher = NUMBER
-    offered = {
-        each: field
-        for each, field in options(RunOptions).items()
-        if each != "house" and (file or each not in BY_SCRIPT)
-    }
+    offered = {each: field for each, field in options(RunOptions).items()
+               if each != "house" and (file or each not in BY_SCRIPT)}
     if file:
-        made.add_argument(
-            file,
-            metavar=file.upper(),
-            help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"],
-        )
+        made.add_argument(file, metavar=file.upper(),
+                          help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"])
     for group in ("main", *GROUPS):
         place = made if group == "main" else made.add_argument_group(GROUPS[group])
         add_options(place, [field for field in offered.values() if field.metadata["group"] == group])

@@ -17,10 +17,8 @@ from ..house.loader import house_files
 from ..motion.readers import find_files
 from ..motion.sequence import following
 
-ROOMS = (
-    "*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv",
-    "data/houses/*",
-)
+ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv",
+         "data/houses/*")
 """Files of the package that decide results, besides its compiled module."""
 DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/ensemble.py")
 """Files in these rooms that change only the display."""
@@ -39,12 +37,8 @@ def identity(origin):
     """{property: value} that a checkpoint and the run that continues it have in common. origin: `made_from` of the run
     """
     options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
-    return {
-        **options,
-        "house": Path(options["house"]).stem,
-        "content of files": origin["files"],
-        "package": origin["package"],
-    }
+    return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"],
+            "package": origin["package"]}
 
 
 def _input_files(options):
@@ -52,11 +46,8 @@ def _input_files(options):
     records = [options.record] if options.record else []
     records += [record for record, _ in following(options.then, "then")] if options.then else []
     town = [options.town] if options.town else []
-    return [
-        *town,
-        *house_files(house_path(options.house)),
-        *(file for record in records for file in find_files(record)),
-    ]
+    return [*town, *house_files(house_path(options.house)),
+            *(file for record in records for file in find_files(record))]
 
 
 @cache

@@ -38,11 +38,8 @@ def launch(read, ensemble, argv=None):
         remedy = "continue with --resume" if options.checkpoint > 0 else "nothing was saved (--checkpoint 0)"
         leave(f"stopped by {signal.Signals(stop.number).name} at {stop.time:.2f} s; {remedy}", 128 + stop.number)
     except KeyboardInterrupt:  # before the first step, or while results and pictures are written
-        remedy = (
-            f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}"
-            if options
-            else ""
-        )
+        remedy = (f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}"
+                  if options else "")
         leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 

@@ -22,10 +22,8 @@ def modes_now(levels):
         share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
         shape = np.array([mode.shape[level.marks, :3].mean(0) for level in levels])
         largest = max(shape[:, :2].flat, key=abs, default=1.0)
-        shape = {
-            f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
-            for k, row in enumerate(shape, 1)
-        }
+        shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
+                 for k, row in enumerate(shape, 1)}
         period = round(mode.period, 4) if mode.omega2 > 0 else None
         found.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
     return ModesAt(time_s=round(O.time, 6), modes=found)

@@ -35,36 +35,26 @@ O = yw.Omega()
 def describe_elements(model):
     """frames.Elements of the scene."""
     bodies, elements = list(O.bodies), model.elements
-    return frames.Elements(
-        name=[e.name for e in elements],
-        kind=[e.kind for e in elements],
-        group=[e.group for e in elements],
-        material=[e.material for e in elements],
-        storey=np.array([e.storey for e in elements]),
-        fixed=np.array([e.fixed for e in elements]),
-        position=np.array([b.state.refPos for b in bodies]),
-        orientation=np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)]),
-        vertices=[np.array(b.shape.vertices) for b in bodies],
-        faces=[b.shape.faces() for b in bodies],
-    )
+    return frames.Elements(name=[e.name for e in elements], kind=[e.kind for e in elements],
+                           group=[e.group for e in elements], material=[e.material for e in elements],
+                           storey=np.array([e.storey for e in elements]), fixed=np.array([e.fixed for e in elements]),
+                           position=np.array([b.state.refPos for b in bodies]),
+                           orientation=np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)]),
+                           vertices=[np.array(b.shape.vertices) for b in bodies],
+                           faces=[b.shape.faces() for b in bodies])
 
 
 def describe_joints(model):
     """frames.Joints of the scene."""
     number = element_numbers(model)
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
-    return frames.Joints(
-        name=[s.name for s in specs],
-        kind=[s.kind for s in specs],
-        storey=[storey_of(s, model) for s in specs],
-        side=["+".join(sides_of(s)) for s in specs],
-        a=np.array([number[s.a] for s in specs], "i4"),
-        b=np.array([number[s.b] for s in specs], "i4"),
-        anchor=np.array([np.mean(j.anchors1, axis=0) for j in joints]).reshape(-1, 3),
-        springs=np.array([len(j.anchors1) for j in joints], "i4"),
-        damaged=np.array([s.broken for s in specs], bool),
-        strength=np.array([s.strength for s in specs], float),
-    )
+    return frames.Joints(name=[s.name for s in specs], kind=[s.kind for s in specs],
+                         storey=[storey_of(s, model) for s in specs], side=["+".join(sides_of(s)) for s in specs],
+                         a=np.array([number[s.a] for s in specs], "i4"), b=np.array([number[s.b] for s in specs], "i4"),
+                         anchor=np.array([np.mean(j.anchors1, axis=0) for j in joints]).reshape(-1, 3),
+                         springs=np.array([len(j.anchors1) for j in joints], "i4"),
+                         damaged=np.array([s.broken for s in specs], bool),
+                         strength=np.array([s.strength for s in specs], float))
 
 
 def describe_levels(model):
@@ -111,16 +101,8 @@ def break_row(entry, model):
     """Values of a JointBreak in the order of breaks.csv."""
     joint = model.joints[entry.joint]
     cause = "shear" if joint.ks == 0 else entry.cause  # of a wall: tension and compression are directions of its drift
-    return (
-        entry.time,
-        joint.name,
-        joint.kind,
-        storey_of(joint, model),
-        "+".join(sides_of(joint)),
-        entry.spring,
-        cause,
-        entry.force,
-    )
+    return (entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, cause,
+            entry.force)
 
 
 # --- states -----------------------------------------------------------------------------------------------------------
@@ -150,11 +132,8 @@ def largest_so_far():
 def contact_points():
     """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
     pair, position, force = compiled.packed_contacts()
-    return (
-        np.frombuffer(pair, "i4").reshape(-1, 2),
-        np.frombuffer(position, "f4").reshape(-1, 3),
-        np.frombuffer(force, "f4").reshape(-1, 3),
-    )
+    return (np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3),
+            np.frombuffer(force, "f4").reshape(-1, 3))
 
 
 class Observer:
@@ -187,9 +166,8 @@ class Observer:
         [s]; None for one that stands.
         """
         monitor = find_engine(yw.HouseMonitor)
-        return (
-            float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime) else None
-        )
+        return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
+                else None)
 
     def joint_peaks(self):
         """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those

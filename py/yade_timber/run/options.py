@@ -23,13 +23,9 @@ MOST_RUNS = 999
 """Largest number of runs of an ensemble."""
 MOST_SEED = 2**32 - 1
 """Largest seed of a disturbance."""
-ALONE = {
-    "resume": "an ensemble always continues",
-    "or_anew": "an ensemble repeats runs that cannot be continued",
-    "export": "it writes the scene of one run",
-    "disturb": "the runs of an ensemble have the seeds 2 to N",
-    "checkpoint": "its runs save checkpoints at the default interval",
-}
+ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repeats runs that cannot be continued",
+         "export": "it writes the scene of one run", "disturb": "the runs of an ensemble have the seeds 2 to N",
+         "checkpoint": "its runs save checkpoints at the default interval"}
 """Options of a run of its own, and why an ensemble excludes them."""
 
 
@@ -57,57 +53,41 @@ class RunOptions(MotionRequest):
     house: str = option(str, f"house file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE", group="main")
     quake: bool = option(bool, "with the default earthquake", group="main")
     snow: float = option(float, "snow on the roofs [m] (default: the house file's)", "DEPTH", 0, MAX_SNOW, group="main")
-    walls: str = option(
-        str,
-        f"level of walls of a rated multiplier: {' or '.join(LEVELS)}",
-        "LEVEL",
-        choices=tuple(LEVELS),
-        group="main",
-    )
+    walls: str = option(str, f"level of walls of a rated multiplier: {' or '.join(LEVELS)}", "LEVEL",
+                        choices=tuple(LEVELS), group="main")
     duration: float = option(
         float, f"simulated time [s] (default: the motion's, or {QUIET_DURATION:g})", "S", 0, MAX_DURATION, group="main")
     until_collapse: bool = option(bool, "end the run when the house has collapsed", group="main")
     out: Path = option(Path, "folder of the results (default: results/NAME)", "DIR", group="main", decides=False)
     resume: bool = option(bool, "continue from the checkpoint there", group="main", decides=False)
     report: bool = option(bool, "write a report of one page, too", group="main", decides=False)
-    ensemble: int = option(
-        int, "run it N times, disturbed, and report ranges", "N", 2, MOST_RUNS, group="main", decides=False
-    )
-    jobs: int = option(
-        int, "with --ensemble: runs at a time (default: one per core)", "N", 1, MOST_RUNS, group="run", decides=False
-    )
+    ensemble: int = option(int, "run it N times, disturbed, and report ranges", "N", 2, MOST_RUNS, group="main",
+                           decides=False)
+    jobs: int = option(int, "with --ensemble: runs at a time (default: one per core)", "N", 1, MOST_RUNS, group="run",
+                       decides=False)
     dt: float = option(
         float, f"time step [s] (default {DEFAULT_DT:g}); joints of floors and roofs are unstable at larger ones", "S",
         MIN_DT, MAX_DT, DEFAULT_DT, group="run",
     )
-    joint_damping: float = option(
-        float, "damping ratio of all joints (default: the house's own); makes wrecks come to rest", "RATIO", 0, 1,
-        group="run",
-    )
-    checkpoint: float = option(
-        float, "simulated time between checkpoints [s] (default 2), 0: none", "S", 0, MAX_DURATION, 2.0, group="run",
-        decides=False,
-    )
-    no_views: bool = option(
-        bool, "make no pictures (scripts/show/show_run.py makes them later)", group="run", decides=False
-    )
+    joint_damping: float = option(float,
+                                  "damping ratio of all joints (default: the house's own); makes wrecks come to rest",
+                                  "RATIO", 0, 1, group="run")
+    checkpoint: float = option(float, "simulated time between checkpoints [s] (default 2), 0: none", "S", 0,
+                               MAX_DURATION, 2.0, group="run", decides=False)
+    no_views: bool = option(bool, "make no pictures (scripts/show/show_run.py makes them later)", group="run",
+                            decides=False)
     no_frames: bool = option(bool, "record no frames and make no pictures", group="run", decides=False)
     quiet: bool = option(bool, "print errors only", group="run", decides=False)
     every_step: bool = option(
         bool, "compute every step (default: steps are skipped while house and ground are at rest)", group="expert"
     )
-    disturb: int = option(
-        int, f"seed: move each vertex of free members by a random vector of at most {LARGEST:g} m", "SEED", 1,
-        MOST_SEED, group="expert",
-    )
-    export: Path = option(
-        Path, "write the scene at the start as JSON for other solvers (with --duration 0: nothing else)", "FILE",
-        group="expert", decides=False,
-    )
-    or_anew: bool = option(
-        bool, "with --resume: start anew when the checkpoint cannot be used, instead of an error", group="expert",
-        decides=False,
-    )
+    disturb: int = option(int, f"seed: move each vertex of free members by a random vector of at most {LARGEST:g} m",
+                          "SEED", 1, MOST_SEED, group="expert")
+    export: Path = option(Path,
+                          "write the scene at the start as JSON for other solvers (with --duration 0: nothing else)",
+                          "FILE", group="expert", decides=False)
+    or_anew: bool = option(bool, "with --resume: start anew when the checkpoint cannot be used, instead of an error",
+                           group="expert", decides=False)
 
     name: str = None
     town: str = None
@@ -159,31 +139,23 @@ class RunOptions(MotionRequest):
 
     def decisive(self):
         """{option: value} of those that decide the results and differ from their defaults, as JSON returns them."""
-        values = {
-            name: getattr(self, name)
-            for name, each in options(RunOptions).items()
-            if each.metadata["decides"] and is_given(self, name)
-        }
+        values = {name: getattr(self, name) for name, each in options(RunOptions).items()
+                  if each.metadata["decides"] and is_given(self, name)}
         values |= {"quake": True} if self.shaken else {}
         values |= {name: getattr(self, name) for name in ("name", "town") if getattr(self, name)}
         motion = self.ground_motion
-        return (
-            values
-            if motion is None
-            else {**values, "ground_motion": of_values([motion.name, motion.dt, of_arrays([motion.acceleration])])}
-        )
+        return (values if motion is None
+                else {**values, "ground_motion": of_values([motion.name, motion.dt, of_arrays([motion.acceleration])])})
 
     def words(self):
         """Arguments of the run script that give these options."""
-        return words(
-            {each: getattr(self, each) for each in options(RunOptions) if is_given(self, each)}, bool(self.name)
-        )
+        return words({each: getattr(self, each) for each in options(RunOptions) if is_given(self, each)},
+                     bool(self.name))
 
 
 def scripted(name, house, earthquake=False, snow=False, **more):
     """Options of a run script that gives house and loads. name: of the script; earthquake, snow: whether there are;
     more: further options
     """
-    return RunOptions(
-        name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, door=SCRIPT, **more
-    )
+    return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, door=SCRIPT,
+                      **more)

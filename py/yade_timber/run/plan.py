@@ -32,37 +32,17 @@ def planned(options):
 
 def _scenario(options, motion, delay=0.0, last=0.0):
     """motion: GroundMotion or None; delay: time at which it begins, last: the largest of a town [s]"""
-    duration = (
-        options.duration if options.duration is not None else motion.duration + last if motion else QUIET_DURATION
-    )
+    duration = (options.duration if options.duration is not None else motion.duration + last if motion
+                else QUIET_DURATION)
     snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
-    return Scenario(
-        options.title,
-        options.house,
-        motion,
-        snow,
-        1.0 if options.scale is None else options.scale,
-        delay if motion else 0.0,
-        options.dt,
-        duration,
-        options.until_collapse,
-        options.joint_damping,
-        options.walls,
-        options.disturb,
-        {"skip_rest": 0} if options.every_step else {},
-    )
+    return Scenario(options.title, options.house, motion, snow, 1.0 if options.scale is None else options.scale,
+                    delay if motion else 0.0, options.dt, duration, options.until_collapse, options.joint_damping,
+                    options.walls, options.disturb, {"skip_rest": 0} if options.every_step else {})
 
 
 def _lot(options, lot, motion, delay, last):
     """(Scenario, RunOptions) of a lot. options, motion: of the town"""
     snow = options.snow if lot.snow is None else lot.snow
-    own = replace(
-        options,
-        name=f"{options.title}.{lot.name}",
-        house=lot.house,
-        snow=snow,
-        out=options.folder / "lots" / lot.name,
-        no_views=True,
-        quiet=True,
-    )
+    own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house, snow=snow,
+                  out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
     return _scenario(own, motion and lot.motion(motion), delay, last), own

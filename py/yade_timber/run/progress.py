@@ -26,10 +26,8 @@ class Progress:
     def __init__(self, scenario, log, quiet=False):
         self.log = log
         refresh = TERMINAL_REFRESH if sys.stderr.isatty() else LOG_REFRESH
-        self.bar = tqdm(
-            total=scenario.duration, initial=O.time, desc=scenario.name, bar_format=BAR, mininterval=refresh,
-            disable=quiet,
-        )
+        self.bar = tqdm(total=scenario.duration, initial=O.time, desc=scenario.name, bar_format=BAR,
+                        mininterval=refresh, disable=quiet)
         self.shown = len(log.events)
 
     def __enter__(self):

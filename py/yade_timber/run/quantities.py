@@ -13,9 +13,8 @@ from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
 from ..recording.peaks import COLUMNS, JOINTS
-from ..recording.summary import (
-    LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear, StoreyQuantities,
-)
+from ..recording.summary import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
+                                 StoreyQuantities)
 from ..scene.engines import find_engine, gravity_now
 from . import observer
 from .modal import modes_now
@@ -56,26 +55,20 @@ def storey_peaks(table):
         peaks[f"storey{k}"] = StoreyQuantities(
             mass_above_kg=round(above, 3),
             shear=shear,
-            shear_coefficient={
-                axis: round(value / (above * gravity), 4) if above * gravity else None
-                for axis, value in shear.sustained.items()
-            },
+            shear_coefficient={axis: round(value / (above * gravity), 4) if above * gravity else None
+                               for axis, value in shear.sustained.items()},
             acceleration={axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
         )
-    return {
-        "mass_kg": round(float(masses.sum()), 3),
-        "base_shear": _shears(table, "base_shear_{}"),
-        "acceleration_band_hz": list(quantities.BAND),
-        "ground_acceleration": {axis: round(table.peak(f"ground_acceleration_{axis}"), 4) for axis in AXES},
-        "storeys": peaks,
-    }
+    return {"mass_kg": round(float(masses.sum()), 3), "base_shear": _shears(table, "base_shear_{}"),
+            "acceleration_band_hz": list(quantities.BAND),
+            "ground_acceleration": {axis: round(table.peak(f"ground_acceleration_{axis}"), 4) for axis in AXES},
+            "storeys": peaks}
 
 
 def _shears(table, name):
     """Shear: the largest in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
-    sustained, peak = (
-        {axis: round(largest(name.format(axis)), 3) for axis in DIRECTIONS} for largest in (table.sustained, table.peak)
-    )
+    sustained, peak = ({axis: round(largest(name.format(axis)), 3) for axis in DIRECTIONS}
+                       for largest in (table.sustained, table.peak))
     return Shear(sustained=sustained, peak=peak)
 
 
@@ -88,35 +81,20 @@ def joint_peaks(observed):
     peaks = observed.joint_peaks() or [(0.0,) * 4] * len(model.joints)
     rows = []
     for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
-        state = (
-            "before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs else "whole"
-        )
+        state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
+                 else "whole")
         place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
         rows.append(
-            (
-                joint.name,
-                joint.kind,
-                *place,
-                load,
-                pull,
-                shear,
-                opening,
-                float(joint.strength),
-                joint.per,
-                int(springs),
-                state,
-            )
+            (joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength), joint.per, int(springs),
+             state)
         )
     return sorted(rows, key=lambda row: -row[4])
 
 
-JOINT_HEADER = (
-    *("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
-    *("strength [N]", "strength of", "broken springs [-]", "state"),
-)
-COLUMN_HEADER = (
-    "column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]", "state",
-)
+JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+                *("strength [N]", "strength of", "broken springs [-]", "state"))
+COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
+                 "state")
 
 
 def column_feet(observed):
@@ -134,17 +112,8 @@ def column_feet(observed):
         uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
         x, y, _ = map(float, element.solid.centroid)
         rows.append(
-            (
-                element.name,
-                element.group,
-                element.storey,
-                x,
-                y,
-                uplift,
-                pull,
-                load,
-                "fallen" if fallen else "loose" if loose else "standing",
-            )
+            (element.name, element.group, element.storey, x, y, uplift, pull, load,
+             "fallen" if fallen else "loose" if loose else "standing")
         )
     return sorted(rows, key=lambda row: -row[5])
 
@@ -183,10 +152,8 @@ def summarised(made, observed):
     collapsed = fall is not None
     return Quantities(
         until_s=fall,
-        modes=Modes(
-            before=observed.modes,
-            after=None if collapsed or observed.modes is None else modes_now(observed.main_levels),
-        ),
+        modes=Modes(before=observed.modes,
+                    after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
         **storey_peaks(made.storeys.until(fall) if collapsed else made.storeys),
         largest_utilisation=_largest(LargestUtilisation, made.joints, 4, "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, 5, "joint", "force"),

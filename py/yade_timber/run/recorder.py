@@ -22,9 +22,8 @@ class Recorder:
     def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
         version = versions()["package"]
-        self.frames = frames.Frames(
-            title, scenario.name, model.name, version, elements, joints, motion=observer.describe_motion(), run=run
-        )
+        self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
+                                    motion=observer.describe_motion(), run=run)
         self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 

@@ -117,9 +117,8 @@ class Run:
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
-        self.recorder = (
-            None if self.options.no_frames else Recorder(self.frames_path, self.scenario, self.model, titled, run)
-        )
+        self.recorder = (None if self.options.no_frames
+                         else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
     def _export(self):
         try:
@@ -243,11 +242,8 @@ class Run:
                 progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
                 checkpoint.save(self.checkpoint_path, self.identity, progress)
             except OSError as problem:
-                remedy = (
-                    "the previous checkpoint is intact, continue with --resume"
-                    if self.checkpoint_path.exists()
-                    else "there is no earlier one"
-                )
+                remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
+                          else "there is no earlier one")
                 fault = (
                     f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
                 )

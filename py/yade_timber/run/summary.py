@@ -49,30 +49,25 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     structures = survey.by_structure(state, observed.peaks)
     energy = energy_balance(queries.energy() if cut_off is None else last_energies(history))
     draft = Summary(
-        scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None,
-        snow=scenario.snow_depth > 0, snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"],
-        weight=decode(Weight, weigh(model)),
-        diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}),
-        joint_damping=scenario.joint_damping,
+        scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
+        snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
+        diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
-        record=record(scenario),
-        dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
-        cut_off=cut_off or created_too_much(energy),
-        steps=O.iter, wall_s=round(wall_s, 3), skipped_s=round(skipper.skipped if skipper else 0.0, 3),
-        real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None,
-        threads=compiled.thread_count(), elements=len(O.bodies), joints=survey.count_all(),
-        broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)),
-        columns=survey.count_columns(state),
-        leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection),
-        tilt_time_s=tilt, tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None,
-        collapse_time_s=collapse,
+        record=record(scenario), dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
+        cut_off=cut_off or created_too_much(energy), steps=O.iter, wall_s=round(wall_s, 3),
+        skipped_s=round(skipper.skipped if skipper else 0.0, 3),
+        real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None, threads=compiled.thread_count(),
+        elements=len(O.bodies), joints=survey.count_all(),
+        broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)), columns=survey.count_columns(state),
+        leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection), tilt_time_s=tilt,
+        tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None, collapse_time_s=collapse,
         fallen_structures=[name for name, facts in structures.items() if facts.collapsed],
         leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
         peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
-        made_from=made_from,
+        made_from=made_from
     )
     return judged(draft)
 
@@ -98,28 +93,17 @@ def record(scenario):
     pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
     begin = onset(motion)  # None: no shaking
-    return Record(
-        source=motion.source or motion.name,
-        pga_gal=pga,
-        scale=scenario.scale,
-        dt=motion.dt,
-        interpolation_error=round(error, 6),
-        onset_s=None if begin is None else begin + scenario.delay,
-        note=constant_note(motion, scenario.scale) or None,
-        sequence=[part_of_record(part, scenario.scale) for part in motion.parts] or None,
-    )
+    return Record(source=motion.source or motion.name, pga_gal=pga, scale=scenario.scale, dt=motion.dt,
+                  interpolation_error=round(error, 6), onset_s=None if begin is None else begin + scenario.delay,
+                  note=constant_note(motion, scenario.scale) or None,
+                  sequence=[part_of_record(part, scenario.scale) for part in motion.parts] or None)
 
 
 def part_of_record(part, scale):
     """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
     pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
-    return PartOfRecord(
-        source=part.source,
-        start_s=round(part.start, 6),
-        duration_s=round(part.duration, 6),
-        scale=scale * part.scale,
-        pga_gal=pga,
-    )
+    return PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
+                        scale=scale * part.scale, pga_gal=pga)
 
 
 def recorded_history(monitor):
@@ -143,17 +127,11 @@ def energy_balance(terms):
     """
     terms = {"ground_motion": 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
     supplied, residual = terms["ground_motion"] - terms["gravity"], queries.energy_residual(terms)
-    balance = Energy(
-        input=supplied,
-        kinetic=terms["kinetic"],
-        elastic=sum(terms[term.name] for term in ELASTIC),
-        dissipated={term.name: terms[term.name] for term in DISSIPATED},
-        created=find_engine(yw.ContactForces).created,
-        residual=residual,
-        residual_fraction=abs(residual) / supplied if supplied > 0 else None,
-        ground_motion=terms["ground_motion"],
-        gravity_released=-terms["gravity"],
-    )
+    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[term.name] for term in ELASTIC),
+                     dissipated={term.name: terms[term.name] for term in DISSIPATED},
+                     created=find_engine(yw.ContactForces).created, residual=residual,
+                     residual_fraction=abs(residual) / supplied if supplied > 0 else None,
+                     ground_motion=terms["ground_motion"], gravity_released=-terms["gravity"])
     if not all(math.isfinite(value) for value in (supplied, residual, balance.created, *balance.dissipated.values())):
         raise RunError(f"the energies at {O.time:.4f} s are not finite: {encode(balance)}; try a smaller --dt")
     return balance
@@ -165,10 +143,8 @@ def solver():
     forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
     computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
     mean = round(forces.sweepsDone / max(1, computed), 3)
-    return Solver(
-        sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
-        worst_change_j=forces.worstChange,
-    )
+    return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
+                  worst_change_j=forces.worstChange)
 
 
 def created_too_much(energy):

@@ -75,9 +75,8 @@ class TownRun:
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
         handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        with TownProgress(
-            self.town.name, [run.steps * run.scenario.dt for run in self.runs], self.options.quiet
-        ) as progress:
+        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs],
+                          self.options.quiet) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
@@ -143,9 +142,8 @@ class TownRun:
         written = self._results()
         self.report(
             sentence(
-                recording.summary(
-                    self.town.name, {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)}
-                )
+                recording.summary(self.town.name,
+                                  {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})
             )
         )
         self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
@@ -162,10 +160,8 @@ class TownRun:
             write_text(written[0], self.table())
             if self.options.no_frames:
                 return written
-            recorded = [
-                (lot.name, lot.axes, lot.origin(run.model), run.recorder.frames)
-                for lot, run in zip(self.town.lots, self.runs)
-            ]
+            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames)
+                        for lot, run in zip(self.town.lots, self.runs)]
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
@@ -184,27 +180,15 @@ class TownRun:
             times = ["" if time is None else time for time in (found.tilt_time_s, found.collapse_time_s)]
             joints, sheets = found.joints_and_sheets
             rows.append(
-                (
-                    *place,
-                    found.verdict,
-                    found.diagnosis.iw,
-                    drift,
-                    residual,
-                    *times,
-                    *joints,
-                    *sheets,
-                    round(run.wall_s, 3),
-                    sentence(found),
-                )
+                (*place, found.verdict, found.diagnosis.iw, drift, residual, *times, *joints, *sheets,
+                 round(run.wall_s, 3), sentence(found))
             )
         return csv_text(COLUMNS, rows)
 
 
-COLUMNS = (
-    "lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]",
-    "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints", "broken wall sheets",
-    "wall sheets", "computing time [s]", "sentence",
-)
+COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "delay [s]", "verdict", "Iw [-]",
+           "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints",
+           "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
 
 

@@ -74,8 +74,7 @@ def numbers_of_shape(name, value, shape, form):
     except (TypeError, ValueError):
         refuse(TypeError, name, value, form)
     if (
-        array.ndim != len(shape)
-        or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape))
+        array.ndim != len(shape) or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape))
         or not np.isfinite(array).all()
     ):
         refuse(ValueError, name, value, form)

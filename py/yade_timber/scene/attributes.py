@@ -18,17 +18,9 @@ from yade.minieigenHP import Quaternion
 from .arguments import shown
 from .background import between_steps
 
-FORMS = {
-    "Real": "a number",
-    "int": "an integer",
-    "long": "an integer",
-    "bool": "True or False",
-    "string": "a string",
-    "Vector3r": "three numbers",
-    "vector<Real>": "a list of numbers",
-    "vector<int>": "a list of integers",
-    "vector<Vector3r>": "a list of vectors",
-}
+FORMS = {"Real": "a number", "int": "an integer", "long": "an integer", "bool": "True or False", "string": "a string",
+         "Vector3r": "three numbers", "vector<Real>": "a list of numbers", "vector<int>": "a list of integers",
+         "vector<Vector3r>": "a list of vectors"}
 """YADE's name of a type -> admissible form."""
 REGISTERED = re.compile(r":yattrtype:`(.*?)`")
 """In the documentation of an attribute that is saved with the scene; other properties have none."""
@@ -102,11 +94,8 @@ def _is_finite(value):
         return 0 < value.norm() < math.inf
     if isinstance(value, (float, np.floating)):
         return math.isfinite(value)
-    return (
-        not hasattr(value, "__len__")
-        or isinstance(value, (str, dict))
-        or all(_is_finite(value[k]) for k in range(len(value)))
-    )
+    return (not hasattr(value, "__len__") or isinstance(value, (str, dict))
+            or all(_is_finite(value[k]) for k in range(len(value))))
 
 
 def _refuse_shape_in_scene(shape, name):
@@ -215,9 +204,8 @@ def _unknown(cls, name):
     """Message about a name that a class does not have."""
     known = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
     near = difflib.get_close_matches(name, known, 1, 0.5)
-    return f"{cls.__name__} has no attribute {name}" + (
-        f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}"
-    )
+    return f"{cls.__name__} has no attribute {name}" + (f"; did you mean {near[0]}?" if near
+                                                        else f"; it has {', '.join(known)}")
 
 
 def _wrong_type(cls, attribute, name, value):

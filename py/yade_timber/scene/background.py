@@ -14,24 +14,11 @@ from yade.minieigenHP import Vector3
 
 from ..plugin import compiled
 
-BODY_METHODS = (
-    "append",
-    "appendClumped",
-    "clump",
-    "addToClump",
-    "releaseFromClump",
-    "erase",
-    "insertAtId",
-    "replace",
-    "clear",
-    "deleteClumpBody",
-    "deleteClumpMember",
-)
+BODY_METHODS = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace",
+                "clear", "deleteClumpBody", "deleteClumpMember")
 INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
-SCENE_METHODS = (
-    "reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp", "switchScene",
-    "switchToScene",
-)
+SCENE_METHODS = ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp",
+                 "switchScene", "switchToScene")
 BODY_PARTS = ("shape", "material", "state")
 
 O = yw.Omega()

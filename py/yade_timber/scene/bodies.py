@@ -39,13 +39,11 @@ def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density
     ValueError
         Outside the physical range.
     """
-    return yw.TimberMat(
-        young=arguments.number("timber: young", young, "Pa"),
-        poisson=arguments.number("timber: poisson", poisson),
-        density=arguments.number("timber: density", density, "kg/m3"),
-        friction=arguments.number("timber: friction", friction),
-        label=arguments.text("timber: label", label),
-    )
+    return yw.TimberMat(young=arguments.number("timber: young", young, "Pa"),
+                        poisson=arguments.number("timber: poisson", poisson),
+                        density=arguments.number("timber: density", density, "kg/m3"),
+                        friction=arguments.number("timber: friction", friction),
+                        label=arguments.text("timber: label", label))
 
 
 def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, friction=_SNOW.friction, label=""):
@@ -65,12 +63,9 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
     -------
     SnowMat
     """
-    return yw.SnowMat(
-        density=arguments.number("snow: density", density, "kg/m3"),
-        stiffnessPerMass=arguments.number("snow: stiffness_per_kg", stiffness_per_kg, "N/m/kg"),
-        friction=arguments.number("snow: friction", friction),
-        label=arguments.text("snow: label", label),
-    )
+    return yw.SnowMat(density=arguments.number("snow: density", density, "kg/m3"),
+                      stiffnessPerMass=arguments.number("snow: stiffness_per_kg", stiffness_per_kg, "N/m/kg"),
+                      friction=arguments.number("snow: friction", friction), label=arguments.text("snow: label", label))
 
 
 def to_digits(corners):
@@ -111,23 +106,17 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     TypeError
         For a material of another kind.
     """
-    material = (
-        timber()
-        if material is None
-        else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()")
-    )
+    material = (timber() if material is None
+                else arguments.instance("material", material, (yw.TimberMat, yw.SnowMat), "from timber() or snow()"))
     fixed = arguments.flag("fixed", fixed)
     radius = 0 if radius is None else arguments.positive("radius", radius, "m")
     if 0 < radius < LEAST_RADIUS:
-        arguments.refuse(
-            ValueError, "radius", radius,
-            f"at least {LEAST_RADIUS:g} m: contacts carry no more than at an overlap of both radii",
-        )
+        arguments.refuse(ValueError, "radius", radius,
+                         f"at least {LEAST_RADIUS:g} m: contacts carry no more than at an overlap of both radii")
     name, kind = arguments.text("name", name), arguments.text("kind", kind)
     look = {} if color is None else {"color": arguments.vector("color", color)}
-    body = principal_body(
-        arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind, **look
-    )
+    body = principal_body(arguments.points("vertices", vertices), material.density, radius=radius, name=name, kind=kind,
+                          **look)
     body.material = material
     body.bound = yw.Aabb()
     body.dynamic = not fixed

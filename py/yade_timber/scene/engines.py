@@ -53,20 +53,9 @@ class ContactOptions:
         return yw.ContactForces(sweeps=self.sweeps, tolerance=self.tolerance)
 
 
-def engines(
-    gravity=GRAVITY,
-    ground_motion=None,
-    joints=None,
-    monitor=None,
-    vertex_edge=False,
-    flush_supports=True,
-    increment=False,
-    damping_ratio=_RATIO,
-    sweeps=_FORCES.sweeps,
-    tolerance=_FORCES.tolerance,
-    health_check=100,
-    skip_rest=0,
-):
+def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vertex_edge=False, flush_supports=True,
+            increment=False, damping_ratio=_RATIO, sweeps=_FORCES.sweeps, tolerance=_FORCES.tolerance, health_check=100,
+            skip_rest=0):
     """List for ``O.engines`` with the engines that the scene needs.
 
     Parameters
@@ -131,9 +120,8 @@ def external_forces(gravity, ground_motion, joints):
     if any(gravity):
         chain.append(yw.UniformGravity(gravity=gravity))
     if ground_motion is not None:
-        chain.append(
-            ground_motion if isinstance(ground_motion, yw.GroundMotionEngine) else ground_motion_engine(ground_motion)
-        )
+        chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine)
+                     else ground_motion_engine(ground_motion))
     return chain
 
 

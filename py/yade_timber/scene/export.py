@@ -53,9 +53,8 @@ def export_scene(path):
         "materials": known,
         "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
         "elements": elements,
-        "joints": (
-            [describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine else []
-        ),
+        "joints": ([describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine
+                   else []),
     }
     write_text(path, json.dumps(content, indent=1, allow_nan=False))
 
@@ -88,45 +87,25 @@ def world_vertices(body):
 
 def describe_element(body, known):
     """Dictionary of a body."""
-    return {
-        "id": body.id,
-        "name": body.shape.name,
-        "kind": body.shape.kind,
-        "vertices": world_vertices(body),
-        "faces": body.shape.faces(),
-        "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),
-        "radius": body.shape.radius,
-        "fixed": not body.dynamic,
-        "material": material_name(body.material, known),
-    }
+    return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": world_vertices(body),
+            "faces": body.shape.faces(), "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),
+            "radius": body.shape.radius, "fixed": not body.dynamic, "material": material_name(body.material, known)}
 
 
 def describe_joint(joint):
     """Dictionary of a TimberJoint; points: ends of the springs on the first element."""
     state = O.bodies[joint.id1].state
-    return {
-        "elements": [joint.id1, joint.id2],
-        "points": [list(state.pos + state.ori * a) for a in joint.anchors1],
-        "normal": list(state.ori * joint.normal),
-        "stiffness": [joint.kn, joint.ks],
-        "strength": joint.strength if math.isfinite(joint.strength) else None,
-        "reading": "joint" if joint.perJoint else "spring",
-        "damping_ratio": joint.dampingRatio,
-        "broken": [bool(b) for b in joint.broken],
-        "kind": joint.kind,
-        "name": joint.name,
-        "slip": describe_slip(joint, state) if joint.law == "slip" else None,
-    }
+    return {"elements": [joint.id1, joint.id2], "points": [list(state.pos + state.ori * a) for a in joint.anchors1],
+            "normal": list(state.ori * joint.normal), "stiffness": [joint.kn, joint.ks],
+            "strength": joint.strength if math.isfinite(joint.strength) else None,
+            "reading": "joint" if joint.perJoint else "spring", "damping_ratio": joint.dampingRatio,
+            "broken": [bool(b) for b in joint.broken], "kind": joint.kind, "name": joint.name,
+            "slip": describe_slip(joint, state) if joint.law == "slip" else None}
 
 
 def describe_slip(joint, state):
     """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3)
     in the world and largest (n,) [m]."""
-    return {
-        "friction_share": joint.frictionShare,
-        "softening_stretch": joint.softeningStretch,
-        "ultimate_stretch": joint.ultimateStretch,
-        "envelope": [list(point) for point in joint.envelope],
-        "plastic": [list(state.ori * p) for p in joint.plasticStretches],
-        "largest": list(joint.largestStretches),
-    }
+    return {"friction_share": joint.frictionShare, "softening_stretch": joint.softeningStretch,
+            "ultimate_stretch": joint.ultimateStretch, "envelope": [list(point) for point in joint.envelope],
+            "plastic": [list(state.ori * p) for p in joint.plasticStretches], "largest": list(joint.largestStretches)}

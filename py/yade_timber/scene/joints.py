@@ -37,19 +37,8 @@ class SlipLaw:
     friction_share: float = 0.3
 
 
-def connect(
-    id1,
-    id2,
-    points,
-    normal=None,
-    stiffness=(58800.0, 58800.0),
-    strength=5880.0,
-    per="spring",
-    kind="",
-    name="",
-    damping_ratio=0.0,
-    slip=None,
-):
+def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="",
+            name="", damping_ratio=0.0, slip=None):
     """Join two bodies with springs.
 
     Parameters
@@ -158,29 +147,15 @@ def make_joint(id1, id2, springs):
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [_vector(p) for p in springs.points]
     direction = _vector(springs.normal) if springs.normal is not None else s2.pos - s1.pos
-    slip = {
-        "frictionShare": springs.friction_share,
-        "softeningStretch": springs.softening_stretch,
-        "ultimateStretch": springs.ultimate_stretch,
-        "envelope": [Vector2(*point) for point in springs.envelope],
-    }
-    return yw.TimberJoint(
-        id1=id1,
-        id2=id2,
-        anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
-        anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
-        normal=s1.ori.conjugate() * direction.normalized(),
-        kn=springs.kn,
-        ks=springs.ks,
-        strength=springs.strength,
-        perJoint=PER_JOINT[springs.per],
-        broken=[int(springs.broken)] * len(points),
-        dampingRatio=springs.damping_ratio,
-        kind=springs.kind,
-        name=springs.name,
-        law=springs.law,
-        **(slip if springs.law == "slip" else {}),
-    )
+    slip = {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
+            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
+    return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
+                          anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
+                          normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
+                          strength=springs.strength, perJoint=PER_JOINT[springs.per],
+                          broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
+                          kind=springs.kind, name=springs.name, law=springs.law,
+                          **(slip if springs.law == "slip" else {}))
 
 
 def ids_of(caller, *bodies):

@@ -62,13 +62,8 @@ def contacts(id1, id2):
         elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
         along = dashpot.dot(normal)
         points.append(
-            {
-                "position": position,
-                "normal": sign * normal,
-                "overlap": overlap,
-                "normal_force": elastic + along,
-                "shear_force": sign * (shear + dashpot - along * normal),
-            }
+            {"position": position, "normal": sign * normal, "overlap": overlap, "normal_force": elastic + along,
+             "shear_force": sign * (shear + dashpot - along * normal)}
         )
     return points
 

@@ -83,11 +83,8 @@ def check_step(model):
 
 def law_options(law):
     """Arguments of `engines.engines` that the `law` of a house file decides."""
-    return {
-        "vertex_edge": law["vertex_edge_contacts"],
-        "flush_supports": law["flush_supports"],
-        "increment": law["hertz"] == "increment",
-    }
+    return {"vertex_edge": law["vertex_edge_contacts"], "flush_supports": law["flush_supports"],
+            "increment": law["hertz"] == "increment"}
 
 
 def add_elements(model):
@@ -95,14 +92,8 @@ def add_elements(model):
     materials = {name: make_material(name, spec, model) for name, spec in model.materials.items()}
     ids = {}
     for element in model.elements:
-        body = bodies.polyhedron(
-            element.vertices,
-            materials[element.material],
-            fixed=element.fixed,
-            name=element.name,
-            kind=element.kind,
-            color=KINDS.get(element.kind),
-        )
+        body = bodies.polyhedron(element.vertices, materials[element.material], fixed=element.fixed, name=element.name,
+                                 kind=element.kind, color=KINDS.get(element.kind))
         bodies.scale_mass(body, element.density / model.materials[element.material]["density"])
         ids[element.name] = O.bodies.append(body)
     return ids
@@ -139,11 +130,8 @@ def house_monitor(model, ids):
     """HouseMonitor of the main structure's storeys; their height is that of the columns."""
     main, storeys = next(iter(model.storey_levels.items()))
     marks = level_marks(model, main)
-    return yw.HouseMonitor(
-        bodies=[ids[e.name] for e, _ in marks],
-        levels=[level for _, level in marks],
-        heights=[head - foot for _, (foot, head) in sorted(storeys.items())],
-    )
+    return yw.HouseMonitor(bodies=[ids[e.name] for e, _ in marks], levels=[level for _, level in marks],
+                           heights=[head - foot for _, (foot, head) in sorted(storeys.items())])
 
 
 STANDING = ("column", "brace", "wall")

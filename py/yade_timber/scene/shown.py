@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One line about each object of the package's classes, for the prompt: units, four digits."""
 
-ATTRIBUTES = {
-    "TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
-    "SnowMat": (("density", "kg/m3"), ("friction", "")),
-    "GroundMotionEngine": (("start", "s"), ("scale", "")),
-    "HouseMonitor": (("interval", "s"),),
-    "StructureMonitor": (("interval", "s"),),
-    "ContactForces": (("sweeps", ""), ("tolerance", ""), ("unconverged", "steps")),
-    "UniformGravity": (("gravity", "m/s2"),),
-}
+ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
+              "SnowMat": (("density", "kg/m3"), ("friction", "")),
+              "GroundMotionEngine": (("start", "s"), ("scale", "")), "HouseMonitor": (("interval", "s"),),
+              "StructureMonitor": (("interval", "s"),),
+              "ContactForces": (("sweeps", ""), ("tolerance", ""), ("unconverged", "steps")),
+              "UniformGravity": (("gravity", "m/s2"),)}
 """Class -> attributes that its line names, and their units."""
 
 
@@ -51,7 +48,6 @@ def _break(entry):
     return f"<JointBreak: {entry.time:.4g} s, joint {entry.joint}, spring {entry.spring}, {entry.cause}>"
 
 
-LINES = {
-    "TimberJoint": _joint, "RoundedPolyhedron": _polyhedron, "JointEngine": _engine_of_joints, "JointBreak": _break,
-}
+LINES = {"TimberJoint": _joint, "RoundedPolyhedron": _polyhedron, "JointEngine": _engine_of_joints,
+         "JointBreak": _break}
 """Class -> its line, where attributes alone do not say enough."""

@@ -9,10 +9,8 @@ CONVERGED = 1e-6
 """Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
-ORIGIN = {
-    "none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
-    "step": "time step",
-}
+ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
+          "step": "time step"}
 """Words of pictures/provenance.py."""
 
 
@@ -97,19 +95,13 @@ def outcome(summary):
     """Verdict on the main structure, with its peak storey drift."""
     if summary.collapsed:
         tilt, end = summary.tilt_time_s, f"collapsed at {summary.collapse_time_s:.1f} s"
-        return (
-            end
-            if tilt is None
-            else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s"
-        )
+        return (end if tilt is None
+                else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s")
     drift, storey, direction = summary.largest_drift()
     peak = f"{directed(drift, direction)} in {storey_name(storey)}" if drift >= SMALL else ratio(drift)
     limit = verdict.passed(drift)
-    meaning = (
-        f"beyond the {limit.name} of {ratio(limit.drift)}"
-        if limit
-        else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}"
-    )
+    meaning = (f"beyond the {limit.name} of {ratio(limit.drift)}" if limit
+               else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}")
     lean = " and leans at the end" if summary.main.leans else ""
     return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}"
 
@@ -117,11 +109,8 @@ def outcome(summary):
 def other_walls(summary):
     """'with walls of the level design collapsed' where the verdict depends on the level of the walls."""
     other = summary.walls and summary.walls.other
-    return (
-        f"with walls of the level {other.level} {other.verdict}"
-        if other and other.verdict != summary.main.verdict
-        else ""
-    )
+    return (f"with walls of the level {other.level} {other.verdict}" if other and other.verdict != summary.main.verdict
+            else "")
 
 
 def residual(summary):
@@ -138,9 +127,8 @@ def residual(summary):
 
 def structures(summary):
     """Verdicts on the structures other than the main one, unless they are undamaged."""
-    return ", ".join(
-        structure(name, facts, summary) for name, facts in summary.others if facts.verdict != verdict.UNDAMAGED
-    )
+    return ", ".join(structure(name, facts, summary) for name, facts in summary.others
+                     if facts.verdict != verdict.UNDAMAGED)
 
 
 def structure(name, facts, summary):
@@ -211,27 +199,19 @@ def first_break(facts):
 def own_weight(facts):
     """'damaged before the shaking, by its own weight: 12 joints broken, peak drift 1/45'."""
     main = next(iter(facts.structures), None)
-    parts = [
-        ("" if name == main else f"{name}: ") + _damage(one)
-        for name, one in facts.structures.items()
-        if one.verdict != verdict.UNDAMAGED
-    ]
+    parts = [("" if name == main else f"{name}: ") + _damage(one) for name, one in facts.structures.items()
+             if one.verdict != verdict.UNDAMAGED]
     return f"damaged before the shaking, by {its_weight(facts.snow)}: {'; '.join(parts)}"
 
 
 def _damage(facts):
     if facts.collapsed:
         return "collapsed"
-    counts = (
-        (facts.broken, "joint", "broken"),
-        (facts.partly_broken, "joint", "partly broken"),
-        (facts.columns_lost, "column", "lost"),
-    )
+    counts = ((facts.broken, "joint", "broken"), (facts.partly_broken, "joint", "partly broken"),
+              (facts.columns_lost, "column", "lost"))
     return ", ".join(
-        [
-            *(f"{counted(number, noun)} {state}" for number, noun, state in counts if number),
-            f"peak drift {ratio(facts.peak_drift)}",
-        ]
+        [*(f"{counted(number, noun)} {state}" for number, noun, state in counts if number),
+         f"peak drift {ratio(facts.peak_drift)}"]
     )
 
 

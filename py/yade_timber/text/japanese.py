@@ -20,15 +20,8 @@ def title(summary):
 
 def result(summary):
     """Outcome: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow."""
-    parts = [
-        outcome(summary),
-        moving(summary),
-        *structures(summary),
-        joints(summary),
-        columns(summary),
-        snow(summary),
-        early(summary),
-    ]
+    parts = [outcome(summary), moving(summary), *structures(summary), joints(summary), columns(summary), snow(summary),
+             early(summary)]
     return ensemble(summary) + "。".join(filter(None, parts)) + "。"
 
 
@@ -38,11 +31,8 @@ def outcome(summary):
     drift, storey, direction = summary.largest_drift()
     left = summary.largest_drift("residual_drift")[0]
     residual = f"、残留変形角 {below(left)}" if drift >= DAMAGE.drift else ""
-    peak = (
-        f"{ratio(drift, '')}（{direction_name(direction)}、{storey.removeprefix('storey')} 階）"
-        if drift >= SMALL
-        else "1/1000 未満"
-    )
+    peak = (f"{ratio(drift, '')}（{direction_name(direction)}、{storey.removeprefix('storey')} 階）" if drift >= SMALL
+            else "1/1000 未満")
     lean = "（最後に傾いている）" if summary.main.leans else ""
     return f"{OUTCOMES[summary.main.verdict]}{lean}。最大層間変形角 {peak}{residual}"
 
@@ -50,11 +40,8 @@ def outcome(summary):
 def moving(summary):
     """Amplitude of the motion that remains; empty at rest."""
     amplitude, _, direction = summary.largest_drift("final_amplitude")
-    return (
-        f"なお ±{below(amplitude)}（{direction_name(direction)}）で揺れている"
-        if summary.still_moving and not summary.collapsed
-        else ""
-    )
+    return (f"なお ±{below(amplitude)}（{direction_name(direction)}）で揺れている"
+            if summary.still_moving and not summary.collapsed else "")
 
 
 def structures(summary):
@@ -100,9 +87,8 @@ def ensemble(summary):
     """'16 回の計算の 7 番目（危険 12 回、倒壊 4 回）。' of a run that is shown for an ensemble, else empty."""
     if not summary.ensemble:
         return ""
-    outcomes = "、".join(
-        f"{OUTCOMES.get(state, state)} {number} 回" for state, number in summary.ensemble.outcomes.items()
-    )
+    outcomes = "、".join(f"{OUTCOMES.get(state, state)} {number} 回"
+                        for state, number in summary.ensemble.outcomes.items())
     return f"{place_in_ensemble(summary.ensemble)}（{outcomes}）。"
 
 
@@ -131,11 +117,8 @@ def own_weight(facts):
 def _damage(facts):
     if facts.collapsed:
         return "倒壊"
-    counts = (
-        (facts.broken, "接合部 {} か所が破断"),
-        (facts.partly_broken, "接合部 {} か所が一部破断"),
-        (facts.columns_lost, "柱 {} 本が倒れるか外れた"),
-    )
+    counts = ((facts.broken, "接合部 {} か所が破断"), (facts.partly_broken, "接合部 {} か所が一部破断"),
+              (facts.columns_lost, "柱 {} 本が倒れるか外れた"))
     return "、".join([*(text.format(number) for number, text in counts if number), f"最大層間変形角 {below(facts.peak_drift)}"])
 
 

@@ -28,9 +28,8 @@ def verdicts(summary):
             yield f"{name.capitalize()}: {fall(name, summary)}."
             continue
         limit = verdict.passed(facts.peak_drift)
-        reason = f"peak drift {ratio(facts.peak_drift)}" + (
-            f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else ""
-        )
+        reason = f"peak drift {ratio(facts.peak_drift)}" + (f" reaches the {limit.name} of {ratio(limit.drift)}"
+                                                            if limit else "")
         columns = f"; {counted(facts.columns_lost, 'column')} lost" if facts.columns_lost else ""
         yield f"{name.capitalize()}: {facts.verdict}{', leans' if facts.leans else ''}; {reason}{columns}."
 
@@ -39,11 +38,8 @@ def fall(name, summary):
     """'collapsed at 5.8 s, 1.5 s after a storey drift of 1/10 E-W'."""
     main = name == next(iter(summary.structures))
     time, tilt = (summary.collapse_time_s, summary.tilt_time_s) if main else (summary.fall_time(name), None)
-    since = (
-        ""
-        if tilt is None or time is None
-        else f", {time - tilt:.1f} s after a storey drift of 1/10 {direction_name(summary.tilt_direction)}"
-    )
+    since = ("" if tilt is None or time is None
+             else f", {time - tilt:.1f} s after a storey drift of 1/10 {direction_name(summary.tilt_direction)}")
     return f"collapsed{at(time)}{since}"
 
 
@@ -64,22 +60,16 @@ def forces(quantities):
     """Base shear, also as a share of the weight; of a house that has collapsed, before its fall began."""
     weight = 1e3 * weight_of(quantities.mass_kg)  # [N]
     sustained, peak = quantities.base_shear.sustained, quantities.base_shear.peak
-    shears = ", ".join(
-        f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)"
-        for axis, force in sustained.items()
-    )
+    shears = ", ".join(f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)"
+                       for axis, force in sustained.items())
     before = "" if quantities.until_s is None else f" before {quantities.until_s:.2f} s"
     return f"Largest base shear{before}, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
 
 
 def accelerations(quantities):
     """Largest horizontal acceleration of any level."""
-    values = [
-        (storey.acceleration[axis], name, axis)
-        for name, storey in quantities.storeys.items()
-        for axis in storey.acceleration
-        if axis != "ud"
-    ]
+    values = [(storey.acceleration[axis], name, axis) for name, storey in quantities.storeys.items()
+              for axis in storey.acceleration if axis != "ud"]
     if not values:
         return ""
     value, name, axis = max(values)
@@ -101,11 +91,8 @@ def periods(summary):
     """Main natural periods before and after the run."""
     texts = []
     for when in ("before", "after"):
-        found = [
-            f"{direction_name(axis)} {period_text(mode)}"
-            for axis in DIRECTIONS
-            if (mode := summary.main_mode(when, axis))
-        ]
+        found = [f"{direction_name(axis)} {period_text(mode)}" for axis in DIRECTIONS
+                 if (mode := summary.main_mode(when, axis))]
         texts += [f"{when} the run {', '.join(found)}"] if found else []
     return f"Natural periods {'; '.join(texts)}." if texts else ""
 

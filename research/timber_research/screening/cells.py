@@ -69,20 +69,15 @@ def _runs_of(cell, motions, dt):
     quiet = [run for run in RUNS if not parse_run(run)[1]]
     found = [(run, motion.name, dict(motion.columns)) for motion in motions for run in shaken]
     found += [(run, None, {"record": NO_EARTHQUAKE}) for run in quiet]
-    return [
-        Planned(cell, run, motion, _row(cell, run, motion, {**columns, "dt": dt})) for run, motion, columns in found
-    ]
+    return [Planned(cell, run, motion, _row(cell, run, motion, {**columns, "dt": dt}))
+            for run, motion, columns in found]
 
 
 def _row(cell, run, motion, columns):
     house, _, snow = parse_run(run)
     name = "_".join(filter(None, (cell_name(cell), run.removeprefix("model"), motion)))
-    values = {
-        "description": name,
-        "house": house_file(cell, house),
-        "snow": SNOW_DEPTH if snow else 0,
-        "until_collapse": "yes",
-    }
+    values = {"description": name, "house": house_file(cell, house), "snow": SNOW_DEPTH if snow else 0,
+              "until_collapse": "yes"}
     return {**dict.fromkeys(("record", "seed", "start", "end")), **values, **columns}
 
 
@@ -99,10 +94,8 @@ def write_inputs(planned, folder):
     """Write house files and batch table of the planned runs to a folder; returns the path of the table. Raises OSError.
     """
     for cell, house in dict.fromkeys((entry.cell, parse_run(entry.run)[0]) for entry in planned):
-        _write_new(
-            folder / house_file(cell, house),
-            yaml.safe_dump(house_entries(house, FACTORS, SIGNS[cell]), sort_keys=False),
-        )
+        _write_new(folder / house_file(cell, house),
+                   yaml.safe_dump(house_entries(house, FACTORS, SIGNS[cell]), sort_keys=False))
     rows = [entry.row for entry in planned]
     write_text(folder / TABLE, csv_text(list(rows[0]), [row.values() for row in rows]))
     return folder / TABLE

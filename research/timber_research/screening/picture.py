@@ -16,23 +16,16 @@ from .effects import EMPTY, INTERACTION, MAIN, SIGNIFICANT, columns
 from .responses import COUNT, LOG, RESPONSES, SHARE
 
 SHOWN = ("falls_A", "falls_B", "drift_B", "drift_C", "falls_B1", "falls_B2", "across_B1", "across_B2", "C_over_B",
-         "C1_over_B1", "C2_over_B2",
-         "column_beam_west_B1", "snow_damage_B1", "claims")
+         "C1_over_B1", "C2_over_B2", "column_beam_west_B1", "snow_damage_B1", "claims")
 """Responses in the picture."""
-GROUPS = {
-    MAIN: "effect of a choice",
-    INTERACTION: "interactions (sum of those in a row)",
-    EMPTY: "columns without a choice: chance",
-}
+GROUPS = {MAIN: "effect of a choice", INTERACTION: "interactions (sum of those in a row)",
+          EMPTY: "columns without a choice: chance"}
 ROW_HEIGHT = 0.25
 """[inch]"""
 SMALLEST_REACH = {LOG: 0.1, SHARE: 0.2, COUNT: 1.0}
 """Smallest half-width of an axis. [of the response]"""
-TICKS = {
-    LOG: (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000),
-    SHARE: (10, 20, 50, 80),
-    COUNT: (0.5, 1, 2, 5, 10, 20, 50),
-}
+TICKS = {LOG: (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000), SHARE: (10, 20, 50, 80),
+         COUNT: (0.5, 1, 2, 5, 10, 20, 50)}
 """Admissible ticks: factors, per cent, numbers."""
 
 
@@ -43,9 +36,8 @@ def draw(results, path):
     kinds = {MAIN} | {effect.kind for some in effects.values() for effect in some}
     wanted = [column for column in columns(len(FACTORS)) if column[0] in kinds]
     rows = {column[:2]: y for y, column in zip(_heights(wanted), wanted)}
-    figure = Figure(
-        figsize=(4.2 + 1.2 * len(SHOWN), 1.8 + ROW_HEIGHT * (max(rows.values()) + 2.6)), layout="constrained"
-    )
+    figure = Figure(figsize=(4.2 + 1.2 * len(SHOWN), 1.8 + ROW_HEIGHT * (max(rows.values()) + 2.6)),
+                    layout="constrained")
     axes = figure.subplots(1, len(SHOWN), sharey=True)
     for axis, name in zip(axes, SHOWN):
         _column(axis, RESPONSES[name], effects[name], rows)
@@ -53,16 +45,8 @@ def draw(results, path):
     axes[0].set_ylim(max(rows.values()) + 0.8, -1.8)
     for kind in kinds:
         top = min(y for (other, _), y in rows.items() if other == kind)
-        axes[0].text(
-            0,
-            top - 0.95,
-            GROUPS[kind] + "  ",
-            transform=axes[0].get_yaxis_transform(),
-            ha="right",
-            va="center",
-            fontsize=9,
-            weight="bold",
-        )
+        axes[0].text(0, top - 0.95, GROUPS[kind] + "  ", transform=axes[0].get_yaxis_transform(), ha="right",
+                     va="center", fontsize=9, weight="bold")
     figure.suptitle(_title(results, EMPTY in kinds), fontsize=11)
     with written_whole(path) as part:
         figure.savefig(part, dpi=130, format="png")
@@ -71,16 +55,10 @@ def draw(results, path):
 
 def _title(results, has_empty):
     """has_empty: whether there are columns without a choice."""
-    cells = (
-        "all 32 cells"
-        if len(results.cells) == design.RUNS
-        else f"{len(results.cells)} of {design.RUNS} cells (main effects confounded with interactions)"
-    )
-    band = (
-        f"grey band: {SIGNIFICANT:g} times the size of effects without a choice; coloured: beyond both"
-        if has_empty
-        else "coloured: beyond them"
-    )
+    cells = ("all 32 cells" if len(results.cells) == design.RUNS
+             else f"{len(results.cells)} of {design.RUNS} cells (main effects confounded with interactions)")
+    band = (f"grey band: {SIGNIFICANT:g} times the size of effects without a choice; coloured: beyond both" if has_empty
+            else "coloured: beyond them")
     return (f"What the second level of each choice changes: {cells}, {len(results.motions)} motions.  "
             f"Bars: {SIGNIFICANT:g} standard errors from the motions; {band}")
 
@@ -103,15 +81,8 @@ def _column(axis, response, effects, rows):
     for effect in effects:
         colour = GREY if not effect.stands_out else ORANGE if effect.value > 0 else BLUE
         bar = 0.0 if np.isnan(effect.error) else SIGNIFICANT * effect.error
-        axis.errorbar(
-            effect.value,
-            rows[effect.kind, effect.word],
-            xerr=bar,
-            fmt="o",
-            color=colour,
-            ms=6 if effect.kind == MAIN else 4,
-            lw=1.6,
-        )
+        axis.errorbar(effect.value, rows[effect.kind, effect.word], xerr=bar, fmt="o", color=colour,
+                      ms=6 if effect.kind == MAIN else 4, lw=1.6)
     if effects and not np.isnan(effects[0].chance):
         axis.axvspan(-SIGNIFICANT * effects[0].chance, SIGNIFICANT * effects[0].chance, color=GREY, alpha=0.2, lw=0)
     _scale(axis, response.kind)

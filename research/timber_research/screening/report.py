@@ -15,9 +15,8 @@ from .effects import EMPTY, INTERACTION, MAIN, SIGNIFICANT, expected_by_chance
 from .responses import COUNT, LOG, RESPONSES, SHARE
 
 CELL_COLUMNS = ("falls_A", "falls_B", "falls_C", "falls_B1", "falls_B2", "falls_C1", "falls_C2", "drift_A", "drift_B",
-                "drift_C", "across_B1", "across_B2",
-                "C_over_B", "C1_over_B1", "C2_over_B2", "column_beam_west_B1", "brace_beam_west_B1",
-                "claims")
+                "drift_C", "across_B1", "across_B2", "C_over_B", "C1_over_B1", "C2_over_B2", "column_beam_west_B1",
+                "brace_beam_west_B1", "claims")
 """Responses in the table of cells."""
 MOST_INTERACTIONS = 3
 """Interactions of a response in its table."""
@@ -26,11 +25,8 @@ MOST_INTERACTIONS = 3
 def write(results, folder):
     """Write screening.csv, effects.csv, screening.md to a folder; returns their paths. Raises OSError."""
     found = {name: results.effects(name) for name in RESPONSES}
-    contents = {
-        "screening.csv": cells_csv(results),
-        "effects.csv": effects_csv(found),
-        "screening.md": markdown(results, found),
-    }
+    contents = {"screening.csv": cells_csv(results), "effects.csv": effects_csv(found),
+                "screening.md": markdown(results, found)}
     for name, text in contents.items():
         write_text(folder / name, text)
     return [folder / name for name in contents]
@@ -102,12 +98,8 @@ NO_COLUMN = "These cells leave no column without a factor, by which to estimate 
 def head(results, found):
     effects = [effect for some in found.values() for effect in some]
     motions = f"{counted(len(results.motions), 'motion')}: {', '.join(results.motions)}"
-    lines = [
-        f"{len(results.cells)} of {design.RUNS} cells under {motions}.",
-        "",
-        EXPLANATION,
-        SCATTER if len(results.motions) > 1 else ONE_MOTION,
-    ]
+    lines = [f"{len(results.cells)} of {design.RUNS} cells under {motions}.", "", EXPLANATION,
+             SCATTER if len(results.motions) > 1 else ONE_MOTION]
     if effects:
         lines += ["", *significance(effects)]
     if len(results.cells) < design.RUNS:
@@ -151,19 +143,15 @@ def main_table(title, found):
     rows = []
     for name, effects in found.items():
         mains, kind = [effect for effect in effects if effect.kind == MAIN], RESPONSES[name].kind
-        rows += (
-            [(RESPONSES[name].title, *(effect_text(kind, e) for e in mains), size_text(kind, mains[0].chance))]
-            if mains
-            else []
-        )
+        rows += ([(RESPONSES[name].title, *(effect_text(kind, e) for e in mains), size_text(kind, mains[0].chance))]
+                 if mains else [])
     if not rows:
         return [f"## {title}", "", "The cells do not determine them yet."]
     return [
         f"## {title}",
         "",
-        *markdown_table(
-            ("response", *(f"{k} {factor.title}" for k, factor in enumerate(FACTORS, 1)), "no factor"), rows
-        ),
+        *markdown_table(("response", *(f"{k} {factor.title}" for k, factor in enumerate(FACTORS, 1)), "no factor"),
+                        rows),
     ]
 
 
@@ -171,13 +159,10 @@ def interaction_table(found):
     """The most significant interactions of each response, with their aliases."""
     rows = []
     for name, effects in found.items():
-        strong = sorted(
-            (e for e in effects if e.kind == INTERACTION and e.stands_out), key=lambda e: -abs(e.significance)
-        )
-        rows += [
-            (RESPONSES[name].title, effect_text(RESPONSES[name].kind, e).replace("*", ""), label(e))
-            for e in strong[:MOST_INTERACTIONS]
-        ]
+        strong = sorted((e for e in effects if e.kind == INTERACTION and e.stands_out),
+                        key=lambda e: -abs(e.significance))
+        rows += [(RESPONSES[name].title, effect_text(RESPONSES[name].kind, e).replace("*", ""), label(e))
+                 for e in strong[:MOST_INTERACTIONS]]
     if not rows:
         return []
     return ["## Interactions beyond two standard errors", "",
@@ -204,9 +189,8 @@ def effect_text(kind, effect):
     bold when it stands out.
     """
     sign = "" if kind == LOG or effect.value < 0 else "+"
-    error = (
-        "" if math.isnan(effect.error) else f" ({size_text(kind, effect.error).removeprefix('x ').removesuffix(' pp')})"
-    )
+    error = ("" if math.isnan(effect.error)
+             else f" ({size_text(kind, effect.error).removeprefix('x ').removesuffix(' pp')})")
     text = f"{sign}{size_text(kind, effect.value)}{error}"
     return f"**{text}**" if effect.stands_out else text
 

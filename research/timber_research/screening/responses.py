@@ -97,52 +97,34 @@ def _all():
         yield Response(f"falls_{house}", f"{house} falls", SHARE, (_quake(house),), lambda run: run.collapsed)
     yield Response("ns_A", "A tilts N-S", SHARE, (_quake("A"),), lambda run: run.tilt_direction == "ns")
     for house in houses:
-        yield Response(
-            f"drift_{house}", f"{house}: largest drift", LOG, (_quake(house),), lambda run: math.log10(drift(run))
-        )
+        yield Response(f"drift_{house}", f"{house}: largest drift", LOG, (_quake(house),),
+                       lambda run: math.log10(drift(run)))
     yield Response("across_B1", "B1: sway E-W / N-S", LOG, (_quake("B1"),), _across("ew", "ns"))
     yield Response("across_B2", "B2: sway N-S / E-W", LOG, (_quake("B2"),), _across("ns", "ew"))
     for one, other in (("C", "B"), ("C1", "B1"), ("C2", "B2")):
-        yield Response(
-            f"{one}_over_{other}",
-            f"{one} / {other}: largest drift",
-            LOG,
-            (_quake(one), _quake(other)),
-            _log_ratio(drift),
-        )
+        yield Response(f"{one}_over_{other}", f"{one} / {other}: largest drift", LOG, (_quake(one), _quake(other)),
+                       _log_ratio(drift))
     for house, side in (("B1", "west"), ("B2", "north")):
         for kind in ("column_beam", "brace_beam"):
             title = f"{house}, storey 1 {side}: {kind.replace('_', '-')} joints broken"
             yield Response(f"{kind}_{side}_{house}", title, COUNT, (_quake(house),), _broken(kind, side))
     for house in damaged:
         pair = (_snow(house), _quake(house))
-        yield Response(
-            f"snow_damage_{house}", f"{house}: broken springs with / without snow", LOG, pair, _log_ratio(springs)
-        )
+        yield Response(f"snow_damage_{house}", f"{house}: broken springs with / without snow", LOG, pair,
+                       _log_ratio(springs))
         yield Response(f"snow_lean_{house}", f"{house}: leaning with / without snow", LOG, pair, _log_ratio(lean))
         yield Response(f"snow_columns_{house}", f"{house}: more lost columns with snow", COUNT, pair, _more_lost)
-    yield Response(
-        "snow_lean2_C2",
-        "C2, storey 2: leaning with / without snow",
-        LOG,
-        (_snow("C2"), _quake("C2")),
-        _log_ratio(lean, "storey2"),
-    )
+    yield Response("snow_lean2_C2", "C2, storey 2: leaning with / without snow", LOG, (_snow("C2"), _quake("C2")),
+                   _log_ratio(lean, "storey2"))
     for one, other in (("C1", "B1"), ("C2", "B2")):
         pair = (_snow(one), _snow(other))
-        yield Response(
-            f"snow_{one}_over_{other}", f"{one} / {other} with snow: broken springs", LOG, pair, _log_ratio(springs)
-        )
+        yield Response(f"snow_{one}_over_{other}", f"{one} / {other} with snow: broken springs", LOG, pair,
+                       _log_ratio(springs))
     for name, (_, _, needs) in CLAIMS.items():
         yield Response(name, f"{name} holds", SHARE, needs, _holds(name, needs))
     everything = tuple(dict.fromkeys(run for _, _, needs in CLAIMS.values() for run in needs))
-    yield Response(
-        "claims",
-        "claims that hold",
-        COUNT,
-        everything,
-        lambda *found: sum(r.holds for r in judge(dict(zip(everything, found)))),
-    )
+    yield Response("claims", "claims that hold", COUNT, everything,
+                   lambda *found: sum(r.holds for r in judge(dict(zip(everything, found)))))
 
 
 def _holds(name, needs):

@@ -68,13 +68,8 @@ def plot(points, path):
     for name, law, colour in (("Hertz", yt.Law2_ManifoldGeom_TimberPhys_Hertz(), ORANGE), ("pad", pad(), BLUE)):
         time, height = fall(law)
         right.plot(1e3 * time, 1e3 * height, color=colour, label=name)
-    right.set(
-        xlabel="time [ms]",
-        ylabel="height of the lower face [mm]",
-        title="A block lands after 5 mm",
-        xlim=(20, 120),
-        ylim=(-0.4, 1),
-    )
+    right.set(xlabel="time [ms]", ylabel="height of the lower face [mm]", title="A block lands after 5 mm",
+              xlim=(20, 120), ylim=(-0.4, 1))
     right.legend()
     figure.savefig(path, dpi=150)
 
