@@ -47,6 +47,7 @@ namespace {
 			found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(
 			        timber::Polyhedron::fromVertices(vertices), radius));
 			geometries[key] = found;
+			geometries[keyOf(vertices, found->radius)] = found; // the attribute's value from now on
 			return found;
 		}
 	};
