@@ -108,3 +108,23 @@ def publish(folder, name, text, heads, rows):
     print(text)
     if folder:
         write_table(folder, name, heads, rows)
+
+
+SCALING = (
+    "houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
+    "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]",
+)
+
+
+def scaling(measured):
+    """Rows of a table with the heads SCALING. measured: dictionaries with houses, threads, elements, wall and cpu [s],
+    memory [MB].
+    """
+    alone = {m["houses"]: m for m in measured if m["threads"] == 1}
+    base = alone.get(min(alone, default=None))
+    for m in measured:
+        share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if m["threads"] == 1 else None
+        speed_up = alone[m["houses"]]["wall"] / m["wall"] if m["threads"] > 1 and m["houses"] in alone else None
+        yield (m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
+               f"{m['cpu'] * 1e6 / m['elements']:.2f}", *(f"{x:.2f}" if x else "" for x in (share, speed_up)),
+               f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}")

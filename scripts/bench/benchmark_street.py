@@ -18,8 +18,8 @@ import yade.wrapper as yw
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import (BARE_MEMORY, cpu_per_step, interleaved, machine, parser, publish, resident_memory,
-                         wall_per_step)
+from bench_tools import (BARE_MEMORY, SCALING, cpu_per_step, interleaved, machine, parser, publish, resident_memory,
+                         scaling, wall_per_step)
 from tables import markdown_table
 from yade_timber.base.errors import RunError
 from yade_timber.base.time_step import DEFAULT_DT
@@ -141,27 +141,12 @@ def row(m):
 
 def section(found, house, rounds):
     """Section of the results page."""
-    one = {m["houses"]: m for m in found if m["threads"] == 1}
-    shown = []
-    for m in found:
-        base, same = one.get(min(one, default=None)), one.get(m["houses"])
-        share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if m["threads"] == 1 else None
-        speed_up = same["wall"] / m["wall"] if same and m["threads"] > 1 else None
-        cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
-                 f"{m['cpu'] * 1e6 / m['elements']:.2f}"]
-        shown.append(
-            cells
-            + [f"{x:.2f}" if x else "" for x in (share, speed_up)]
-            + [f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}"]
-        )
-    heads = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-             "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
     names = [name for name in found[0]["engines"] if any(m["engines"][name] > 0.01 for m in found)]
     engines = [(m["houses"], m["threads"], *(f"{m['engines'][n] / m['elements'] * 1e3:.0f}" for n in names))
                for m in found]
     return (
         f"## Rows of houses\n\nHouse {house} in strong shaking, dt = {DEFAULT_DT:g} s: medians of {rounds} processes"
-        f" each, run alternately. {machine()}.\n\n{markdown_table(heads, shown)}\nWall time of each engine per element"
+        f" each, run alternately. {machine()}.\n\n{markdown_table(SCALING, list(scaling(found)))}\nWall time of each engine per element"
         f" and step [ns]:\n\n{markdown_table(('houses', 'threads', *names), engines)}"
     )
 

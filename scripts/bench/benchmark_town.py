@@ -18,7 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-from bench_tools import BARE_MEMORY, machine, parser, publish, resident_memory
+from bench_tools import BARE_MEMORY, SCALING, machine, parser, publish, resident_memory, scaling
 from tables import markdown_table
 from yade_timber.plugin import compiled
 from yade_timber.base.errors import RunError
@@ -113,25 +113,10 @@ def row(m):
 
 def section(found, options):
     """Section of the results page."""
-    one = {m["houses"]: m for m in found if m["threads"] == 1}
-    base, shown = one.get(min(one, default=None)), []
-    for m in found:
-        alone = m["threads"] == 1
-        share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if base and alone else None
-        speed_up = one[m["houses"]]["wall"] / m["wall"] if m["houses"] in one and not alone else None
-        cells = [m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
-                 f"{m['cpu'] * 1e6 / m['elements']:.2f}"]
-        shown.append(
-            cells
-            + [f"{x:.2f}" if x else "" for x in (share, speed_up)]
-            + [f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}"]
-        )
-    heads = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-             "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
     return (
         f"## Towns\n\nHouse {options.house} on each lot, in strong shaking, dt = {DEFAULT_DT:g} s, with frames: medians"
         f" of {options.chunks} chunks in {options.rounds} process(es) each, run alternately."
-        f" {machine()}.\n\n{markdown_table(heads, shown)}"
+        f" {machine()}.\n\n{markdown_table(SCALING, list(scaling(found)))}"
     )
 
 
