@@ -291,7 +291,7 @@ namespace {
 		if (const auto* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
 		const Real squared
 		        = springs.empty() ? 0 : timber::largestEigenvalue(ContactForces::placements(scene), springs);
-		return squared > 0 ? largestJointStep * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
+		return squared > 0 ? jointStepFactor * 2 / std::sqrt(squared) : std::numeric_limits<Real>::infinity();
 	}
 }
 

@@ -8,7 +8,7 @@ namespace yade {
 
 /// Largest step for joints, over the stability limit of explicit springs. Stiff joints are implicit and stay stable at
 /// 47 times that limit. [-]
-constexpr Real largestJointStep = 20;
+constexpr Real jointStepFactor = 20;
 
 /// The list of engines is complete, without doubles and in order. Throws std::runtime_error.
 void checkEngines(const Scene&);

@@ -83,7 +83,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("await_step", &awaitStep, (boost::python::arg("before")));
 	boost::python::def("finish_step", &finishStep);
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
-	boost::python::scope().attr("largest_joint_step") = yade::largestJointStep;
+	boost::python::scope().attr("joint_step_factor") = yade::jointStepFactor;
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
 	boost::python::def("advance_scenes", &yade::advanceScenes,

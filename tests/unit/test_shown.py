@@ -49,6 +49,10 @@ def test_bodies_and_ids_are_accepted(scene):
     assert len(repr(yt.energy()).splitlines()) == len(yt.energy())
     with pytest.raises(ValueError, match="no body 7"):
         yt.set_velocity(7, (0, 0, 0))
+    O.reset()
+    O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 3)])
+    with pytest.raises(ValueError, match="body 0 is not in the scene"):
+        yt.connect(*scene, [(0, 0, 0)])
 
 
 @pytest.mark.parametrize("step", ["", "O.dt = 1e-4"])

@@ -18,7 +18,7 @@ LEGEND_HEIGHT = 0.42
 """Of the legend and of the labels of events above the axes. [inch]"""
 
 
-def write(stem, frames, folder, endings=("png",)):
+def write(stem, frames, folder, endings):
     """Write `stem` of the ensemble with each ending in a folder; returns the paths. frames: of the run that is shown.
     Raises OSError, RunError.
     """

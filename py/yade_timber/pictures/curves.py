@@ -26,7 +26,7 @@ JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_c
                "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
 
 
-def write(stem, frames, endings=("png",)):
+def write(stem, frames, endings):
     """Write the page of an ended run as `stem` with each ending; returns the paths. Raises OSError."""
     return save(page(frames, DPI), stem, endings)
 

@@ -51,7 +51,7 @@ def read(folder):
     return Results(Summary.read(folder), History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
 
 
-def write(stem, results, endings=("png",)):
+def write(stem, results, endings):
     """Write `stem` with each ending; returns the paths. Raises OSError."""
     return save(page(results, DPI), stem, endings)
 

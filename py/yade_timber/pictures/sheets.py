@@ -90,7 +90,7 @@ def layout(form, count, box, result):
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
 
 
-def write_sheet(stem, frames, view, endings=("png",)):
+def write_sheet(stem, frames, view, endings):
     """Write `stem` with each ending: the key times in one view. Returns the paths. Raises OSError."""
     return save(sheet(frames, view, PRINT), stem, endings)
 

@@ -7,7 +7,10 @@ import numbers
 import reprlib
 
 import numpy as np
+import yade.wrapper as yw
 from yade.minieigenHP import Vector3
+
+O = yw.Omega()
 
 
 def shown(value):
@@ -89,3 +92,25 @@ def vector(name, value, unit="-"):
 def points(name, value, unit="m"):
     """(n, 3) array of finite numbers, n >= 1."""
     return numbers_of_shape(name, value, (None, 3), f"finite and of shape (n, 3), n >= 1 [{unit}]")
+
+
+def ids_of(caller, *bodies):
+    """Ids of bodies, each given as Body of the scene or as id, also of an erased one. Raises ValueError: YADE would
+    read beyond its list.
+    """
+    ids, last = [body.id if isinstance(body, yw.Body) else body for body in bodies], len(O.bodies) - 1
+    for body, number in zip(bodies, ids):
+        if not isinstance(number, (int, np.integer)) or not 0 <= number <= last:
+            raise ValueError(f"{caller}: there is no body {shown(number)}; bodies have the ids 0 ... {last}")
+        if body is not number and O.bodies[number] != body:
+            raise ValueError(f"{caller}: body {number} is not in the scene: append it to O.bodies first")
+    return ids
+
+
+def present_ids(caller, *bodies):
+    """Ids of bodies in the scene, each given as Body or id. Raises ValueError."""
+    ids = ids_of(caller, *bodies)
+    for body in ids:
+        if O.bodies[body] is None:
+            raise ValueError(f"{caller}: body {body} was taken out")
+    return ids

@@ -5,7 +5,6 @@ import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
-from .joints import present_ids
 
 O = yw.Omega()
 
@@ -201,7 +200,7 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
         World frame. [rad/s]
     """
     if not isinstance(body, yw.Body):
-        body = O.bodies[present_ids("set_velocity", body)[0]]
+        body = O.bodies[arguments.present_ids("set_velocity", body)[0]]
     body.state.vel = arguments.vector("velocity", velocity, "m/s")
     body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")
     body.state.angMom = angular_momentum(body)

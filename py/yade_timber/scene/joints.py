@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector2, Vector3
 
@@ -73,7 +72,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     ValueError
         For unknown bodies, no points, and values out of range.
     """
-    id1, id2 = present_ids("connect", id1, id2)
+    id1, id2 = arguments.present_ids("connect", id1, id2)
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
@@ -156,28 +155,6 @@ def make_joint(id1, id2, springs):
                           broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
                           kind=springs.kind, name=springs.name, law=springs.law,
                           **(slip if springs.law == "slip" else {}))
-
-
-def ids_of(caller, *bodies):
-    """Ids of bodies of the scene, each given as Body or id, present or erased. Raises ValueError: YADE would read
-    beyond its list.
-    """
-    ids = [body.id if isinstance(body, yw.Body) else body for body in bodies]
-    for body in ids:
-        if not isinstance(body, (int, np.integer)) or not 0 <= body < len(O.bodies):
-            raise ValueError(
-                f"{caller}: there is no body {arguments.shown(body)}; bodies have the ids 0 ... {len(O.bodies) - 1}"
-            )
-    return ids
-
-
-def present_ids(caller, *bodies):
-    """Ids of bodies in the scene, each given as Body or id. Raises ValueError."""
-    ids = ids_of(caller, *bodies)
-    for body in ids:
-        if O.bodies[body] is None:
-            raise ValueError(f"{caller}: body {body} was taken out")
-    return ids
 
 
 def joins_bodies(joint):

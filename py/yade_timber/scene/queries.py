@@ -7,7 +7,6 @@ from yade.minieigenHP import Vector3
 from ..base.energy_terms import SIGNS
 from . import arguments
 from .engines import find_engine
-from .joints import ids_of
 
 O = yw.Omega()
 
@@ -51,7 +50,7 @@ def contacts(id1, id2):
     ValueError
         For an id that no body ever had.
     """
-    id1, id2 = ids_of("contacts", id1, id2)
+    id1, id2 = arguments.ids_of("contacts", id1, id2)
     interaction = O.interactions[id1, id2] if O.interactions.has(id1, id2) else None
     if interaction is None or not interaction.isReal:
         return Points()

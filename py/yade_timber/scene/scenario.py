@@ -75,7 +75,7 @@ def build(scenario):
 
 def check_step(model):
     """Raise StepError when the joints are too stiff for the time step, as between light members."""
-    limit = stable_dt(compiled.largest_joint_step)
+    limit = stable_dt(compiled.joint_step_factor)
     if O.dt > limit:
         fault = f"a time step of {O.dt:g} s is too large for the joints between the lightest members"
         raise StepError(f"{model.name}: {fault}: take at most {limit:.2g} s (--dt), or less stiff joints")
