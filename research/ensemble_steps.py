@@ -11,10 +11,12 @@ command continues.
 from itertools import chain
 
 from timber_research import SCRIPTS, two_ensembles
+from timber_research.claims import parse_run
 from timber_research.report import markdown_table
 from yade_timber.base.atomic_write import write_text
 from yade_timber.base.table import csv_text
 from yade_timber.house.disturbance import LARGEST
+from yade_timber.run.options import scripted
 from yade_timber.study.driver import run_missing
 from yade_timber.study.ensemble import tasks
 from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, results_folder,
@@ -47,11 +49,12 @@ def arguments():
 
 def plan(options):
     """{(case, name of the time step): tasks}"""
-    same = ("--start", f"{options.start:g}", "--end", f"{options.end:g}", "--until-collapse")
-    steps = dict(zip(NAMES, (("--dt", f"{options.dt:g}"), ())))
+    same = {"ensemble": options.runs, "start": options.start, "end": options.end, "until_collapse": True,
+            "no_frames": True}
+    steps = dict(zip(NAMES, ({"dt": options.dt}, {})))
     cases = (selected(options.cases, sorted(path.stem for path in SCRIPTS.glob("model*.py")), "--cases")
              if options.cases else CASES)
-    return {(case, name): tasks(case, options.out / case / name, (*same, *step), options.runs, frames=False)
+    return {(case, name): tasks(case, scripted(case, *parse_run(case), out=options.out / case / name, **step, **same))
             for case in cases for name, step in steps.items()}
 
 
@@ -60,7 +63,7 @@ def collect(planned):
     done = {key: [found for task in group if (found := task.summary)] for key, group in planned.items()}
     cases = dict.fromkeys(case for case, _ in done)
     found = [entry for case in cases for entry in two_ensembles.compare(case, *(done[case, name] for name in NAMES))]
-    steps = {name: sorted({run["dt"] for (_, other), runs in done.items() for run in runs if other == name})
+    steps = {name: sorted({run.dt for (_, other), runs in done.items() for run in runs if other == name})
              for name in NAMES}
     return found, steps, sum(map(len, done.values()))
 

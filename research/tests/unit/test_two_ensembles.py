@@ -1,10 +1,13 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests between two ensembles: p values by hand and of scipy, differences that are shown."""
+import runpy
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy import stats
-from timber_research import two_ensembles
+from timber_research import SCRIPTS, two_ensembles
 from yade_timber.recording.summary import Summary
 
 
@@ -72,3 +75,14 @@ def test_few_or_equal_values_have_no_test():
     found = two_ensembles.compare("A", [summary()] * 3, [summary()] * 3)
     assert {entry.p for entry in found} == {None} and set(two_ensembles.corrected(found)) == {None}
     assert two_ensembles.compare("A", [], []) == []
+
+
+def test_the_study_plans_runs_at_both_steps(tmp_path):
+    """Each run of the study is the command of a run script with its step, its disturbance and its part of the motion."""
+    study = runpy.run_path(str(SCRIPTS.parent / "research" / "ensemble_steps.py"))
+    options = SimpleNamespace(runs=2, start=15.0, end=29.0, dt=1e-4, cases="modelC2_snow", out=tmp_path)
+    planned = study["plan"](options)
+    small, default = (planned["modelC2_snow", name][1].words() for name in study["NAMES"])
+    assert {"--dt=0.0001", "--disturb=2", "--end=29.0", "--until-collapse"} < {*small}
+    assert {*small} - {*default} == {"--dt=0.0001", f"--out={tmp_path}/modelC2_snow/small/runs/002"}
+    assert study["collect"](planned) == ([], {name: [] for name in study["NAMES"]}, 0)
