@@ -129,9 +129,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """Containers without a Python attribute: those of a scene, and the functors of a collider and an InteractionLoop.
-    Raises ImportError like check_layout.
-    """
+    """Containers without a Python attribute: of a scene, a collider, an InteractionLoop. Raises as check_layout."""
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
@@ -155,9 +153,7 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
 
 
 def import_module(package: str, directory):
-    """Import the compiled module in `directory`, or the one in FASTER if it is there and the loader finds this
-    processor fit for it.
-    """
+    """Import the compiled module in `directory`, or the one in FASTER where it is there and fits this processor."""
     if (Path(directory) / FASTER / f"{MODULE}.so").exists():
         try:
             return importlib.import_module(f".{FASTER}.{MODULE}", package)

@@ -60,9 +60,7 @@ class House:
 
     @cached_property
     def free_bays(self):
-        """Names of the braces that `variant` can add, one for each bay without a brace, a window or a door:
-        ``"main.brace1.NS.x0.1-2"``.
-        """
+        """Names of the braces that `variant` can add, one for each free bay: ``"main.brace1.NS.x0.1-2"``."""
         return free_bays(self._description)
 
     def model(self, snow=None):

@@ -89,16 +89,12 @@ class RunResult:
 
     @cached_property
     def history(self):
-        """Time histories (`History`): ``history.time`` (F,) [s], ``history.drift(1, "ns")`` (F,) [-],
-        ``history.energy("kinetic")`` (F,) [J].
-        """
+        """Time histories: ``history.time`` [s], ``history.drift(1, "ns")`` [-], ``history.energy("kinetic")`` [J]."""
         return History.read(self.folder / HISTORY)
 
     @cached_property
     def breaks(self):
-        """Each spring that broke, in order: dictionaries with the columns of ``breaks.csv`` as keys and texts as
-        values.
-        """
+        """Each spring that broke, in order: dictionaries of texts with the columns of ``breaks.csv`` as keys."""
         path = self.folder / BREAKS
         require_regular(path)
         with open(path, newline="", encoding="utf-8") as file:
@@ -106,16 +102,12 @@ class RunResult:
 
     @cached_property
     def frames(self):
-        """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20
-        times per simulated second.
-        """
+        """Recorded frames (`Frames`), 20 times per simulated second: positions, orientations, loads, breaks."""
         return frames.load(self.folder / frames.NAME)
 
     @cached_property
     def ensemble(self):
-        """Medians, ranges and shares over the runs of an ensemble (content of ``ensemble.json``); None for a run on its
-        own.
-        """
+        """Medians, ranges and shares of an ensemble (content of ``ensemble.json``); None for a run on its own."""
         return ensemble.read(self.folder) if (self.folder / ensemble.NAME).exists() else None
 
     # --- pictures -----------------------------------------------------------------------------------------------------

@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Exceptions for input that cannot be used; the message is one printable line: place, fault, admissible range, remedy.
-Needs no YADE.
-"""
+"""Exceptions for input that cannot be used."""
 
 MAX_MESSAGE = 900
 """Longest error message; the middle of a longer one is left out. [characters]"""
 
 
 class InputError(ValueError):
-    """Input that cannot be used. The message is one printable line: file:line: member: problem; admissible range;
-    remedy.
-    """
+    """Input that cannot be used. The message is one printable line: file:line, member, problem, range, remedy."""
 
     def __init__(self, message):
         super().__init__(one_line(str(message)))

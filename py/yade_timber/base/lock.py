@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""At most one process per folder of results: a lock on a file in the folder, released when the process ends, however it
-ends.
-"""
+"""At most one process per folder of results: a lock on a file in the folder, released when the process ends."""
 import fcntl
 import os
 import tempfile
@@ -29,9 +27,7 @@ def prepare_folder(folder, option):
 
 @contextmanager
 def locked(folder):
-    """True while this process alone has the folder, False when another process has it. Copies of the process (fork) do
-    not have it. Raises RunError.
-    """
+    """True while this process alone, without its copies (fork), has the folder; else False. Raises RunError."""
     try:
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
     except OSError as problem:

@@ -12,9 +12,7 @@ from .structure import ACROSS
 
 @dataclass(frozen=True)
 class Diagonal:
-    """One brace on the grid: on the line `along` x or y at node `at`, from the foot of the column at node `foot` to the
-    head of that at `head`.
-    """
+    """One brace on the grid line `along` x or y at node `at`, from a column's foot at `foot` to a head at `head`."""
 
     along: str
     at: float
@@ -29,9 +27,7 @@ class Diagonal:
 
 
 def lay_braces(structure, layer):
-    """Braces of one storey. A run [foot, head] leans from the foot of the column at node `foot` to the head of the one
-    at `head`.
-    """
+    """Braces of one storey. A run [foot, head] leans from the foot of one column to the head of another."""
     plan, elements = column_plan(structure, layer.storey), []
     for line in structure.table["braces"]["lines"]:
         _check_storeys(structure, line)

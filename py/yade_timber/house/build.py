@@ -58,9 +58,7 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
 
 
 def _require_storeys(structures):
-    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a
-    storey.
-    """
+    """HouseError for columns without a layer, and for a first structure without a storey: its drifts are reported."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
             raise HouseError(

@@ -31,9 +31,7 @@ def check_house(model):
 
 
 def overlaps(model):
-    """[(element, element, gap [m])] of all pairs whose bounding boxes touch; a negative gap is an overlap (exact,
-    convex bodies).
-    """
+    """[(element, element, gap [m])] of pairs whose bounding boxes touch; a negative gap is an overlap (exact)."""
     return [(a, b, separation(a.solid, b.solid)) for a, b in near_pairs(model.elements, TOUCH)]
 
 

@@ -64,9 +64,7 @@ def diagnose(model):
 
 
 def _least(structures, key):
-    """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without
-    any.
-    """
+    """(least value of a key, 'side, storey 1, N-S') over structures, storeys, directions; (None, None) without any."""
     values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
               for group, structure in structures.items() for storey, known in structure["storeys"].items()
               for name, side in known["directions"].items() if side[key] is not None]
@@ -107,9 +105,7 @@ def comparison(summary):
 
 
 def _circumstances(summary):
-    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from
-    the start'.
-    """
+    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; ...'."""
     parts = ["no earthquake"]
     if summary.earthquake:
         peak = max(summary.record.pga_gal[axis] for axis in DIRECTIONS) / 100
@@ -209,9 +205,7 @@ def is_balanced(low, high, eccentricity):
 
 
 def _quarters(bays, axis, plan, needed):
-    """[low, high] existing over required wall quantity of the outer quarters at either side of the walls' direction.
-    plan: (2, 2) [m]
-    """
+    """[low, high] existing over required wall quantity of the outer quarters. plan: (2, 2) [m]"""
     across = 1 - axis
     low, high = plan[:, across]
     quarter = (high - low) / 4
@@ -240,9 +234,7 @@ def _eccentricity(rigidity, mass, torsion, total):
 
 
 def _mass_centre(model, group, storey):
-    """(2,) of all that the storey carries, without snow: members of higher storeys, and of its own above the columns.
-    [m]
-    """
+    """(2,) of what the storey carries, without snow: higher storeys, and its own members above the columns. [m]"""
     carried = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"
                and (e.storey > storey or (e.storey == storey and e.kind not in ("column", "brace")))]
     total = sum(e.mass for e in carried)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two of them. Lengths in m, world
-frame.
-"""
+"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two. Lengths in m, world frame."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -28,9 +26,7 @@ def cross(a, b):
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise seen from
-    outside.
-    """
+    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise from outside."""
 
     normal: np.ndarray
     offset: float
@@ -44,9 +40,7 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """Convex polyhedron given by its vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the
-    hull.
-    """
+    """Convex polyhedron of vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the hull."""
 
     vertices: np.ndarray
 

@@ -40,9 +40,7 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order; HouseError for more than
-    MAX_PAIRS.
-    """
+    """Pairs of elements with bounding boxes within `margin` [m], in order; HouseError for more than MAX_PAIRS."""
     bounds = np.array([e.solid.bounds for e in elements])
     low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []

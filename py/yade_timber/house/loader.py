@@ -80,9 +80,7 @@ def _extended(path, table):
 
 
 def require_house_file(path, where):
-    """Refuse a file that another file names and that is no house file by its name: messages about its content would
-    quote it.
-    """
+    """Refuse a file that is no house file by its name: messages about its content would quote it."""
     if path.resolve().suffix not in SUFFIXES:
         raise HouseError(
             f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}"
@@ -100,9 +98,7 @@ def shipped_paths(name):
 
 
 def merge(base, change):
-    """`change` laid over `base`: tables entry by entry, null removes an entry if there is one, everything else is
-    replaced as a whole.
-    """
+    """`change` over `base`: tables entry by entry, null removes an entry, all else is replaced as a whole."""
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
         if value is None:

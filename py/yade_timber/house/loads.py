@@ -14,9 +14,7 @@ from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
 
 
 def apply_loads(elements, structures, loads):
-    """Set the masses of loaded elements. loads: those of the house file, which a structure's own ones override key by
-    key.
-    """
+    """Set the masses of loaded elements. loads: of the house file; a structure's own ones override them key by key."""
     for structure in structures.values():
         own = structure.table["loads"]
         mine = {key: loads[key] if own[key] is None else own[key] for key in loads}

@@ -28,9 +28,7 @@ OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Plan and slope of a pitched roof: corners (2,) of the outline, eave level z [m], horizontal run from eave to
-    ridge [m], rise over run.
-    """
+    """Pitched roof: corners (2,) of the outline, eave level z, run from eave to ridge [m], rise over run."""
 
     low: np.ndarray
     high: np.ndarray
@@ -44,9 +42,7 @@ class Plan:
         return d, max(d @ self.low, d @ self.high)
 
     def bottom(self, side, rise, drop):
-        """Plane of the slab's underside: it rises by `rise` [-] and lies `drop` [m] below the parallel plane through
-        the eave.
-        """
+        """Plane of the slab's underside: rises by `rise` [-], lies `drop` [m] below the parallel plane at the eave."""
         d, e = self.distance(side)
         return (*(-rise * d), -1.0), -(self.eave + rise * e - drop)
 
@@ -61,9 +57,7 @@ class Plan:
         return (*(self.slope * d), 1.0), self.eave + self.slope * e
 
     def nearer(self, side, other):
-        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: a hip
-        or the ridge.
-        """
+        """Vertical plane between the points nearer to the eave of `side` and to that of `other`: a hip or the ridge."""
         (d, e), (d2, e2) = self.distance(side), self.distance(other)
         return (*(d2 - d), 0.0), e2 - e
 
@@ -256,9 +250,7 @@ def lay_snow(structure, layer, depth, material):
 
 
 def carry_roofs(structure, elements, joints):
-    """Change and append joints, so that the walls bear the weight of the structure's roofs and no thrust: tie beams and
-    posts.
-    """
+    """Change and append joints, so that the walls bear the roofs' weight and no thrust: tie beams and posts."""
     for layer in structure.layers:
         if layer.kind == "roof" and layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
@@ -289,9 +281,7 @@ def _row(joint, length):
 
 
 def _posts(structure, layer, elements, joints):
-    """JointSpecs of a mono-pitch roof's slab with the plates of its high wall; each post has the stiffness and strength
-    of one fitting of its eave.
-    """
+    """JointSpecs of a mono-pitch slab with its high plates; a post is like one fitting of its eave."""
     side = layer.table["falls"]
     name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
     plates = {e.name: e for e in elements

@@ -146,9 +146,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items, `most` limits
-    it.
-    """
+    """A list of `item`; `scalar` allows one item without brackets; `length` fixes their number, `most` limits it."""
 
     item: object
     length: int = 0

@@ -119,9 +119,7 @@ class Structure:
         return self.element(kind, name, box(low, high), table, where, **more)
 
     def cut(self, name, planes, where):
-        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of the member `name`; HouseError where nothing is
-        left.
-        """
+        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of a member; HouseError where nothing is left."""
         try:
             return halfspace_vertices(planes)
         except ValueError as problem:

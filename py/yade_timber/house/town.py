@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Town files: houses at places under one ground motion, which reaches them as a wave. Needs no YADE."""
+"""Town files: houses at places under one ground motion, which reaches them as a wave."""
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -77,9 +77,7 @@ def plan(model):
 
 @dataclass(frozen=True)
 class Town:
-    """Lots in the order of the file. velocity: apparent velocity of the wave [m/s], infinite without a wave; direction:
-    azimuth towards which it travels, clockwise from north [degrees].
-    """
+    """Lots in the order of the file. velocity of the wave [m/s], infinite without one; direction: azimuth [degrees]."""
 
     name: str
     path: Path
@@ -95,9 +93,7 @@ class Town:
 
 
 def load_town(path):
-    """Town of a YAML file. House files are looked for beside it, then as for `load_house`. Raises HouseError (one line,
-    file:line).
-    """
+    """Town of a YAML file; house files are looked for beside it, too. Raises HouseError (one line, file:line)."""
     path = Path(path)
     if not is_file(path):
         raise HouseError(f"{path}: no such regular file; give a town file")

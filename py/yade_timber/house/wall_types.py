@@ -13,9 +13,7 @@ from .nails import nailed_wall
 from .schema import fail
 
 ALLOWABLE = 1960.0
-"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article
-46)
-"""
+"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
 
 RATED_DRIFT = 1 / 120
 """Drift at which walls with pinned feet are rated. [rad]"""
@@ -51,9 +49,7 @@ FORMS = ("multiplier", "envelope", "nails")
 
 
 def check_wall_types(types):
-    """HouseError for a type with none or several descriptions of its shear, and for points or drifts that do not
-    ascend.
-    """
+    """HouseError for none or several descriptions of a type's shear, and for points or drifts that do not ascend."""
     for name, table in types.items():
         path = f"wall_types.{name}"
         forms = [key for key in FORMS if table[key] is not None]
@@ -160,9 +156,7 @@ def _is_rated(table):
 
 
 def envelope(table, level):
-    """[(drift, shear)] of a wall type from its first point to zero shear. level: key of LEVELS, for types of a rated
-    multiplier.
-    """
+    """[(drift, shear)] of a wall type from its first point to zero shear. level: of LEVELS, for rated types"""
     if table["envelope"] is not None:
         return _tested(table)
     if table["nails"] is not None:
@@ -199,9 +193,7 @@ def _rated(table, level):
 
 
 def _concave(rising, peak):
-    """The points up to the peak without those below a line between two others: a wall that reaches its largest shear
-    early is stiffer.
-    """
+    """The points up to the peak without those below a line between two others: early strength makes it stiffer."""
     kept = [(0.0, 0.0)]
     for drift, shear in [*(point for point in rising if point[1] == peak[1] or point[0] < peak[0]), peak]:
         while len(kept) > 1 and _slope(kept[-2], kept[-1]) <= _slope(kept[-1], (drift, shear)):
@@ -215,9 +207,7 @@ def _slope(a, b):
 
 
 def _tested(table):
-    """Points of a test; beyond the last one the line from the largest shear through it, unless `ultimate_drift` says
-    otherwise.
-    """
+    """Points of a test; beyond them the line from the largest shear, unless `ultimate_drift` says otherwise."""
     points = _points(table)
     (drift, shear), peak = points[-1], max(points, key=lambda point: point[1])
     if shear == 0:

@@ -74,9 +74,7 @@ class Bay:
 
 
 def sheathe(structure, elements, data, level):
-    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file; level: of walls of
-    a rated multiplier.
-    """
+    """JointSpecs of a structure's walls. elements: of the house; data: of the house file; level: of rated walls."""
     members = [element for element in elements if element.group in (structure.name, "")]
     joints, seen = [], {}
     for line in structure.table["walls"]:
@@ -138,9 +136,7 @@ def _bay(structure, line, place, by_name):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in
-    '.plywood.window.beams'.
-    """
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams'."""
     label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
     along = bay.high.solid.centroid - bay.low.solid.centroid
     along[2] = 0.0

@@ -53,9 +53,7 @@ def _share(element, storey):
 
 
 def sentence(weights):
-    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first
-    structure's storeys.
-    """
+    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', of the first structure."""
     per_area = ("" if weights["per_floor_area_kn_m2"] is None
                 else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor")
     storeys = next(iter(weights["storeys"].values()), {})

@@ -17,9 +17,7 @@ from .record import GAL, STANDARD_GRAVITY, RecordWarning
 LARGEST_SHARE = 0.02
 """Largest mean of a component that needs no warning, as a share of its peak. [-]"""
 VISIBLE = 1e-3
-"""Smaller means are left alone, as a share of the largest acceleration of all components: noise of a component without
-motion. [-]
-"""
+"""Smaller means, as a share of the largest acceleration of all components, are noise. [-]"""
 ROUNDING = 1e-9
 """What is left of a constant part that was removed. [m/s2]"""
 REMEDY = "--detrend 0 removes it"

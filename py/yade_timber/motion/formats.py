@@ -187,9 +187,7 @@ def _jma(path, lines, units):
 
 
 def _jma_header(path, lines):
-    """({key: (value, file:line: key)}, [column names], index of the first row); a value is all that follows the key in
-    its line.
-    """
+    """({key: (value, file:line: key)}, [column names], index of the first row); a value is the rest of its line."""
     keys = {}
     for index, line in enumerate(lines[:JMA_HEADER_LINES]):
         names = [column_name(cell)[0] for cell in line.split(",") if cell.strip()]

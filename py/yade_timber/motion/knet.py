@@ -159,9 +159,7 @@ def _labelled(path, header):
 
 
 def _surface_columns(columns):
-    """{'ns', 'ew', 'ud': number of the column}: of two of one direction that of the surface, the second where the names
-    do not say.
-    """
+    """{'ns', 'ew', 'ud': number of the column}, of the surface sensor where there are two: marked so, or second."""
     chosen = {}
     for k, column in enumerate(columns):
         match = _COLUMN.match(column)

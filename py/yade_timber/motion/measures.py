@@ -263,9 +263,7 @@ def _subdivided(columns, parts):
 
 
 def arias(motion):
-    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud'} and their sum 'total'.
-    [m/s]
-    """
+    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud', 'total': sum}. [m/s]"""
     each = np.pi / (2.0 * STANDARD_GRAVITY) * _energy(motion)[-1]
     return {"ew": float(each[0]), "ns": float(each[1]), "ud": float(each[2]), "total": float(each.sum())}
 
@@ -281,9 +279,7 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 
 def onset(motion, share=0.05):
-    """Onset of strong shaking: time at which the Arias intensity reaches `share` of its final value. [s]; None without
-    shaking.
-    """
+    """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

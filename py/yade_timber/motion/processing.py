@@ -23,9 +23,7 @@ LARGEST_RATIO = 100_000
 
 
 def turned(motion, angle):
-    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90, north shakes along
-    +x.
-    """
+    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90 along +x."""
     if not np.isfinite(angle):
         raise RecordError(f"{motion.name}: angle {angle}; it must be a finite number of degrees")
     if angle == 0.0:
@@ -165,9 +163,7 @@ def shaking_window(motion, threshold=0.5):
 
 
 def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
-    """The motion with other samples. change: for its source; dt: their step [s]; factor: on the accelerations [-];
-    start: of the part that is kept [s]
-    """
+    """The motion with other samples. change: for its source; dt [s]; factor [-]; start: of the kept part [s]"""
     dt = motion.dt if dt is None else dt
     source = f"{motion.source}; {change}".lstrip("; ")
     return replace(motion, dt=dt, acceleration=acceleration, source=source,

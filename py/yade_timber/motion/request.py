@@ -81,9 +81,7 @@ class MotionRequest:
             raise self.error(f"{name('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
     def motion(self, dt, given=None):
-        """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`; given: GroundMotion in place of
-        a record. Raises RecordError.
-        """
+        """The GroundMotion before `scale`. dt [s]: for `resample`; given: in place of a record. Raises RecordError."""
         first = self._processed(self._source() if given is None else turned(given, self.azimuth or 0.0), dt)
         if self.then is None:
             return first

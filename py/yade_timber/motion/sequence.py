@@ -20,9 +20,7 @@ DENOMINATOR = 100_000
 
 @dataclass(frozen=True)
 class Part:
-    """One motion of a sequence. source: file or generator; start and duration [s]; scale: its own factor [-]; pga_gal:
-    {'ns', 'ew', 'ud'} after it.
-    """
+    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it."""
 
     source: str
     start: float
@@ -72,9 +70,7 @@ def common_step(steps, where):
 
 
 def refined(motion, factor):
-    """(n, 3) accelerations of a motion [m/s2] on a step `factor` times smaller, straight lines between the samples;
-    ends in the last sample.
-    """
+    """(n, 3) accelerations [m/s2] on a step `factor` times smaller, linear between the samples, to the last one."""
     if factor == 1:
         return motion.acceleration
     times = np.arange((len(motion) - 1) * factor + 1) / factor
@@ -93,9 +89,7 @@ def with_factor(entry):
 
 
 def following(text, name):
-    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for
-    messages.
-    """
+    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records with their own factors. name: of the option"""
     found = []
     for entry in text.split(";"):
         record, value = with_factor(entry)

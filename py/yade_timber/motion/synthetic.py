@@ -31,9 +31,7 @@ GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
 DEFAULT_SEED = 3
-"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds
-differ, see research/claims.
-"""
+"""Of the shipped motion, under which an unbraced house falls N-S, as in the paper; others: research/claims."""
 
 DT = 0.01
 """Time step. [s]"""
@@ -91,9 +89,7 @@ def achieved(motion):
 
 
 def _pgv_h(motion):
-    """Peak of the horizontal velocity [cm/s], from rest at the first sample: version 1 of the generator. `measures.pgv`
-    differs by 0.1 %.
-    """
+    """Peak horizontal velocity [cm/s] from rest: of generator version 1; `measures.pgv` differs by 0.1 %."""
     acceleration = zero_phase_highpass(motion.acceleration, DT, VELOCITY_CORNER, 2)
     return peak(scipy.integrate.cumulative_trapezoid(acceleration, dx=DT, axis=0, initial=0.0), "h") / CM
 

@@ -57,9 +57,7 @@ class Channel:
 
 
 def read_lines(path):
-    """Lines of a text file, UTF-8 or CP932. Raises RecordError for another file, one that is too large or has too long
-    a line.
-    """
+    """Lines of a text file, UTF-8 or CP932. Raises RecordError for another, too large file or too long a line."""
     try:
         raw = read_bytes(path, MAX_FILE_SIZE)
     except OSError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All pictures of a run and its player, from the files in its folder. Needs no YADE."""
+"""All pictures of a run and its player, from the files in its folder."""
 from functools import partial
 
 from ..recording import ensemble, frames
@@ -30,9 +30,7 @@ def write(folder, results=None, pdf=False):
 
 
 def _sheets(folder, recorded, path, endings):
-    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of
-    paths. path: of the frames
-    """
+    """Draw by OpenGL and write the player, in a copy of the process if possible; yields paths. path: of the frames"""
     from . import player, sheets, views
 
     for view in views.VIEWS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page about an ensemble: storey drifts over time as bands, with the run that is shown as a line. Needs no YADE."""
+"""One page about an ensemble: storey drifts over time as bands, with the run that is shown as a line."""
 import numpy as np
 
 from ..base import colors
@@ -19,9 +19,7 @@ LEGEND_HEIGHT = 0.42
 
 
 def write(stem, frames, folder, endings):
-    """Write `stem` of the ensemble with each ending in a folder; returns the paths. frames: of the run that is shown.
-    Raises OSError, RunError.
-    """
+    """Write `stem` with each ending; returns the paths. frames: of the run that is shown. Raises OSError, RunError."""
     return save(page(frames, ensemble.histories(folder), DPI), stem, endings)
 
 

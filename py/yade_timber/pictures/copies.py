@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Copies of this process (fork), which draw while it does something else. What it has loaded, they have: frames need
-not be sent. Needs no YADE.
-"""
+"""Copies of this process (fork), which draw at the same time; what it has loaded need not be sent."""
 import ctypes
 import gc
 import multiprocessing
@@ -20,9 +18,7 @@ WAITING = "IPythonHistorySavingThread"
 
 
 def possible():
-    """Whether copies are of use and safe: there is more than one processor, no other thread at work (a live session has
-    some), and no OpenGL.
-    """
+    """Whether copies are of use and safe: several processors, no other thread at work, no OpenGL."""
     from . import renderer  # here: a run without pictures needs none
 
     at_work = [thread for thread in threading.enumerate() if thread.name != WAITING]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance. Needs no YADE."""
+"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance."""
 from itertools import cycle
 
 import numpy as np
@@ -99,9 +99,7 @@ def draw_drifts(axis, history, direction, name):
 
 
 def draw_levels(axis, levels, reach):
-    """Dotted lines at drift levels [(drift, text)] and their labels, moved apart where they would overlap. reach: upper
-    end of the axis [-]
-    """
+    """Dotted lines at drift levels [(drift, text)], their labels moved apart. reach: upper end of the axis [-]"""
     points = axis.get_position().height * axis.figure.get_size_inches()[1] * 72 / (2 * reach)  # [pt] per drift
     lowest = -np.inf
     for level, text in levels:

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey. Needs no
-YADE.
-"""
+"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey."""
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
@@ -158,9 +156,7 @@ def draw_plan(ax, model):
 
 
 def number_nodes(ax, grid, main):
-    """Numbers of a structure's grid nodes along the two sides that do not face the main structure. grid, main: {'x',
-    'y'}: positions [m].
-    """
+    """Numbers of grid nodes along the sides away from the main structure. grid, main: {'x', 'y'}: positions [m]"""
     before = {axis: grid[axis].mean() <= main[axis].mean() + 1e-9 for axis in "xy"}
     gap = NODE_GAP if grid is main else 1.6 * NODE_GAP  # numbers of neighbouring structures in two rows
     edge = {axis: grid[axis][0] - gap if before[axis] else grid[axis][-1] + gap for axis in "xy"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
+"""Figures without pyplot: page, text from data, heading, PNG and PDF files."""
 import re
 from textwrap import fill
 from unicodedata import east_asian_width

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow. Needs no YADE.
+"""Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow.
 
 Positions are interpolated between recorded frames, the ground moves as recorded, the camera stands still.
 The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the
@@ -105,9 +105,7 @@ def default_name():
 
 
 class Pictures:
-    """Draws the runs side by side with one camera, a caption on each, and the strip below: one for both runs of the
-    same origin.
-    """
+    """Draws the runs side by side with one camera, a caption on each, and one strip below for a common origin."""
 
     def __init__(self, runs, view, form):
         self.picture = Image.new("RGB", (form.width, form.height))
@@ -196,9 +194,7 @@ class Reel(Image.Image):
         self.seek(0)
 
     def seek(self, frame):
-        """Take the next image. Pillow asks for each of them once, in their order, and for the first one again at the
-        end.
-        """
+        """Take the next image. Pillow asks for each once, in order, and for the first one again at the end."""
         if frame > self.number:
             image = next(self.images)
             self.__dict__.update(

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed. Needs no
-YADE.
-"""
+"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed."""
 import sys
 from contextlib import contextmanager
 from functools import cache

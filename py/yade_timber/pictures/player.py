@@ -145,9 +145,7 @@ def uplift(largest, element):
 
 
 def feet(run):
-    """Numbers of the joints at the feet of columns: their first element is a column, whose centroid is above them at
-    the start.
-    """
+    """Numbers of the joints at the feet of columns: the first element is a column, with its centroid above."""
     e, j = run.elements, run.joints
     below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
     return [k for k, kind in enumerate(j.kind)
@@ -155,9 +153,7 @@ def feet(run):
 
 
 def breaks(run):
-    """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number
-    of all.
-    """
+    """[{joint, time [s], cause, force [N], springs}] of each broken joint: the first break, and the number of all."""
     firsts, table = {}, run.breaks or {"joint": []}
     for number, joint in enumerate(map(int, table["joint"])):
         if 0 <= joint < len(run.joints.name):
@@ -168,9 +164,7 @@ def breaks(run):
 
 
 def main_event(run):
-    """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest
-    drift; else None.
-    """
+    """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
     known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
     falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
              if event.kind == kind]

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of engineering quantities of a run, from the files in its folder: storey shears, accelerations, modes,
-joints, uplift, energy.
-"""
+"""One page of engineering quantities of a run: storey shears, accelerations, modes, joints, uplift, energy."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -146,9 +144,7 @@ def draw_joints(axis, results):
 
 
 def draw_uplift(axis, results):
-    """Plan of the columns of the first storey with the largest uplift of their feet [mm]; grey: fallen or loose at the
-    end.
-    """
+    """Plan of the first storey's columns with the largest uplift of their feet [mm]; grey: lost at the end."""
     rows = [row for row in results.columns if row["storey"] == "1"]
     places = np.array([[float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]")] for row in rows]).reshape(
         -1, 3

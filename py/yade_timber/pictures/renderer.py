@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of convex bodies by OpenGL without a window. Needs no YADE.
+"""Pictures of convex bodies by OpenGL without a window.
 
 moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs
 no display.
@@ -111,9 +111,7 @@ class Topology:
 
 
 class Bodies:
-    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies; surface: program of their faces, SOLID, or PLAIN
-    without shadows
-    """
+    """Bodies on the graphics card. colors: (N, 3) RGB; surface: program of the faces, SOLID, or PLAIN (no shadows)"""
 
     def __init__(self, topology, colors, surface="SOLID"):
         self.topology = topology

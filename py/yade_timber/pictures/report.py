@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed. Needs no
-YADE.
-"""
+"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
 import base64
 import html
 import io
@@ -278,9 +276,7 @@ def others(frames, results):
 
 
 def joint_name(name):
-    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first.
-    A wall's joint has one name.
-    """
+    """'main.column1.x0y0 | beam1.EW.y0': without the second structure if it is the first. Walls have one name."""
     first, _, second = name.partition("|")
     if not second:
         return text(first)

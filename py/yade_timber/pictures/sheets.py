@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views. Needs no
-YADE.
-"""
+"""Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
 
 from ..text.english import sentence
@@ -17,9 +15,7 @@ from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend,
 
 @dataclass(frozen=True)
 class Format:
-    """Of a sheet: largest width and height [inch], resolution of the shaded parts [1/inch], number of panels. Text and
-    lines in PDF files are vectors.
-    """
+    """Of a sheet: largest width and height [inch], resolution of shaded parts [1/inch], number of panels."""
 
     width: float
     height: float
@@ -47,9 +43,7 @@ END_WIDTH, END_AXES = 12.5, FOOT + 0.25
 
 @dataclass(frozen=True)
 class Layout:
-    """Panels in rows on a sheet cropped to them. panel: (width, height) of each; head: height of the heading. [inch]
-    density: pixels per metre
-    """
+    """Panels in rows on a sheet. panel: (width, height); head: of the heading [inch]; density: pixels per metre"""
 
     count: int
     columns: int
@@ -73,9 +67,7 @@ class Layout:
 
 
 def layout(form, count, box, result):
-    """The Layout that draws `count` panels of a box [m] largest, with as few places empty as that allows. result:
-    subtitle of the sheet
-    """
+    """The Layout that draws `count` panels of a box [m] largest, with few places empty. result: subtitle"""
     width, height = box[1] - box[0], box[3] - box[2]
     found = []
     for columns in range(1, min(3, count) + 1):

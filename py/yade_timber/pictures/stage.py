@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints: the pictures of a film.
-Needs no YADE.
-"""
+"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints, for films."""
 import numpy as np
 
 from ..base import colors
@@ -90,16 +88,12 @@ class Stage:
         self.depth.use(0)
 
     def _shadow_bounds(self, vertices):
-        """(4,) west, south, east and north end of the shadows on the ground [m]: they fill a small part of the picture.
-        vertices: (V, 3) of all bodies
-        """
+        """(4,) west, south, east and north end of the shadows on the ground [m]. vertices: (V, 3) of all bodies"""
         places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])
         return np.concatenate([places.min(0), places.max(0)])
 
     def _prepare(self, moved, shadows):
-        """Set the shaders for a displacement of the ground (3,) [m], to which all positions are relative. shadows: from
-        `_shadow_bounds`
-        """
+        """Set the shaders for a displacement of the ground (3,) [m]. shadows: from `_shadow_bounds`"""
         view, shift = self.camera, np.eye(4)
         shift[:3, 3] = moved
         ahead = view.target - view.eye
@@ -141,9 +135,7 @@ class Stage:
 
 
 def nearest_first(frames, eye):
-    """Numbers of the elements shown, those nearest to an eye (3,) [m] at the start first: hidden faces drawn later cost
-    no shading.
-    """
+    """Numbers of the elements shown, nearest to an eye (3,) [m] first: hidden faces cost no shading."""
     distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
     return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m. Needs no YADE.
+"""Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m.
 
 The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for
 each run: runs/001, runs/002, ...

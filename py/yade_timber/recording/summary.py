@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md. Needs
-no YADE.
-"""
+"""Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md."""
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -69,9 +67,7 @@ Values = table(
 TownSummary = table("TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool,
                     collapse_time_s=float | None, tilt_time_s=float | None, dt=float, record=Record | None,
                     versions=Versions, events=list[Event], ensemble=optional(Ensemble))
-"""Of a town, for sentences and pictures. Times are those of the first house that tilts or collapses; events have their
-lots.
-"""
+"""Of a town, for sentences and pictures. Times: of the first house that tilts or collapses; events have lots."""
 
 
 class Summary(Values):
@@ -99,9 +95,7 @@ class Summary(Values):
 
     @classmethod
     def sample(cls, **changes):
-        """For tests: House A, of which nothing is known but the changes. Verdicts follow from them, the main structure
-        is that of the totals.
-        """
+        """For tests: House A with these changes. Verdicts follow from them, the main structure from the totals."""
         found = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
             **{"model": "A", **changes, "structures": {}}
         )
@@ -124,9 +118,7 @@ class Summary(Values):
         return list(self.structures.items())[1:]
 
     def largest_drift(self, key="peak_drift"):
-        """(drift, storey, 'ns' | 'ew') of the largest drift; zero where none is known. key: 'peak_drift',
-        'residual_drift' or 'final_amplitude'
-        """
+        """(drift, storey, 'ns' | 'ew') of the largest drift, zero without any. key: an entry with Drifts"""
         drifts = ((value, storey, direction) for storey, pair in getattr(self, key).items()
                   for direction, value in pair.items() if value is not None)
         return max(drifts, default=(0.0, "storey1", "ns"))

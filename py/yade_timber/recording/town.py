@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames of the lots of a town -> frames of the town, for its pictures and its player. Needs no YADE."""
+"""Recorded frames of the lots of a town -> frames of the town, for its pictures and its player."""
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +9,7 @@ from .history import History
 from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
-"""Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has
-some 30 MB.
-"""
+"""Elements times frames of a town, above which frames are left out. [-] A player of that size has 30 MB."""
 
 SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""

@@ -42,9 +42,7 @@ def save(path, identity, progress):
 
 
 def load(path, identity):
-    """Load the saved scene into YADE; returns `progress` as saved. Raises RunError when the file is damaged or has
-    another identity.
-    """
+    """Load the saved scene; returns `progress` as saved. Raises RunError for damage or another identity."""
     path = Path(path)
     require_regular(path)
     _require_own(path)

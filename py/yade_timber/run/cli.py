@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script's name. Needs
-no YADE.
-"""
+"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script."""
 import argparse
 import re
 from pathlib import Path
@@ -56,9 +54,7 @@ def parser(script, file=None, loads=""):
 
 
 def read(house, earthquake, snow, argv):
-    """RunOptions of a script that gives house and loads. argv: command line (as sys.argv). Raises RunError,
-    RecordError.
-    """
+    """RunOptions of a script that gives house and loads. argv: as sys.argv. Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     loads = f"House {house}: {'earthquake' if earthquake else 'no earthquake'}, {'snow' if snow else 'no snow'}. "
     return _checked(scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)))

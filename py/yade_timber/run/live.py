@@ -43,9 +43,7 @@ class LiveRun(Run):
         threading.Thread(target=self._watch, daemon=True).start()
 
     def _record_frames(self):
-        """Append an engine that calls `record_frame` in the step that leads to each frame, behind RestSkipper, whose
-        step may lead to one.
-        """
+        """Append an engine that calls `record_frame` in the step to each frame, behind RestSkipper."""
         global live
         live = self
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame

@@ -122,9 +122,7 @@ def joint_loads():
 
 
 def largest_so_far():
-    """[(load [-], pull [N], shear [N], opening [m])] of the joints: the largest values so far, none before the first
-    sample.
-    """
+    """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
     monitor = find_engine(yw.StructureMonitor)
     return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
 
@@ -162,17 +160,13 @@ class Observer:
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def fall(self):
-        """Time at which the fall of a house that has collapsed begins: a storey drift passes 1/10, or a floor is down
-        [s]; None for one that stands.
-        """
+        """Start of a collapsed house's fall: a storey drift passes 1/10, or a floor is down [s]; None if it stands."""
         monitor = find_engine(yw.HouseMonitor)
         return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
                 else None)
 
     def joint_peaks(self):
-        """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those
-        before the fall began.
-        """
+        """[(load, pull, shear, opening)] of the joints: largest values so far, or before the fall if there is one."""
         return largest_so_far() if self.fall() is None else self.upright[1]
 
     def state(self):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All options of a run. Command line, `yt.run`, tables of batches, towns and the identity of a run follow from these
-fields. Needs no YADE.
-"""
+"""All options of a run: command line, `yt.run`, batches, towns and the identity of a run follow from them."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable
@@ -31,9 +29,7 @@ ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repea
 
 @dataclass(frozen=True)
 class Door:
-    """Where options come from. name: function that names an option in messages; earthquake: remedy for options of an
-    earthquake without one
-    """
+    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake"""
 
     name: Callable = command_option
     earthquake: str = "add --quake or --record FILE"
@@ -154,8 +150,6 @@ class RunOptions(MotionRequest):
 
 
 def scripted(name, house, earthquake=False, snow=False, **more):
-    """Options of a run script that gives house and loads. name: of the script; earthquake, snow: whether there are;
-    more: further options
-    """
+    """Options of a run script. name: of the script; earthquake, snow: whether there are; more: further options"""
     return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, door=SCRIPT,
                       **more)

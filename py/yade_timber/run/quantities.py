@@ -123,9 +123,7 @@ def column_feet(observed):
 
 @dataclass(frozen=True)
 class Tables:
-    """Content of the files. storeys: recording.quantities.Storeys; joints, columns: rows in the order of JOINT_HEADER
-    and COLUMN_HEADER.
-    """
+    """Content of the files. storeys: Storeys; joints, columns: rows as JOINT_HEADER and COLUMN_HEADER"""
 
     storeys: quantities.Storeys
     joints: list

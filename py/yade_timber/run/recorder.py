@@ -45,9 +45,7 @@ class Recorder:
         self.times = self.times[:np.searchsorted(self.times, time + O.dt / 2)]
 
     def resume(self):
-        """Take over the recorded frames up to the present time. Raises RunError when they are missing, of another run,
-        or end earlier; OSError.
-        """
+        """Take over the frames up to the present time. Raises RunError when there are none of this run; OSError."""
         earlier = frames.load(self.path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
         if earlier.run != self.frames.run or earlier.position.shape[1:] != (len(self.frames.elements.name), 3):
             raise RunError(f"{self.path}: frames of another run than the checkpoint; {REMEDY}")

@@ -42,9 +42,7 @@ class PhysicsError(RunError):
 
 
 class Run:
-    """A scenario in YADE, its RunOptions, and its progress. The number of steps is duration / dt; a collapse may end
-    the run earlier.
-    """
+    """A scenario in YADE, its RunOptions, its progress: duration / dt steps, fewer after a collapse."""
 
     def __init__(self, scenario, options):
         self.scenario, self.options = scenario, options
@@ -81,9 +79,7 @@ class Run:
             self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
-        """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not,
-        unless the run may start anew.
-        """
+        """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
         try:
             self._load()
         except RunError:
@@ -153,9 +149,7 @@ class Run:
 
     @contextmanager
     def _stop_signals(self):
-        """Stop signals end the run after the present chunk; further ones have no effect, so that Ctrl-C may be pressed
-        twice.
-        """
+        """Stop signals end the run after the present chunk; further ones have no effect."""
         before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
         try:
             yield
@@ -232,9 +226,7 @@ class Run:
         return O.iter // every > self.last_saved // every
 
     def save(self):
-        """Save a checkpoint now, unless checkpoints are switched off. The frames are saved first: frames after a
-        checkpoint can be dropped.
-        """
+        """Save a checkpoint, unless switched off. Frames are saved first: those after a checkpoint can be dropped."""
         if self.options.checkpoint > 0:
             try:
                 if self.recorder:
@@ -299,9 +291,7 @@ class Run:
 
 
 def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run in its folder; returns their paths. Raises
-    RunError, OSError.
-    """
+    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
     written = all_pictures.write(folder) if views else []
     if page:
         from ..pictures import report  # here: matplotlib takes 0.3 s
@@ -311,9 +301,7 @@ def draw(folder, views, page):
 
 
 def clear(options, *more):
-    """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises
-    RunError.
-    """
+    """Remove results of an earlier run and the files `more`, which are none of this run. Raises RunError."""
     try:
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
             remove(options.folder / name)

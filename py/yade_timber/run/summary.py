@@ -73,9 +73,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
 
 
 def judged(draft):
-    """The Summary with verdict and sentences. The main structure has the drifts and the collapse of the HouseMonitor's
-    samples, others those of the frames.
-    """
+    """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
     main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
@@ -148,9 +146,7 @@ def solver():
 
 
 def created_too_much(energy):
-    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy:
-    Energy
-    """
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without."""
     if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
         return None
     share = energy.created / energy.input if energy.input > 0 else math.inf

@@ -32,9 +32,7 @@ O = yw.Omega()
 
 
 class TownRun:
-    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, RunOptions), one a lot;
-    options: of the town
-    """
+    """Runs of a town's lots in step, frame by frame. plans: (Scenario, RunOptions) of each lot; options: the town's"""
 
     def __init__(self, town, plans, options):
         self.town, self.options = town, options
@@ -89,9 +87,7 @@ class TownRun:
         self.signal = number
 
     def _first_steps(self):
-        """The first step of each lot, in which its engines check the scene; returns the numbers of the lots that have
-        more.
-        """
+        """The first step of each lot, which checks the scene; returns the numbers of the lots that have more."""
         active = []
         for number in range(len(self.runs)):
             with self._of(number) as run:

@@ -8,9 +8,7 @@ from .progress import BAR, LOG_REFRESH, TERMINAL_REFRESH
 
 
 class TownProgress:
-    """Bar of the mean simulated time of all lots, a context. ends: times at which the lots end [s]; quiet: print
-    nothing
-    """
+    """Bar of the mean simulated time of all lots, a context. ends: of the lots [s]; quiet: print nothing"""
 
     def __init__(self, name, ends, quiet):
         self.count = len(ends)

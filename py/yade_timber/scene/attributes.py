@@ -87,9 +87,7 @@ def _require_finite(cls, attributes):
 
 
 def _is_finite(value):
-    """Whether no number of a value, such as a vector or a list of them, is infinite or NaN, nor becomes so when YADE
-    normalises a quaternion.
-    """
+    """Whether no number of a value is infinite or NaN, nor becomes so when YADE normalises a quaternion."""
     if isinstance(value, Quaternion):
         return 0 < value.norm() < math.inf
     if isinstance(value, (float, np.floating)):

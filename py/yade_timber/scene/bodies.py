@@ -68,9 +68,7 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
 
 
 def to_digits(corners):
-    """Corners to 13 digits of their extent: equal elements at different positions of a street get equal numbers and
-    share their geometry. [m]
-    """
+    """Corners to 13 digits of their extent [m]: equal elements at different positions share their geometry."""
     digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
     return np.round(corners / digit) * digit + 0.0  # no negative zeros
 

@@ -126,9 +126,7 @@ def external_forces(gravity, ground_motion, joints):
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):
-    """GroundMotionEngine for a `yade_timber.motion.GroundMotion`; scale [-], start: simulated time of its first sample
-    [s].
-    """
+    """GroundMotionEngine of a `GroundMotion`; scale [-], start: simulated time of its first sample [s]."""
     if not (hasattr(motion, "dt") and hasattr(motion, "acceleration")):
         arguments.refuse(TypeError, "ground_motion", motion, "a GroundMotion, a GroundMotionEngine or None")
     acceleration = [Vector3(*a) for a in motion.acceleration]

@@ -139,9 +139,7 @@ STANDING = ("column", "brace", "wall")
 
 
 def structure_monitor(model, ids):
-    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k
-    (recording/quantities.py).
-    """
+    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k."""
     main, storeys = next(iter(model.storey_levels.items()))
     members = [e for e in model.elements if e.group == main and not e.fixed]
     top = max(storeys)

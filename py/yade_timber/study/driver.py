@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Starts run scripts, each in a YADE process of its own, several at a time. Needs no YADE itself.
+"""Starts run scripts, each in a YADE process of its own, several at a time.
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
 the other tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its

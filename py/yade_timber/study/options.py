@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command lines of studies and benchmarks: one line and exit status 1 for bad input. Needs no YADE."""
+"""Command lines of studies and benchmarks: one line and exit status 1 for bad input."""
 import argparse
 import math
 import sys
@@ -127,9 +127,7 @@ def run_options(arguments):
 
 
 def run_of(script, house, earthquake, snow, given):
-    """RunOptions of a run script with options of `run_options`; runs without an earthquake get none of the motion.
-    house, earthquake, snow: of the script
-    """
+    """RunOptions of a run script with options of `run_options`; those of the motion only with an earthquake."""
     motion = () if earthquake else options(MotionRequest)
     return scripted(script, house, earthquake, snow,
                     **{name: value for name, value in given.items() if name not in motion})

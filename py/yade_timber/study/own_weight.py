@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no
-YADE itself.
-"""
+"""Whether a house bears its own weight and snow: a short run without a motion, in its own YADE process."""
 import subprocess
 import tempfile
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The result of a run in up to ten lines, for the report. Needs no YADE."""
+"""The result of a run in up to ten lines, for the report."""
 from ..base.gravity import weight_of
 from ..recording import verdict
 from ..recording.history import DIRECTIONS

@@ -38,9 +38,7 @@ RESULTS = {
 
 
 def write_runs(rows, folder):
-    """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for
-    empty cells.
-    """
+    """Write runs.csv with the present state of all runs; returns its rows, with None for empty cells."""
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
     found = [_result(row, task_of(row, folder), columns) for row in rows]
     write_text(folder / RUNS, csv_text(list(found[0]) if found else ["run"], [result.values() for result in found]))

@@ -103,9 +103,7 @@ class Row:
 
     @property
     def then(self):
-        """Records that follow the first, with their own factors; relative paths are relative to the table. None: no
-        sequence.
-        """
+        """Records that follow the first, with factors; paths relative to the table. None: no sequence."""
         given = self.cells.get("then")
         return None if given is None else ";".join(self._beside(part.strip()) for part in given.split(";"))
 
@@ -114,9 +112,7 @@ class Row:
 
     @property
     def name(self):
-        """Name of the run and its folder. It follows from the content of the row, its house and its record, not from
-        its line.
-        """
+        """Name of the run and its folder: it follows from the content of the row, its house and its record."""
         label = self.description or Path(self.cells["house"]).stem
         content = json.dumps(
             [sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()]
@@ -130,9 +126,7 @@ class Row:
 
 @lru_cache(maxsize=256)
 def _house_text(house):
-    """Content of a house file and the files it extends; None for a house with errors, which the check of the row
-    reports.
-    """
+    """Content of a house file and those it extends; None for a house with errors, reported by the row's check."""
     try:
         return json.dumps(load_house(house).data, sort_keys=True)
     except HouseError:

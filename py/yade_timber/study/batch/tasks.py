@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of a table as tasks of the driver: each row is a run of scripts/house.py. All rows are checked before the first
-run.
-"""
+"""Rows of a table as tasks of the driver: runs of scripts/house.py, all checked before the first run."""
 
 from contextlib import contextmanager
 from dataclasses import replace
@@ -58,9 +56,7 @@ def write_house(row, folder):
 
 
 def check_rows(rows, folder):
-    """Refuse rows that cannot be run; house files of changed houses are written to their folders. Raises BatchError,
-    OSError.
-    """
+    """Refuse rows that cannot be run; files of changed houses are written. Raises BatchError, OSError."""
     for row in rows:
         with _located(row):
             options = row.options()

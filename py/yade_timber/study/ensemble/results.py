@@ -57,9 +57,7 @@ def write(folder, found, done, planned):
 
 
 def table_text(found, done, planned):
-    """Text of ensemble.csv: one row a run, with all numbers of the summary and the texts that are not the same in all
-    runs.
-    """
+    """Text of ensemble.csv: a row a run, with all numbers of the summary and the texts that differ."""
     texts = [place for place, values in found["words"].items() if len(values) > 1 and place != "verdict"]
     header = ("run", "folder", "verdict", "error", *found["numbers"], *texts)
     rows = []
@@ -84,9 +82,7 @@ def draw(found, done):
 
 
 def show(folder, run, summary):
-    """Copy the results of a run into the folder of the ensemble, with another summary; returns the paths. Raises
-    OSError, RunError.
-    """
+    """Copy a run's results into the ensemble's folder, with another summary; returns the paths. Raises OSError."""
     written = []
     for table in sorted(run.glob("*.csv")):
         with written_whole(folder / table.name) as part:

@@ -14,9 +14,7 @@ FEWEST = 2
 
 
 def tasks(script, options):
-    """Tasks of the runs of an ensemble, the first one undisturbed. script: name without .py; options: RunOptions of the
-    ensemble
-    """
+    """Tasks of an ensemble's runs, the first one undisturbed. script: name without .py; options: RunOptions"""
     return [Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
             for k in range(1, options.ensemble + 1)]
 

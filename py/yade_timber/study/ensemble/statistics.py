@@ -21,18 +21,14 @@ NONE = "none"
 
 
 def leaves(found, path=""):
-    """(path, value) of all entries of nested tables that are no tables themselves: ('energy.dissipated.friction',
-    98605.2).
-    """
+    """(path, value) of the entries of nested tables that are no tables: ('energy.dissipated.friction', 98605.2)."""
     for key, value in found.items():
         place = f"{path}.{key}".lstrip(".")
         yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
 
 
 def numbers(found):
-    """{path: number} of a summary, with the largest of its peak drifts and of its residual drifts. Lists have no
-    numbers.
-    """
+    """{path: number} of a summary, with the largest of its peak and residual drifts. Lists have no numbers."""
     own = {place: value for place, value in leaves(encode(found))
            if isinstance(value, Real) and not isinstance(value, bool)}
     largest = {f"largest_{key}": found.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ground motions of a ranking, as columns of a batch table: synthetic ones of several seeds, or the records of a
-folder, scaled to a target.
-"""
+"""Ground motions of a ranking: synthetic ones of several seeds, or the records of a folder, scaled to a target."""
 import re
 from itertools import groupby
 from pathlib import Path
@@ -17,18 +15,14 @@ from ...motion.text import read_lines
 START, END = 14.0, 34.0
 """Part of a synthetic motion that is run: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
 LEAD, TAIL = 4.0, 10.0
-"""Part of a record that is run: from LEAD before its strong shaking to TAIL after the end of its significant duration.
-[s]
-"""
+"""Part of a record that is run: from LEAD before its strong shaking to TAIL after its significant duration. [s]"""
 ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:ns|ew|ud)\.(?:csv|acc)")
 """Endings of the names of one record's files."""
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
 
 def seeds(count, target=None):
-    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}, None:
-    as they are
-    """
+    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}"""
     window = {"start": f"{START:g}", "end": f"{END:g}"}
     return [(f"seed{seed}", {"seed": str(seed), **window, **_text(target)}) for seed in range(1, count + 1)]
 

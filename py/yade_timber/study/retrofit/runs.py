@@ -57,9 +57,7 @@ class Ranking:
         return [name for name, _ in self.motions[selection:]]
 
     def check(self):
-        """Check all rows before the first run: each candidate under the first motion, the house as it is under all.
-        Raises BatchError.
-        """
+        """Check all rows first: each candidate under the first motion, the house under all. Raises BatchError."""
         rows = self._rows(
             [(AS_IT_IS, motion) for motion in self.motions]
             + [(candidate, self.motions[0]) for candidate in self.candidates]
