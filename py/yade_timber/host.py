@@ -41,10 +41,7 @@ def host_facts() -> dict:
 
 
 def build_record(module_file) -> dict:
-    """Build record of a module file: keys yade, headers, features, python, package. The file is read, not loaded.
-
-    Raises ImportError when the file has no record.
-    """
+    """Build record in a module file, which is not loaded: yade, headers, features, python, package. Or ImportError."""
     with open(module_file, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
         start = content.find(RECORD_MARK + b"{")
         if start < 0:
@@ -164,10 +161,7 @@ def import_module(package: str, directory):
 
 
 def load(package: str, directory):
-    """Check and load the compiled module `<package>._yade_timber` in `directory`, then register its classes.
-
-    Returns (module, names of the registered classes). Raises ImportError as the module's documentation says.
-    """
+    """Check and load `<package>._yade_timber` in `directory`; returns (module, classes). ImportError as above."""
     file = Path(directory) / f"{MODULE}.so"
     if not file.exists():
         raise ImportError(f"yade-timber's compiled module is missing ({file}). {REMEDY}")

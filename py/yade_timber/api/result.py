@@ -5,7 +5,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..base.atomic_write import make_folder
-from ..base.errors import RunError
+from ..base.errors import os_errors
 from ..base.input_file import require_regular
 from ..recording import ensemble, frames
 from ..recording.history import NAME as HISTORY
@@ -132,10 +132,8 @@ class RunResult:
         runs = [run for run in (self, other) if run is not None]
         name = PLAYER if other is None else f"compare_with_{other.folder.resolve().name}.html"
         page = Path(path) if path is not None else self.folder / name
-        try:
+        with os_errors(lambda fault: f"{page}: cannot be written: {fault}"):
             return player.make([(run.folder / frames.NAME, run.frames) for run in runs], page)
-        except OSError as problem:
-            raise RunError(f"{page}: cannot be written: {problem.strerror}") from None
 
     def pictures(self, folder=None):
         """Make all pictures of the run and the player.
@@ -152,11 +150,9 @@ class RunResult:
         from ..pictures import all_pictures
 
         folder = self.folder if folder is None else Path(folder)
-        try:
+        with os_errors(lambda fault: f"{folder}: the pictures cannot be written: {fault}"):
             make_folder(folder)
             return all_pictures.write(folder, self.folder)
-        except OSError as problem:
-            raise RunError(f"{folder}: the pictures cannot be written: {problem.strerror}") from None
 
 
 def load_run(folder):

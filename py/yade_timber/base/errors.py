@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Exceptions for input that cannot be used."""
+from contextlib import contextmanager
 
 MAX_MESSAGE = 900
 """Longest error message; the middle of a longer one is left out. [characters]"""
@@ -14,6 +15,15 @@ class InputError(ValueError):
 
 class RunError(InputError):
     """A run that cannot be done as requested, or a file of a run that cannot be used."""
+
+
+@contextmanager
+def os_errors(message):
+    """Context in which an OSError becomes a RunError. message: function of its text"""
+    try:
+        yield
+    except OSError as problem:
+        raise RunError(message(problem.strerror)) from None
 
 
 def one_line(text):

@@ -6,7 +6,7 @@ import tempfile
 from contextlib import contextmanager
 
 from .atomic_write import make_folder
-from .errors import RunError
+from .errors import os_errors
 
 LOCK = ".lock"
 _descriptors = set()
@@ -15,23 +15,16 @@ _descriptors = set()
 
 def prepare_folder(folder, option):
     """Create the folder and check that files can be written in it. option: its name for the user. Raises RunError."""
-    try:
+    with os_errors(lambda fault: f"{option} {folder}: results cannot be written there: {fault}; choose another folder"):
         make_folder(folder)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as problem:
-        raise RunError(
-            f"{option} {folder}: results cannot be written there: {problem.strerror}; choose another folder"
-        ) from None
+        tempfile.TemporaryFile(dir=folder).close()
 
 
 @contextmanager
 def locked(folder):
     """True while this process alone, without its copies (fork), has the folder; else False. Raises RunError."""
-    try:
+    with os_errors(lambda fault: f"{folder / LOCK}: cannot be opened: {fault}"):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-    except OSError as problem:
-        raise RunError(f"{folder / LOCK}: cannot be opened: {problem.strerror}") from None
     _descriptors.add(descriptor)
     try:
         yield _acquired(descriptor)

@@ -6,11 +6,9 @@ from .structure import ACROSS, Structure
 
 
 def free_bays(description):
-    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each bay
-    without brace, window or door.
+    """Names of the braces that can be added, e.g. 'main.brace1.EW.y0.3-4'; one for each bay without brace or opening.
 
-    The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of
-    houses B and C.
+    The foot is at the column nearer to an end of the line; in the middle at the lower node.
     """
     names = []
     for structure, storey in _storeys(description):

@@ -30,7 +30,7 @@ def lay_braces(structure, layer):
     """Braces of one storey. A run [foot, head] leans from the foot of one column to the head of another."""
     plan, elements = column_plan(structure, layer.storey), []
     for line in structure.table["braces"]["lines"]:
-        _check_storeys(structure, line)
+        structure.check_storeys(line["storeys"], line.at("storeys"), "braces")
         if line["storeys"] and layer.storey not in line["storeys"]:
             continue
         for at in line["at"]:
@@ -38,14 +38,6 @@ def lay_braces(structure, layer):
                 diagonal = Diagonal(line["along"], at, foot, head, layer.storey, line["runs"].at(i))
                 elements.append(_brace(structure, layer, diagonal, plan))
     return elements
-
-
-def _check_storeys(structure, line):
-    for number in line["storeys"]:
-        if number not in structure.storeys:
-            raise HouseError(
-                f"{line.at('storeys')}: {structure.name}: braces: no storey {number}; the stack has {structure.storeys}"
-            )
 
 
 def _brace(structure, layer, diagonal, plan):

@@ -13,11 +13,9 @@ TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder 
 
 
 def check_house(model):
-    """Raises HouseError for the deepest overlap, an end of a column or brace without a joint, or an unsupported
-    element.
+    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element.
 
-    Returns {'pairs': pairs of elements with touching bounding boxes, 'touching': pairs in contact, 'deepest': largest
-    overlap [m], from rounding}.
+    Returns the numbers of near and of touching pairs, and the deepest overlap [m], from rounding.
     """
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)

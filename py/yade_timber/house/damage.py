@@ -9,10 +9,8 @@ KINDS = ("column_beam", "brace_beam")
 
 
 def apply_damage(joints, structures, damage):
-    """Mark joints as broken, region by region.
-
-    A region breaks `count` joints of one kind on one wall and storey: those at the given end (default: `damage.end`)
-    that are nearest to the middle of the wall; of two at the same distance, the southern or western one is first.
+    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those
+    nearest to the middle of the wall, the southern or western one first.
     """
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]

@@ -49,10 +49,9 @@ class RatedBay:
 
 
 def diagnose(model):
-    """The part `diagnosis` of summaries: the least iw and wall quantity ratio of all structures, where they are, and
-    the numbers of each one.
+    """The part `diagnosis` of summaries: the least iw and wall quantity ratio, where they are, and of each structure.
 
-    None for numbers that the rules do not give: more than three storeys, a structure without floor area.
+    None for what the rules do not give: beyond three storeys, without floor area.
     """
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     iw, iw_at = _least(structures, "iw")
@@ -89,10 +88,9 @@ def sentence(diagnosis):
 
 
 def comparison(summary):
-    """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run;
-    '' if none does.
+    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does.
 
-    summary: recording.summary.Summary. Without an earthquake a structure that stands agrees with every index.
+    Without an earthquake a structure that stands agrees with every index.
     """
     for name, facts in summary.structures.items():
         iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
@@ -215,8 +213,7 @@ def _quarters(bays, axis, plan, needed):
 
 
 def _eccentricities(bays, mass):
-    """{direction: Re}: distance of the centre of mass from that of rigidity, across the direction, over the elastic
-    radius. None where no wall resists in that direction.
+    """{direction: Re}: distance of the centres of mass and rigidity over the elastic radius; None without walls.
 
     The rigidity of a bay is its wall quantity: bays of a storey have one height.
     """
@@ -300,8 +297,7 @@ def brace_multiplier(section):
 
 
 def _uplift(model, group, bays):
-    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need with its
-    joint [kN].
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN].
 
     The corrections for the direction of braces are left out.
     """
@@ -319,9 +315,7 @@ def _uplift(model, group, bays):
 
 
 def n_value(columns, key, bays, storeys):
-    """N = sum of A B over the column and those above it, less L. columns: {(storey, x, y): element}; the larger of both
-    directions. [-]
-    """
+    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, x, y): ...}"""
     storey, x, y = key
     stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
     corner = [len(column.side) > 1 for column in stack]

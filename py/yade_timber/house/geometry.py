@@ -138,8 +138,7 @@ def box(low, high):
 def halfspace_vertices(planes):
     """Vertices (n, 3) of the region where normal . x <= offset for every (normal (3,), offset [m]) of `planes`.
 
-    Every triple of planes is solved and kept when no plane cuts it off: exact to rounding, meant for the
-    dozen planes of a member. Raises ValueError when the region is empty or flat.
+    Every triple of planes is solved, exact to rounding. Raises ValueError for an empty or flat region.
     """
     normals = np.array([p[0] for p in planes], float)
     scale = np.linalg.norm(normals, axis=1)
@@ -189,8 +188,7 @@ def _clip_edge(polygon, a, b):
 
 
 def contact_polygon(a, b, tolerance):
-    """Flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]) of the largest one, or
-    None.
+    """Largest flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]), or None.
 
     Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
     """

@@ -18,9 +18,7 @@ LYING = 0.1
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    A rule joins elements of one structure, or with `across` those of two structures. Contacts below
-    `joint_search.min_area` get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam
-    with that strip only.
+    Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip.
     """
     data = description.data
     rules = {kinds: rule for kinds, [(_, rule)] in rules_by_kinds(data["joints"]).items()}

@@ -104,12 +104,7 @@ def column_plan(structure, storey):
     """{(x node, y node): (section [m], file:line)} of one storey; groups given by lines fill only free nodes."""
     plan = {}
     for i, group in enumerate(structure.table["columns"]):
-        for number in group["storeys"]:
-            if number not in structure.storeys:
-                raise HouseError(
-                    f"{group.at('storeys')}: {structure.name}: columns[{i + 1}]: no storey {number}; the stack has"
-                    f" {structure.storeys}"
-                )
+        structure.check_storeys(group["storeys"], group.at("storeys"), f"columns[{i + 1}]")
         if group["storeys"] and storey not in group["storeys"]:
             continue
         for x, y in _group_nodes(structure, group):

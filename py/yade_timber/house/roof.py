@@ -259,11 +259,9 @@ def carry_roofs(structure, elements, joints):
 
 
 def _tie_slabs(structure, layer, joints):
-    """Move half of a ridge joint's springs down to the tie beams of a gable roof, where its slabs would push the walls
-    apart.
+    """Move half of a ridge joint's springs down to tie beams at the level of the plates, which take the slabs' thrust.
 
-    The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of
-    one fitting.
+    The ridge and each tie beam have the stiffness and strength of one fitting.
     """
     slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
              for side in gable_plan(structure, layer).sides}

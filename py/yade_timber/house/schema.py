@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema checker with one-line errors: file and line, key, problem, admissible range, nearest known key.
 
-A schema is made of Number, Text, Flag, Choice, Pair, ListOf, MapOf, Record and Variants. Each has `default`
-(REQUIRED = must be given) and `check(value, where, name)`, which returns the value, checked and with
-defaults filled in, or raises HouseError. `where` is the value's "file:line", `name` the path of its key.
+Each part of a schema has `default` (REQUIRED: must be given) and `check(value, where, name)`, which returns the value
+with defaults filled in. `where`: "file:line"; `name`: path of the key.
 """
 
 import math
@@ -33,11 +32,7 @@ def fail(where, name, problem):
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when
-    `open_low`.
-
-    In rad a text like 1/120 is a number, too.
-    """
+    """A finite number (infinite if `high` and `infinite` allow) in [low, high], or (low, high]; in rad also 1/120."""
 
     unit: str = ""
     low: float = -math.inf

@@ -54,8 +54,7 @@ class Structure:
         self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
-        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), extended by the margin
-        and `beyond` [m].
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (None: all), extended by margin and `beyond` [m].
 
         An edge shared with one of the `others` (areas of the same layer) is not extended.
         """
@@ -98,6 +97,12 @@ class Structure:
                 raise HouseError(
                     f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to {self.axes[axis].last}"
                 )
+
+    def check_storeys(self, storeys, where, name):
+        """HouseError for a storey that the stack does not have. name: of the list that names it"""
+        for number in storeys:
+            if number not in self.storeys:
+                raise HouseError(f"{where}: {self.name}: {name}: no storey {number}; the stack has {self.storeys}")
 
     def layer_of_storey(self, storey):
         return next((layer for layer in self.layers if layer.kind == "columns" and layer.storey == storey), None)

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Types of sheathing -> envelopes: shear per metre of wall over the drift at first loading.
-
-A type has a rated multiplier, a strength and a stiffness, the points of a test, or nails. Lengths in m, drifts in rad,
-shears in N/m.
-"""
+"""Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading."""
 
 from dataclasses import dataclass
 
@@ -148,11 +144,8 @@ _CHECKS = {"envelope": _check_envelope, "nails": _check_nails}
 def has_rated_walls(data):
     """Whether a house (data of its file) has walls whose envelope depends on the level."""
     used = {name for structure in data["structures"].values() for line in structure["walls"] for name in line["type"]}
-    return any(_is_rated(data["wall_types"][name]) for name in used)
-
-
-def _is_rated(table):
-    return table["multiplier"] is not None and (table["strength"] is None or table["stiffness"] is None)
+    tables = [data["wall_types"][name] for name in used]
+    return any(table["multiplier"] is not None and None in (table["strength"], table["stiffness"]) for table in tables)
 
 
 def envelope(table, level):
@@ -167,9 +160,7 @@ def envelope(table, level):
 def multiplier(table):
     """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
 
-    Allowable shear of nails: nails.py; of other envelopes: the lesser of the shear at 1/120 and two thirds of the
-    largest one. The two other loads by which tests with pinned feet are evaluated, at yield and from the ductility, are
-    left out.
+    Allowable: of nails as in nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one.
     """
     if table["multiplier"] is not None:
         return table["multiplier"]

@@ -92,11 +92,7 @@ def sheathe(structure, elements, data, level):
 
 def _bays(structure, line, by_name):
     """Bays of a line of the house file in all its storeys and positions."""
-    for number in line["storeys"]:
-        if number not in structure.storeys:
-            raise HouseError(
-                f"{line.at('storeys')}: {structure.name}: walls: no storey {number}; the stack has {structure.storeys}"
-            )
+    structure.check_storeys(line["storeys"], line.at("storeys"), "walls")
     bays = []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:

@@ -45,11 +45,7 @@ def sniff(lines):
 
 
 def parse(path, lines, units=None, stated=False):
-    """Channels of one file. Raises RecordError.
-
-    units   unit where the file does not state one
-    stated  True: the caller states the directions, those in the file are ignored
-    """
+    """Channels of a file. units: where it states none; stated: the caller states the directions. Raises RecordError."""
     kind = sniff(lines)
     if kind is None:
         raise RecordError(
@@ -224,8 +220,7 @@ def _plain_csv(path, lines, units):
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such
-    row.
+    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row.
 
     It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
     """

@@ -223,12 +223,8 @@ def _provenance(channels, directions):
     """One line: the files, the direction of each component, a note on missing components."""
     by_file = {}
     for channel, direction in zip(channels, directions):
-        by_file.setdefault(channel.path.name, []).append(_direction_name(direction))
+        name = f"{direction:g} deg" if isinstance(direction, float) else direction
+        by_file.setdefault(channel.path.name, []).append({0.0: "ns", 90.0: "ew"}.get(direction, name))
     files = ", ".join(f"{file} ({', '.join(names)})" for file, names in by_file.items())
     note = "" if len(channels) == 3 else "; the other components are zero"
     return files + note
-
-
-def _direction_name(direction):
-    """'ns', 'ew', 'up', 'down' or an azimuth like '30 deg'."""
-    return {0.0: "ns", 90.0: "ew"}.get(direction, f"{direction:g} deg" if isinstance(direction, float) else direction)

@@ -16,10 +16,7 @@ from .synthetic import DEFAULT_SEED, synthetic_motion
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """Source and processing of a ground motion; None: not requested. Processing follows the order of the fields.
-
-    `scale` is applied by the run, which records it beside the motion.
-    """
+    """Source and processing of a ground motion, in the order of the fields; None: none. The run applies `scale`."""
 
     record: str = option(str, "recorded motion: file, prefix, or files with commas", "FILE", group="main")
     seed: int = option(int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0,

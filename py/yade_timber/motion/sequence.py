@@ -10,7 +10,7 @@ from math import gcd, lcm
 import numpy as np
 
 from .filters import require_size
-from .record import GroundMotion, RecordError
+from .record import GroundMotion, RecordError, subdivided
 
 DEFAULT_GAP = 5.0
 """Quiet between two motions of a sequence. [s]"""
@@ -30,17 +30,15 @@ class Part:
 
 
 def joined(motions, scales, gap=DEFAULT_GAP):
-    """One GroundMotion of several: each times its own factor, `gap` seconds of quiet between them, in `parts` the data
-    of each.
+    """One GroundMotion of several, times their factors, with `gap` seconds of quiet between; `parts` has their data.
 
-    The time step is the largest that divides all steps, so that straight lines between the samples stay as they are.
-    Raises RecordError for motions whose steps have no such common part.
+    The step is the largest that divides all steps, which keeps the straight lines. RecordError where there is none.
     """
     step = common_step([motion.dt for motion in motions], " and ".join(motion.name for motion in motions))
     quiet = np.zeros((round(gap / step), 3))
     pieces, parts, start = [], [], 0.0
     for motion, scale in zip(motions, scales):
-        samples = scale * refined(motion, round(motion.dt / step))
+        samples = scale * subdivided(motion.acceleration, round(motion.dt / step))
         if pieces:
             pieces.append(quiet)
             start += len(quiet) * step
@@ -67,14 +65,6 @@ def common_step(steps, where):
             f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample"
         )
     return float(common)
-
-
-def refined(motion, factor):
-    """(n, 3) accelerations [m/s2] on a step `factor` times smaller, linear between the samples, to the last one."""
-    if factor == 1:
-        return motion.acceleration
-    times = np.arange((len(motion) - 1) * factor + 1) / factor
-    return np.column_stack([np.interp(times, np.arange(len(motion)), column) for column in motion.acceleration.T])
 
 
 def with_factor(entry):

@@ -14,9 +14,8 @@ NAMES = [f"{END}.png",
 
 
 def write(folder, results=None, pdf=False):
-    """Write the pictures of a run into a folder; returns their paths.
+    """Write the pictures of a run into a folder; returns their paths. results: folder of the frames; pdf: PDFs, too.
 
-    results: folder with the run's frames, by default the same; pdf: whether sheets and curves are PDF files, too.
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
     from . import figures

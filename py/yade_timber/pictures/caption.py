@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Texts of films: house and state on each picture; time, ground acceleration and origin in a strip below."""
 import numpy as np
+from matplotlib.colors import to_rgb
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
@@ -10,7 +11,7 @@ from ..text.english import DRIFT_LINES, broken_of, ratio
 from . import fonts
 from .figures import drawable
 from .key_times import first_shown
-from .stage import frame_before, rgb
+from .stage import frame_before
 
 NORMAL = 720
 """Height of a picture for which the sizes below hold. [pixel]"""
@@ -132,4 +133,4 @@ class Strip:
             values = np.interp(np.linspace(*self.span, count), motion.time, motion.acceleration[:, column], 0, 0)
             points = np.column_stack([self.left + np.arange(count) / 2, height * (0.5 - 0.48 * values / most)])
             pen.line([tuple(point) for point in points],
-                     tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)
+                     tuple(round(255 * part) for part in to_rgb(colors.DIRECTIONS[key])) + (255,), 1)

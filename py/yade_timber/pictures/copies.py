@@ -27,11 +27,10 @@ def possible():
 
 @contextmanager
 def ahead(make):
-    """Context with an iterator over the items of `make()`, a generator; a copy of this process makes the next item
-    while this one uses the last.
+    """Context with an iterator over `make()`; a copy of this process makes the next item while this one uses the last.
 
-    The iterator raises RunError when the copy is killed, and any exception of the generator. Where copies are not
-    possible it makes the items itself.
+    The iterator raises RunError when the copy is killed, and any exception of the generator. Without copies it makes
+    the items itself.
     """
     if not possible():
         yield make()

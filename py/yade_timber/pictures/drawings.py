@@ -11,6 +11,7 @@ from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
 from .panels import panels_as_built
 from .raster import Window, even_density, front_of, shade
+from .report_pictures import THICK, wedge
 from .style import default_style
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
 
@@ -31,8 +32,6 @@ WALL, WALL_WIDTH = "#8c6d46", 0.16
 """Of sheathed bays in the plan: colour, width [m]."""
 LABEL_GAP = 0.12
 """Between the baselines of two labels of heights. [inch]"""
-THICK = 0.11
-"""Columns at least this thick are black in the plan. [m]"""
 
 
 def write(stem, model):
@@ -143,7 +142,7 @@ def draw_plan(ax, model):
                      lw=0.8, zorder=3)
     for element in model.of_kind("brace"):
         if element.storey == 1:
-            draw_brace(ax, element)
+            ax.add_patch(wedge(element.vertices))
     for joint in model.joints:
         if joint.kind == WALL_COLUMN and joint.storey == 1:
             draw_wall(ax, model, joint)
@@ -181,18 +180,6 @@ def draw_wall(ax, model, joint):
     ax.add_patch(
         Polygon([start + aside, end + aside, end - aside, start - aside], closed=True,
                 facecolor="white" if has_opening else WALL, edgecolor=WALL, lw=0.8, zorder=1 if has_opening else 1.5)
-    )
-
-
-def draw_brace(ax, element):
-    """A brace seen from above: a wedge, thick at the upper end."""
-    z = element.vertices[:, 2]
-    middle = (z.min() + z.max()) / 2
-    foot, head = element.vertices[z < middle, :2].mean(0), element.vertices[z > middle, :2].mean(0)
-    along = (head - foot) / np.linalg.norm(head - foot)
-    aside = 0.11 * np.array([-along[1], along[0]])
-    ax.add_patch(
-        Polygon([foot, head + aside, head - aside], closed=True, facecolor=colors.BLUE, edgecolor="none", zorder=2)
     )
 
 

@@ -39,9 +39,7 @@ LONGEST = 36000
 
 @dataclass(frozen=True)
 class Format:
-    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film, None: 1, and SLOW
-    around the first fall;
-    quality: of WebP, 0 to 100."""
+    """width, height [pixel]; rate [1/s]; speed, None: 1, and SLOW around the first fall; quality: of WebP, 0 to 100."""
 
     width: int = 1920
     height: int = 1080
@@ -51,12 +49,10 @@ class Format:
 
 
 def write(path, runs, view="space", form=Format(), begin=None, end=None):
-    """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the
-    format.
+    """Write a film, .mp4 or .webp; returns the number of its pictures.
 
     runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking
-    (from the start, if `end` is earlier) until no picture differs visibly from the last one.
-    Raises RunError when it cannot be made, OSError when it cannot be written.
+    (or the start) until no picture differs visibly from the last one. Raises RunError, OSError.
     """
     if not all(len(run.time) for run in runs):
         raise RunError("a run without frames")

@@ -15,6 +15,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import to_hex
 
 from ..base import colors
 from ..base.atomic_write import write_text
@@ -40,8 +41,7 @@ LONGEST_TEXT = 400
 
 
 def make(runs, path):
-    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages, and the tables
-    beside it give peaks.
+    """Write the page; returns its path. runs: one or two (file, Frames); the tables beside the file give peaks.
 
     Raises RunError when a run cannot be shown, OSError when the page cannot be written.
     """
@@ -175,12 +175,7 @@ def main_event(run):
 def kinds(present):
     """[{kind, color}] of the kinds of elements that occur, from the roof downwards."""
     known = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
-    return [{"kind": kind, "color": css(colors.KINDS.get(kind, colors.OTHER))} for kind in known]
-
-
-def css(color):
-    """RGB in 0..1 -> '#rrggbb'."""
-    return "#" + "".join(f"{round(255 * part):02x}" for part in color)
+    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in known]
 
 
 def recorded(run):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of convex bodies by OpenGL without a window.
+"""Pictures of convex bodies by OpenGL, moderngl on EGL: no window, no display, at worst Mesa on the processor.
 
-moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs
-no display.
 Soft lines along all edges smooth the outlines of faces. World frame: x east, y north, z up [m].
 """
 import threading
@@ -73,10 +71,7 @@ def put(made, **values):
 
 
 class Topology:
-    """Convex faces of bodies as fans of triangles from the faces' first vertices.
-
-    faces: for each body its faces, lists of vertex numbers within the body; counts: number of vertices of each body
-    """
+    """Convex faces as fans of triangles. faces: of each body, lists of vertex numbers; counts: of its vertices"""
 
     def __init__(self, faces, counts):
         sizes = np.array([len(face) for body in faces for face in body], int)

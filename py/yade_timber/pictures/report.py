@@ -71,11 +71,7 @@ small { font-size: 6.4pt; }
 
 
 def write(folder):
-    """Write report.html, and report.pdf where a browser is installed, into the folder of a finished run; returns the
-    paths.
-
-    Raises RunError for a folder without complete results, OSError when a file cannot be written.
-    """
+    """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
     folder = Path(folder)
     results = quantities.read(folder)
     frames = recording.load(folder / recording.NAME,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints, for films."""
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from ..base import colors
 from ..recording.frames import rotated
@@ -110,7 +111,7 @@ class Stage:
         put(program("SHADE"), **shared, bounds=shadows)
         put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
         put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS,
-            partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))
+            partly=to_rgb(colors.AMBER), broken=to_rgb(colors.ORANGE))
 
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
@@ -138,11 +139,6 @@ def nearest_first(frames, eye):
     """Numbers of the elements shown, nearest to an eye (3,) [m] first: hidden faces cost no shading."""
     distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
     return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
-
-
-def rgb(color):
-    """'#rrggbb' -> RGB in 0..1."""
-    return tuple(int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
 
 
 def frame_before(frames, time):

@@ -29,10 +29,7 @@ STATES = {"whole": 0, "partly": 1, "broken": 2, "before": 3}
 
 
 def export(folder, frames, every=1):
-    """Write the three time series into a folder: every `every`-th frame and the last one; contacts as recorded.
-
-    Returns the paths of the .pvd files. Raises OSError.
-    """
+    """Write the time series: every `every`-th frame and the last one, all contacts. Returns the .pvd files. OSError."""
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = sorted({*range(0, last + 1, every), last})

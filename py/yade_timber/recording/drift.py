@@ -90,10 +90,7 @@ def by_storey(values):
 
 
 def lean_start(history, tilt_time, direction):
-    """Start of the lean that passed 1/10 at `tilt_time` [s] in `direction`, None without a tilt. [s]
-
-    It is the last earlier sample at which that drift had another sign, or 0.
-    """
+    """Start of the lean that passed 1/10 at `tilt_time` [s]: last sample of another sign, or 0; None without. [s]"""
     if tilt_time is None:
         return None
     last = int(np.searchsorted(history.time, tilt_time, side="right"))

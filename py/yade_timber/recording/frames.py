@@ -132,11 +132,9 @@ class Motion(_ShortRepr):
 
 @dataclass(repr=False)
 class Frames:
-    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a
-    run.
+    """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
-    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists. All three are None before
-    the end of the run.
+    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists; None before the run's end.
     """
 
     title: str

@@ -13,11 +13,7 @@ JOINTS, COLUMNS = "joints.csv", "columns.csv"
 
 @dataclass(frozen=True)
 class Peaks:
-    """Largest values of a run.
-
-    forces  {name of a joint: (pull, shear) [N]}, without joints that were broken before the start
-    uplift  {name of a column: uplift of its foot [m]}, of columns that stand at the end
-    """
+    """forces: {joint: (pull, shear) [N]}, but of joints broken at the start; uplift: {standing column: [m]}"""
 
     forces: dict = field(default_factory=dict)
     uplift: dict = field(default_factory=dict)

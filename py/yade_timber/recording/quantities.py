@@ -56,11 +56,9 @@ class Storeys(Series):
 
 
 def storeys(samples, masses, motion=None):
-    """Storeys of a run.
+    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg].
 
-    samples  (F + 1, 1 + 3 P): time [s], momenta of the P parts relative to the ground, east, north, up [kg m/s]
-    masses   (P,) [kg]
-    motion   frames.Motion of the ground as applied, or None
+    samples (F + 1, 1 + 3 P): time [s], momenta of the parts relative to the ground, east, north, up [kg m/s]
     """
     samples, masses = np.asarray(samples, float), np.asarray(masses, float)
     time, steps = samples[:, 0], np.diff(samples[:, 0])

@@ -29,10 +29,7 @@ def summary(name, summaries):
 
 
 def town_frames(name, lots):
-    """Frames of a town, without the grounds and contacts of its lots.
-
-    lots: list of (name, (3, 3) axes of the house as columns, (3,) place [m], Frames of an ended run)
-    """
+    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames)"""
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)

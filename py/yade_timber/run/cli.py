@@ -32,9 +32,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(script, file=None, loads=""):
-    """ArgumentParser of the run script of that name. file: kind of its input file, house or town; None: the script
-    gives house and loads; loads: sentence that states them
-    """
+    """ArgumentParser of a run script. file: kind of its input file, None: the script gives house and `loads`"""
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
     about = (
         f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"

@@ -12,10 +12,7 @@ O = yw.Omega()
 
 
 def modes_now(levels):
-    """ModesAt of the scene as it is now; the period of an unstable mode is None.
-
-    levels: damage.Level of the main structure, from below. shape: mean displacement of each level, largest component 1.
-    """
+    """ModesAt of the scene as it is now; an unstable mode has no period. levels: of the main structure."""
     mass = sum(b.state.mass for b in O.bodies if b is not None and not b.state.blockedDOFs)
     found = []
     for mode in natural_modes():

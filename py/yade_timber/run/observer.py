@@ -135,11 +135,7 @@ def contact_points():
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural
-    modes.
-
-    known: `progress` of a checkpoint
-    """
+    """Notes events, peak drifts of structures and first natural modes of the run. known: `progress` of a checkpoint"""
 
     def __init__(self, model, known=None):
         self.model = model

@@ -42,8 +42,7 @@ SCRIPT = Door(earthquake="use a script of a run with an earthquake")
 class RunOptions(MotionRequest):
     """Options of a run, those of its ground motion included.
 
-    Besides the options: name of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion:
-    GroundMotion in place of a record; door.
+    name: of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion: in place of a record.
     """
 
     house: str = option(str, f"house file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE", group="main")

@@ -34,11 +34,9 @@ O = yw.Omega()
 
 
 def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
-    """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s:
-    wall time of its steps so far [s];
-    cut_off: reason why the run ends before its duration. Raises RunError for energies that are not finite.
+    """Summary of the scene as it is now. tables: quantities.Tables; wall_s [s]; cut_off: reason for an early end.
 
-    residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
+    Drifts: recording/drift.py; broken, columns: recording/damage.py. Raises RunError for energies that are not finite.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
@@ -81,10 +79,7 @@ def judged(draft):
 
 
 def record(scenario):
-    """The part `record`: the ground motion as applied, or None.
-
-    interpolation_error: of straight lines between the samples, as a share of the PGA; 0 with samples at every step.
-    """
+    """The part `record`, or None. interpolation_error: of straight lines between samples, as a share of the PGA."""
     motion = scenario.motion
     if motion is None:
         return None
@@ -171,10 +166,7 @@ def breaks_text(model):
 
 
 def write(folder, result, tables, model):
-    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError.
-
-    result, tables: Summary and quantities.Tables of the run
-    """
+    """Write all files, the summary last: where it is, the others are complete. Returns paths. Raises OSError."""
     paths = tables.write(folder)
     for name, text in ((HISTORY, recorded_history(find_engine(yw.HouseMonitor)).text()), (BREAKS, breaks_text(model))):
         write_text(folder / name, text)

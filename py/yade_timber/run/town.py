@@ -21,8 +21,8 @@ from ..plugin import compiled
 from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
-from .runner import STOP_SIGNALS, Interrupted, Run
-from .town_progress import TownProgress
+from .progress import Bar
+from .runner import STOP_SIGNALS, Interrupted, Run, removing, unwritten
 
 HOUSES = "houses.csv"
 NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
@@ -47,16 +47,11 @@ class TownRun:
         check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
         O.reset()
         self.idle = O._sceneObj
-        try:
+        with removing(options):
             for name in NAMES:
                 remove(options.folder / name)
             for _, lot_options in plans:
                 remove_parts(lot_options.folder)
-        except OSError as problem:
-            raise RunError(
-                f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
-                f" {options.named('out')}"
-            ) from None
 
     @contextmanager
     def _of(self, number):
@@ -73,12 +68,12 @@ class TownRun:
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
         handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs],
-                          self.options.quiet) as progress:
+        mean_end = sum(run.steps * run.scenario.dt for run in self.runs) / len(self.runs)
+        with Bar(self.town.name, mean_end, 0, self.options.quiet) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
-                progress.update([scene.time for scene in self.scenes])
+                progress.advance(sum(scene.time for scene in self.scenes) / len(self.scenes))
         for number, handler in handlers.items():
             signal.signal(number, handler)
         self.write()
@@ -151,7 +146,7 @@ class TownRun:
 
     def _results(self):
         folder = self.options.folder
-        try:
+        with unwritten(self.options):
             written = [folder / HOUSES]
             write_text(written[0], self.table())
             if self.options.no_frames:
@@ -161,10 +156,6 @@ class TownRun:
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
-        except OSError as problem:
-            raise RunError(
-                f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume"
-            ) from None
 
     def table(self):
         """Text of houses.csv."""

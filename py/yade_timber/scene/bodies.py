@@ -121,11 +121,7 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
 
 
 def principal_body(vertices, density, radius, **look):
-    """Body with its shape, and a state whose axes are the principal axes of inertia.
-
-    vertices (n, 3) world frame [m]; density [kg/m3]; radius [m], 0 for the default; look: name, kind, color of the
-    shape
-    """
+    """Body with the principal axes of inertia. vertices (n, 3) world [m]; radius, 0: default; look: of shape"""
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
     raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
     volume, centroid, inertia, axes = raw.massProperties()

@@ -80,14 +80,10 @@ def material_name(material, known):
     return name
 
 
-def world_vertices(body):
-    """(n, 3) sharp corners of a body in its present position [m]."""
-    return [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
-
-
 def describe_element(body, known):
     """Dictionary of a body."""
-    return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": world_vertices(body),
+    vertices = [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
+    return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": vertices,
             "faces": body.shape.faces(), "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),
             "radius": body.shape.radius, "fixed": not body.dynamic, "material": material_name(body.material, known)}
 

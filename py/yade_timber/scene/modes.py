@@ -47,9 +47,7 @@ class Springs:
 
 @dataclass(frozen=True)
 class Mode:
-    """omega2: squared angular frequency [1/s2]; shape (N, 6): displacement [-] and rotation [1/m] of each body, zero
-    for fixed ones;
-    mass (3,): effective modal mass east, north, up [kg]."""
+    """omega2 [1/s2]; shape (N, 6): displacement [-], rotation [1/m] of bodies; mass (3,): effective [kg]."""
 
     omega2: float
     shape: np.ndarray
@@ -70,8 +68,7 @@ def springs():
 
 
 def natural_modes(share=0.05):
-    """Modes whose effective mass east or north is at least `share` of the free bodies' mass, the longest period first;
-    unstable ones come first.
+    """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs.
     """
@@ -179,11 +176,7 @@ def stiffness_matrix(found, rows, count):
 
 
 def _geometric(arm, force):
-    """(P, 6, 6) stiffness of constant forces that act at points of bodies: minus the change of the torque r x f with a
-    rotation of the body.
-
-    Summed over a body in equilibrium it is symmetric; the symmetric part is taken.
-    """
+    """(P, 6, 6) stiffness of constant forces at points of bodies: minus change of r x f with rotation, symmetric."""
     block = np.zeros((len(arm), 6, 6))
     outer, along = arm[:, :, None] * force[:, None, :], np.einsum("pi,pi->p", arm, force)
     block[:, 3:, 3:] = along[:, None, None] * np.eye(3) - (outer + outer.transpose(0, 2, 1)) / 2

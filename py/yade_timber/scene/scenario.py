@@ -113,11 +113,7 @@ def add_joints(model, ids):
 
 
 def level_marks(model, structure):
-    """Elements at the levels of a structure: [(element, level)]; level k is the top of storey k.
-
-    The floor where there is one, else the beams under the roof, or the roof; in a structure without floors the roof
-    itself, which moves as one.
-    """
+    """[(element, level)] of a structure; level k is the top of storey k: floor, else beams or roof."""
     kinds = ("floor", "beam", "roof") if model.of_kind("floor", group=structure) else ("roof", "beam")
     marks = []
     for storey in sorted(model.storey_levels[structure]):

@@ -9,11 +9,7 @@ from .driver import Task, run_missing
 
 
 def run(script, options):
-    """OtherWalls of the summary; None for a house without rated walls.
-
-    The run is in the folder walls_LEVEL of the results. script: path of the run script; options: RunOptions. Raises
-    HouseError, RunError, and KeyboardInterrupt after a signal.
-    """
+    """OtherWalls of the summary, from a run in the folder walls_LEVEL; None without rated walls. Raises RunError."""
     data = load_house(options.house).data
     if not has_rated_walls(data):
         return None

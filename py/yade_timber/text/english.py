@@ -18,11 +18,7 @@ ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Reco
 
 
 def sentence(summary):
-    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run
-    first its outcomes.
-
-    Of a town: the numbers of its houses by verdict.
-    """
+    """The verdict on a house and its reasons, of an ensemble first its outcomes; of a town its houses by verdict."""
     if isinstance(summary, TownSummary):
         return town(summary)
     parts = (outcome, other_walls, weight, residual, structures, joints, columns, snow, record, early, unconverged)

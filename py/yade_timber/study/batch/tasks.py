@@ -19,10 +19,7 @@ HOUSE = "house.yaml"
 
 
 def run_rows(rows, folder, scripts, jobs=None, retry=False):
-    """Run the rows that are not done, after checking each of them; returns {task: summary or None}.
-
-    retry: failed rows run again. Raises BatchError, RunError, KeyboardInterrupt, OSError.
-    """
+    """Run the rows that are not done, all checked first; returns {task: summary or None}. retry: failed ones, too"""
     tasks = [task_of(row, folder) for row in rows]
     missing = [row for row, task in zip(rows, tasks) if task.is_missing(retry)]
     check_rows(missing, folder)

@@ -44,11 +44,7 @@ def content(done, errors):
 
 
 def write(folder, found, done, planned):
-    """Write ensemble.json, ensemble.csv and the results of the run that is shown, its summary last; returns the paths.
-    Raises OSError, RunError.
-
-    found: `content`; planned: tasks of the runs
-    """
+    """Write ensemble.json, ensemble.csv, results of the shown run, summary last. found: `content`; planned: Tasks"""
     write_text(folder / NAME, json.dumps(found, indent=1, allow_nan=False) + "\n")
     write_text(folder / TABLE, table_text(found, done, planned))
     shown = found["shown"]

@@ -2,7 +2,7 @@
 """The runs of an ensemble, in processes of their own."""
 from dataclasses import replace
 
-from ...base.errors import RunError
+from ...base.errors import RunError, os_errors
 from ...base.lock import is_locked
 from ...pictures import all_pictures
 from ...recording.ensemble import run_folder
@@ -20,11 +20,9 @@ def tasks(script, options):
 
 
 def complete(script, options):
-    """Run what is missing of an ensemble, and write its results.
+    """Run what is missing of an ensemble and write its results. script: path of the run script.
 
-    script: path of the run script; options: RunOptions.
-    Raises RunError, also when some runs have failed, and KeyboardInterrupt after a signal, when the started runs have
-    saved their checkpoints.
+    Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
     """
     if not script.is_file():
         raise RunError(f"--ensemble: {script}: no such script, which the runs start")
@@ -51,16 +49,12 @@ def _write(options, planned, done, errors):
     """Write results and pictures; returns the text for the terminal. Raises RunError."""
     from ...pictures import report as report_page  # here: matplotlib takes 0.3 s
 
-    try:
+    with os_errors(lambda fault: f"{options.folder}: the results cannot be written ({fault}); repeat the command"):
         content = results.content(done, errors)
         written = results.write(options.folder, content, done, planned)
         if options.views:
             written += all_pictures.write(options.folder)
         if options.report:
             written += report_page.write(options.folder)
-    except OSError as problem:
-        raise RunError(
-            f"{options.folder}: the results cannot be written ({problem.strerror}); repeat the command"
-        ) from None
     shown = done[content["shown"]]
     return "\n".join([*results.lines(content, shown), "written: " + ", ".join(map(str, written))])

@@ -83,11 +83,8 @@ def share(count, runs):
 
 
 def representative(summaries):
-    """Number of the run that stands for the ensemble. summaries: {number: summary}
-
-    Among the runs of the most frequent outcome, of equally frequent ones the worst: that nearest to their median of the
-    largest drift; of collapsed runs, whose drifts are those of a wreck, of the collapse time. Of equally near ones the
-    first.
+    """Number of the run that stands for the ensemble {number: summary}: of the most frequent, then worst outcome,
+    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones.
     """
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))

@@ -28,11 +28,7 @@ def seeds(count, target=None):
 
 
 def records(folder, target=None, units=None):
-    """[(name, {column: text})] of the records in a folder, each cut to its strong shaking. units: where the files state
-    none.
-
-    Raises RunError, RecordError.
-    """
+    """[(name, {column: text})] of the records in a folder, cut to their strong shaking. units: if files state none"""
     folder = Path(folder).resolve()
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a ranking: pilot runs that choose the strength of the motions, rounds of a batch that select finalists, and
-their test.
-
-A stopped ranking continues.
-"""
+"""Runs of a ranking: pilots that choose the strength of the motions, rounds of selection, the finalists' test."""
 import math
 import os
 from dataclasses import dataclass
@@ -29,9 +25,7 @@ FINEST = 1.2
 
 @dataclass
 class Ranking:
-    """A ranking in a folder. motions: [(name, cells)], the first ones for the selection; same: cells of all runs;
-    scripts: folder of the run scripts;
-    jobs: runs at a time."""
+    """A ranking in a folder. motions: [(name, cells)], the first for selection; same: cells of all; scripts: folder"""
 
     folder: Path
     candidates: list
@@ -65,12 +59,7 @@ class Ranking:
         check_rows(rows, self.folder)
 
     def choose_scale(self, report=print):
-        """Scale the motions so that about half of the pilots bring the house as it is down; returns a sentence about
-        it.
-
-        The factor is halved or doubled until the answer lies between two factors, then their geometric mean is tried.
-        report: called with one line after each factor. Raises RunError when a run fails.
-        """
+        """Scale the motions so that half of the pilots bring the house down, by bisection; returns a sentence."""
         pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
         while scale not in shares:
             shares[scale] = self._pilot(pilots, scale) / len(pilots)
