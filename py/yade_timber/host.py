@@ -57,9 +57,9 @@ def check_build(record: dict, host: dict) -> None:
             raise ImportError(
                 f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}"
             )
-    built, found = set(record["features"].split()), set(host["features"].split())
-    if built != found:
-        changes = [f"+{name}" for name in sorted(found - built)] + [f"-{name}" for name in sorted(built - found)]
+    built, features = set(record["features"].split()), set(host["features"].split())
+    if built != features:
+        changes = [f"+{name}" for name in sorted(features - built)] + [f"-{name}" for name in sorted(built - features)]
         raise ImportError(
             f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}."
             f" {REMEDY}"
@@ -138,8 +138,8 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
         seen = plugin.read_containers(scene)
     finally:
         plugin.swap_scene(before)
-    for name, stored, found in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
-        check_value(f"Scene.{name}", stored, found, record, host)
+    for name, stored, value in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
+        check_value(f"Scene.{name}", stored, value, record, host)
     collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
     loop = wrapper.InteractionLoop(

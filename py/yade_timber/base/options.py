@@ -100,9 +100,9 @@ def read_arguments(kind, arguments):
 
 def words(values, named):
     """Arguments of a run script. named: whether the script gives BY_SCRIPT; otherwise its house is first."""
-    given = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
+    passed = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
     return [*([] if named else [values["house"]]),
-            *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items())]
+            *(command_option(name) + ("" if value is True else f"={value}") for name, value in passed.items())]
 
 
 # --- keywords ---------------------------------------------------------------------------------------------------------

@@ -61,9 +61,9 @@ def _clear_bay(structure, diagonal, plan):
     )
     for node in (foot, head):
         if node not in on_line:
-            known = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
+            nodes = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
             raise HouseError(
-                f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {known}"
+                f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {nodes}"
             )
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:

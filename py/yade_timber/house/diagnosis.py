@@ -56,17 +56,17 @@ def diagnose(model):
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     iw, iw_at = _least(structures, "iw")
     ratio, ratio_at = _least(structures, "wall_quantity_ratio")
-    known = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
+    totals = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
              "wall_quantity_at": ratio_at, "broken_from_start": sum(joint.broken for joint in model.joints),
              "structures": structures}
-    return {**known, "sentence": sentence(known)}
+    return {**totals, "sentence": sentence(totals)}
 
 
 def _least(structures, key):
     """(least value of a key, 'side, storey 1, N-S') over structures, storeys, directions; (None, None) without any."""
     values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
-              for group, structure in structures.items() for storey, known in structure["storeys"].items()
-              for name, side in known["directions"].items() if side[key] is not None]
+              for group, structure in structures.items() for storey, table in structure["storeys"].items()
+              for name, side in table["directions"].items() if side[key] is not None]
     return min(values, key=lambda value: value[0], default=(None, None))
 
 

@@ -146,13 +146,13 @@ def halfspace_vertices(planes):
     triples = np.array(list(combinations(range(len(planes)), 3)), int).reshape(-1, 3)
     triples = triples[np.abs(np.linalg.det(normals[triples])) >= SAME]
     points = np.linalg.solve(normals[triples], offsets[triples][..., None])[..., 0]
-    found = []
+    corners = []
     for point in points[(points @ normals.T <= offsets + SAME).all(1)]:
-        if all(np.abs(point - other).max() > SAME for other in found):
-            found.append(point)
-    if len(found) < 4:
+        if all(np.abs(point - other).max() > SAME for other in corners):
+            corners.append(point)
+    if len(corners) < 4:
         raise ValueError("the planes enclose no volume")
-    return np.round(found, SNAP_DIGITS) + 0.0
+    return np.round(corners, SNAP_DIGITS) + 0.0
 
 
 def polygon_area(points):

@@ -35,12 +35,12 @@ def _check_slip(table, path):
 
 def rules_by_kinds(rules):
     """{(kind a, kind b, across): (name, rule)}; a is the brace, else the column, else the first kind of the rule."""
-    found = {}
+    rules_of = {}
     for name, rule in rules.items():
         pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
         for pair in pairs.values():
-            found.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
-    return found
+            rules_of.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
+    return rules_of
 
 
 def _rank(kind):

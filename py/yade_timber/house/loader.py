@@ -28,10 +28,10 @@ _known_chains = {}
 def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
     path = Path(path)
-    known = _known_chains.get(path)
-    if known is None or any(not is_file(file) or text_of(file) != text for file, text in known):
-        known = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
-    return [file for file, _ in known]
+    chain = _known_chains.get(path)
+    if chain is None or any(not is_file(file) or text_of(file) != text for file, text in chain):
+        chain = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
+    return [file for file, _ in chain]
 
 
 def _chain(path):
@@ -69,14 +69,14 @@ def _extended(path, table):
         return None
     if not isinstance(parent, str):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {shown(parent)}")
-    found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
-    if found is None:
+    file = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
+    if file is None:
         raise HouseError(
             f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that"
             f" name ({', '.join([*COMMON, *shipped_houses()])})"
         )
-    require_house_file(found, f"{table.at('extends')}: extends")
-    return found
+    require_house_file(file, f"{table.at('extends')}: extends")
+    return file
 
 
 def require_house_file(path, where):

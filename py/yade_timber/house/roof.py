@@ -153,14 +153,14 @@ PLANS = {"hip": hip_plan, "gable": gable_plan, "mono": mono_plan}
 
 def slope(structure, layer, half):
     """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves."""
-    table, found = layer.table, layer.table["pitch"]
-    if found is None:
+    table, pitch = layer.table, layer.table["pitch"]
+    if pitch is None:
         rise = table["ridge_height"] - layer.z0
         if rise <= 0:
             raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
                              f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
-        found = rise / half
-    return found
+        pitch = rise / half
+    return pitch
 
 
 def vertical_thickness(layer, plan):

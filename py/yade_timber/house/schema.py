@@ -209,9 +209,9 @@ class Record:
         for key in value:
             if key not in self.fields:
                 fail(value.at(key), name or "house", f"unknown key {shown(key)}, {nearest(key, self.fields)}")
-        given = [key for key in self.one_of if key in value]
-        if self.one_of and len(given) != 1:
-            got = " and ".join(given) if given else "none"
+        present = [key for key in self.one_of if key in value]
+        if self.one_of and len(present) != 1:
+            got = " and ".join(present) if present else "none"
             fail(value.where, name, f"give exactly one of {', '.join(self.one_of)}; got {got}")
 
 

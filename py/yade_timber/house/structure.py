@@ -82,13 +82,13 @@ class Structure:
 
     def sides(self, **nodes):
         """Walls on which a node (x=, y=) or a line (only one of them) lies."""
-        found = set()
+        walls = set()
         for axis, node in nodes.items():
             if node == 0:
-                found.add(LOW_SIDE[axis])
+                walls.add(LOW_SIDE[axis])
             if node == self.axes[axis].last:
-                found.add(HIGH_SIDE[axis])
-        return frozenset(found)
+                walls.add(HIGH_SIDE[axis])
+        return frozenset(walls)
 
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""
@@ -169,10 +169,10 @@ def _origin(table, local, others, name):
             )
         return np.array(place["origin"])
     if place["beside"] not in others:
-        known = ", ".join(others) or "none yet"
+        earlier = ", ".join(others) or "none yet"
         raise HouseError(
             f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this one; known:"
-            f" {known}"
+            f" {earlier}"
         )
     low, high = others[place["beside"]].area()
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])

@@ -108,10 +108,10 @@ def _nodes(structure, line, storey, at):
                      if (y if along == "x" else x) == at)
     for key in ("from", "to"):
         if line[key] not in on_line:
-            known = ", ".join(f"{node:g}" for node in on_line) or "none"
+            columns = ", ".join(f"{node:g}" for node in on_line) or "none"
             raise HouseError(
                 f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey"
-                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {known}"
+                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {columns}"
             )
     if line["from"] >= line["to"]:
         raise HouseError(

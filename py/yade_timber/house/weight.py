@@ -37,12 +37,12 @@ def floor_area(model, group, storey):
 
 def _storeys(model, group):
     members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
-    found, carried = {}, 0.0
+    levels, carried = {}, 0.0
     for storey in sorted(model.storey_levels[group], reverse=True):
         level = weight_of(sum(_share(e, storey) * e.mass for e in members))
         carried += level
-        found[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
-    return dict(reversed(found.items()))
+        levels[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
+    return dict(reversed(levels.items()))
 
 
 def _share(element, storey):

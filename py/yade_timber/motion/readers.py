@@ -132,10 +132,10 @@ def _find_by_prefix(prefix):
     rests = {name[len(start) :]: folder / name for name in names if name.startswith(start)}
     partial = []
     for _, pattern, _ in SUFFIXES:
-        found = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
-        if len(found) == 3:
-            return found
-        partial += [path.name for path in found]
+        files = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
+        if len(files) == 3:
+            return files
+        partial += [path.name for path in files]
     forms = " or ".join(form for _, _, form in SUFFIXES)
     seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
     raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")

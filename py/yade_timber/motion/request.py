@@ -77,9 +77,9 @@ class MotionRequest:
         if self.end is not None and self.end <= (self.start or 0.0):
             raise self.error(f"{name('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
-    def motion(self, dt, given=None):
-        """The GroundMotion before `scale`. dt [s]: for `resample`; given: in place of a record. Raises RecordError."""
-        first = self._processed(self._source() if given is None else turned(given, self.azimuth or 0.0), dt)
+    def motion(self, dt, measured=None):
+        """GroundMotion before `scale`. dt [s]: for `resample`; measured: instead of a record. Raises RecordError."""
+        first = self._processed(self._source() if measured is None else turned(measured, self.azimuth or 0.0), dt)
         if self.then is None:
             return first
         records, factors = zip(*following(self.then, "--then"))

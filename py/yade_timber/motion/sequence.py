@@ -80,7 +80,7 @@ def with_factor(entry):
 
 def following(text, name):
     """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records with their own factors. name: of the option"""
-    found = []
+    records = []
     for entry in text.split(";"):
         record, value = with_factor(entry)
         if not record or not 0 < value <= 1e6:
@@ -88,16 +88,16 @@ def following(text, name):
                 f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are"
                 " separated by ;"
             )
-        found.append((record, value))
-    return found
+        records.append((record, value))
+    return records
 
 
 def with_then(arguments):
     """Arguments of a command line with '--record A then B then C' written as '--record A --then B;C'."""
-    found, records, words = [], [], iter(arguments)
+    rest, records, words = [], [], iter(arguments)
     for word in words:
-        if word == "then" and found:
+        if word == "then" and rest:
             records.append(next(words, ""))
         else:
-            found.append(word)
-    return [*found, "--then", ";".join(records)] if records else found
+            rest.append(word)
+    return [*rest, "--then", ";".join(records)] if records else rest

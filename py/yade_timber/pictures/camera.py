@@ -72,7 +72,7 @@ def sun(points):
     right /= np.linalg.norm(right)
     axes = np.array([right, np.cross(light, right), -light])
     half = max(size[:2].max() / 2 + SHADED, size[2])
-    made = np.eye(4)
-    made[:3, :3] = axes / half
-    made[:3, 3] = -made[:3, :3] @ middle
-    return made, light
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes / half
+    matrix[:3, 3] = -matrix[:3, :3] @ middle
+    return matrix, light

@@ -64,14 +64,14 @@ def solid(element):
 
 def describe(model):
     """Description, counts and weight of a house, in three lines."""
-    found = model.counts()
-    snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
+    counts = model.counts()
+    snow = f", snow {counts['mass_snow'] / 1000:.1f} t" if counts["mass_snow"] else ""
     columns = " and ".join(f"{count} columns of {100 * size:g} cm"
-                           for size, count in sorted(found["columns_by_section"].items(), reverse=True))
-    walls = f", {found['walls']} bays with walls" if found["walls"] else ""
+                           for size, count in sorted(counts["columns_by_section"].items(), reverse=True))
+    walls = f", {counts['walls']} bays with walls" if counts["walls"] else ""
     description = " ".join(model.description.split())
     return (
-        f"{description}\n{columns}, {found['braces']} braces{walls},"
+        f"{description}\n{columns}, {counts['braces']} braces{walls},"
         f" {model.joints_text}{snow}\n{sentence(weigh(model))}"
     )
 

@@ -130,8 +130,8 @@ class Pictures:
 
 def corners(run, frame=None):
     """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
-    found = run.all_corners(frame)
-    return np.concatenate([found[k] for k in run.shown])
+    bodies = run.all_corners(frame)
+    return np.concatenate([bodies[k] for k in run.shown])
 
 
 def _write_mp4(path, make, form, _count):

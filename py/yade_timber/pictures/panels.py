@@ -89,16 +89,16 @@ def of_sheets(sheets):
     bays = {}
     for sheet in sheets:
         bays.setdefault(sheet.bay, []).append(sheet)
-    found = []
+    walls = []
     for layers in bays.values():
         (foot, head), (other_foot, other_head) = layers[0].ends
         broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        found.append(
+        walls.append(
             Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken),
                   opening)
         )
-    return found
+    return walls
 
 
 def axis_ends(start, corners):

@@ -165,17 +165,17 @@ def breaks(run):
 
 def main_event(run):
     """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
-    known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
+    times_of_fall = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
     falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
              if event.kind == kind]
     largest = [float(largest_drift(run))] if drifts(run) else []
-    return next((time for time in (*known, *falls, *largest) if time is not None), None)
+    return next((time for time in (*times_of_fall, *falls, *largest) if time is not None), None)
 
 
 def kinds(present):
     """[{kind, color}] of the kinds of elements that occur, from the roof downwards."""
-    known = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
-    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in known]
+    ordered = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
+    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
 
 
 def recorded(run):
@@ -225,10 +225,10 @@ def shapes(elements):
             "face_start": (frames.starts(faces), 1), "element_start": (frames.starts(elements.faces), 1)}
 
 
-def joints(found):
-    return {"a": (found.a, 1), "b": (found.b, 1),
-            "strength": (np.where(np.isfinite(found.strength), np.minimum(found.strength, 1e9), 0), 1),
-            "anchor": (found.anchor, 1e-4), "springs": (found.springs, 1), "damaged": (found.damaged, 1)}
+def joints(table):
+    return {"a": (table.a, 1), "b": (table.b, 1),
+            "strength": (np.where(np.isfinite(table.strength), np.minimum(table.strength, 1e9), 0), 1),
+            "anchor": (table.anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
 
 
 def series(run):
@@ -251,9 +251,9 @@ def drifts(run):
 
 
 def curves(run):
-    found = drifts(run)
-    time = run.history.time if found else np.empty(0)
-    values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
+    storey_drifts = drifts(run)
+    time = run.history.time if storey_drifts else np.empty(0)
+    values = np.transpose([values for _, _, values in storey_drifts]) if storey_drifts else np.empty((0, 0))
     motion = ({"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
               if run.motion else {})
     return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

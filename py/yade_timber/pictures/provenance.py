@@ -15,12 +15,12 @@ def provenance(frames, language=english):
 def parts(frames, language=english):
     """The parts of `provenance`, the most important first."""
     summary, words = frames.summary, language.ORIGIN
-    known, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
+    texts, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
     if summary:
         place = language.place_in_ensemble(summary.ensemble) if summary.ensemble else ""
-        known += [place, f"{words['step']} {summary.dt:g} s"]
+        texts += [place, f"{words['step']} {summary.dt:g} s"]
         programs += f", YADE {summary.versions.yade}"
-    return [*filter(None, (*known, programs))]
+    return [*filter(None, (*texts, programs))]
 
 
 def shaking(frames, words):

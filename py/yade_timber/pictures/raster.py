@@ -35,10 +35,10 @@ class Window:
         """(4, 4) from the world to OpenGL's clip space. near, far: ends of what is drawn towards the viewer [m]"""
         left, right, bottom, top = self.box
         rows = [(self.view.right, left, right), (self.view.up, bottom, top), (self.view.toward, near, far)]
-        made = np.eye(4)
+        matrix = np.eye(4)
         for k, (axis, low, high) in enumerate(rows):
-            made[k] = *(2 * np.array(axis, float) / (high - low)), -(low + high) / (high - low)
-        return made
+            matrix[k] = *(2 * np.array(axis, float) / (high - low)), -(low + high) / (high - low)
+        return matrix
 
 
 def even_density(density):

@@ -22,13 +22,13 @@ def once_per_thread(make):
     own = threading.local()
 
     @wraps(make)
-    def found(*arguments):
-        known = vars(own)
-        if arguments not in known:
-            known[arguments] = make(*arguments)
-        return known[arguments]
+    def kept(*arguments):
+        results = vars(own)
+        if arguments not in results:
+            results[arguments] = make(*arguments)
+        return results[arguments]
 
-    return found
+    return kept
 
 
 _started = []
@@ -62,12 +62,12 @@ def program(name):
     return context().program(**stages)
 
 
-def put(made, **values):
+def put(shader, **values):
     """Set those uniforms of a program that it uses; matrices (4, 4) by rows."""
     for name, value in values.items():
-        if name in made:
+        if name in shader:
             value = np.asarray(value, "f4")
-            made[name].write((value.T if value.shape == (4, 4) else value).tobytes())
+            shader[name].write((value.T if value.shape == (4, 4) else value).tobytes())
 
 
 class Topology:
@@ -99,10 +99,10 @@ class Topology:
         area = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
         normal = np.add.reduceat(area, np.cumsum(self.fan) - self.fan)
         normal /= np.maximum(np.sqrt((normal * normal).sum(1, keepdims=True)), 1e-30)
-        made = np.empty((len(places), 3, 6), "f4")
-        made[:, :, :3] = places
-        made[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
-        return made
+        corners = np.empty((len(places), 3, 6), "f4")
+        corners[:, :, :3] = places
+        corners[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
+        return corners
 
 
 class Bodies:
@@ -112,12 +112,12 @@ class Bodies:
         self.topology = topology
         self.content = np.zeros((len(topology.corners), 3, 9), "f4")
         self.content[:, :, 6:] = np.asarray(colors, "f4").reshape(-1, 3)[topology.body][:, None]
-        made = context()
-        self.corners = made.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
-        self.ends = made.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
-        self.faces = made.vertex_array(program(surface), [(self.corners, *LAYOUT)])
-        self.shadow = made.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
-        self.edges = made.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
+        gl = context()
+        self.corners = gl.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
+        self.ends = gl.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
+        self.faces = gl.vertex_array(program(surface), [(self.corners, *LAYOUT)])
+        self.shadow = gl.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
+        self.edges = gl.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
 
     def put(self, vertices):
         """Take over the vertices (V, 3) [m]."""
@@ -147,10 +147,10 @@ class Canvas:
     """A picture of (width, height) pixels in the making."""
 
     def __init__(self, width, height):
-        made = context()
+        gl = context()
         self.size = int(width), int(height)
         self.made = Image.new("RGB", self.size)
-        self.frame = made.framebuffer([made.renderbuffer(self.size, 4)], made.depth_renderbuffer(self.size))
+        self.frame = gl.framebuffer([gl.renderbuffer(self.size, 4)], gl.depth_renderbuffer(self.size))
 
     def begin(self, color):
         """Make it empty and draw on it from now on."""

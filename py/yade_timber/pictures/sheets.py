@@ -69,13 +69,13 @@ class Layout:
 def layout(form, count, box, result):
     """The Layout that draws `count` panels of a box [m] largest, with few places empty. result: subtitle"""
     width, height = box[1] - box[0], box[3] - box[2]
-    found = []
+    choices = []
     for columns in range(1, min(3, count) + 1):
         rows = -(-count // columns)
         across = (form.width - 2 * MARGIN - (columns - 1) * GAP) / columns / width
         up = ((form.height - heading_height(form.width, result) - FOOT) / rows - CAPTION - GAP) / height
-        found.append((min(across, up), columns - rows * columns, columns))
-    scale, _, columns = max(found)
+        choices.append((min(across, up), columns - rows * columns, columns))
+    scale, _, columns = max(choices)
     density = even_density(scale * form.dpi)
     panel = width * density / form.dpi, height * density / form.dpi
     sheet_width = max(columns * (panel[0] + GAP) - GAP + 2 * MARGIN, NARROWEST * form.width)

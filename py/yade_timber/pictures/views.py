@@ -122,8 +122,8 @@ def silhouette(start, view):
     box = box_of(view, start, [])
     window = Window(view, box, OUTLINE_PIXELS)
     mask = np.pad(covered([s for s in start if s.kind not in ("ground", "snow")], window), 1)[::-1].astype(float)
-    found = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
-    outers = [points[: ends[1]] for points, ends in zip(*found)]
+    contours = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
+    outers = [points[: ends[1]] for points, ends in zip(*contours)]
     outers = [line for line in outers
               if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)]
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
@@ -177,10 +177,10 @@ def scale_bar(ax, box, size):
 
 def kind_entries(solids):
     """Legend entries of the kinds of elements that occur."""
-    found = {s.kind: s.color for s in reversed(solids)}
-    names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in found else {})
-    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items()
-            if kind in found]
+    colours = {s.kind: s.color for s in reversed(solids)}
+    names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in colours else {})
+    return [Patch(facecolor=colours[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items()
+            if kind in colours]
 
 
 def legend(figure, solids, states, size):

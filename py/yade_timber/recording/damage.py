@@ -188,15 +188,15 @@ class DamageSurvey:
     def _snow(self):
         """[(snow element, roof element below it, (3,) centre of the snow in the roof's body frame at the start [m])]"""
         e = self.elements
-        found = []
+        layers = []
         for k in (k for k, kind in enumerate(e.kind) if kind == "snow"):
             roofs = [j for j, kind in enumerate(e.kind) if kind == "roof" and e.group[j] == e.group[k]]
             if roofs:
                 roof = min(roofs, key=lambda j: np.linalg.norm(e.position[j] - e.position[k]))
-                found.append(
+                layers.append(
                     (k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof]))
                 )
-        return found
+        return layers
 
     def fallen_snow(self, state):
         """Numbers of the roof elements that have lost their snow (SNOW_DROP, `_has_left`)."""

@@ -33,8 +33,8 @@ def read(folder):
     path = folder / NAME
     require_regular(path)
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return {**found, "finished": list(map(int, found["finished"])), "shown": int(found["shown"])}
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return {**content, "finished": list(map(int, content["finished"])), "shown": int(content["shown"])}
     except (OSError, ValueError, LookupError, TypeError) as problem:
         raise RunError(f"{path}: cannot be read as the results of an ensemble: {problem}") from None
 

@@ -89,8 +89,8 @@ class EventLog:
     def _observe_columns(self, time, state):
         """An event for the first lost column, and each time the number has doubled: a collapse gives few events."""
         total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
-        known = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
-        if lost >= max(1, 2 * known):
+        reported = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
+        if lost >= max(1, 2 * reported):
             self.add(time, ColumnsLost(lost, total))
 
     def _fallen_snow(self, roof):

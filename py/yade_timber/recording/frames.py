@@ -236,11 +236,11 @@ def save(path, frames):
 
 
 def _save_attributes(file, frames):
-    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
+    attributes = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
              "ended": frames.summary is not None}
     if frames.summary is not None:
-        known["summary"] = json.dumps(encode(frames.summary))
-    file.attrs.update(known)
+        attributes["summary"] = json.dumps(encode(frames.summary))
+    file.attrs.update(attributes)
 
 
 def _save_group(group, values):

@@ -83,15 +83,15 @@ def storeys(samples, masses, motion=None):
 
 def band_limited(time, values):
     """(F,) values at times (F,) [s] without what lies beyond BAND; gaps (NaN) stay."""
-    known = np.isfinite(values)
-    if known.sum() < 2:
+    finite = np.isfinite(values)
+    if finite.sum() < 2:
         return values
     grid = np.arange(time[0], time[-1] + STEP / 2, STEP)
     ends = round(PADDING / STEP)
-    padded = np.pad(np.interp(grid, time[known], values[known]), ends, "edge")
+    padded = np.pad(np.interp(grid, time[finite], values[finite]), ends, "edge")
     gain = 1 / np.sqrt(1 + (np.fft.rfftfreq(len(padded), STEP) / BAND[1]) ** (2 * ORDER))
     filtered = np.fft.irfft(gain * np.fft.rfft(padded), len(padded))[ends:-ends]
-    return np.where(known, np.interp(time, grid, filtered), values)
+    return np.where(finite, np.interp(time, grid, filtered), values)
 
 
 def ground_velocity(motion, time):

@@ -96,16 +96,15 @@ class Summary(Values):
     @classmethod
     def sample(cls, **changes):
         """For tests: House A with these changes. Verdicts follow from them, the main structure from the totals."""
-        found = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
+        summary = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
             **{"model": "A", **changes, "structures": {}}
         )
-        lost, main = found.columns.fallen + found.columns.loose, {"broken": found.broken.total,
-                                                                  "partly_broken": found.broken.partly_broken}
-        drifts = {"peak_drift": found.largest_drift()[0], "residual_drift": found.largest_drift("residual_drift")[0]}
-        structures = {"main": {**main, **drifts, "columns_lost": lost, "collapsed": found.collapsed},
-                      **changes.get("structures", {})}
-        found = found.changed(structures=structures)
-        return found.changed(verdict=changes.get("verdict", found.main.verdict))
+        main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
+        main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
+                 "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}
+        structures = {"main": main, **changes.get("structures", {})}
+        summary = summary.changed(structures=structures)
+        return summary.changed(verdict=changes.get("verdict", summary.main.verdict))
 
     @property
     def main(self):
@@ -125,8 +124,8 @@ class Summary(Values):
 
     def main_mode(self, when, direction):
         """The Mode 'before' or 'after' the run that moves most of the mass in a direction, None without one."""
-        found = getattr(self.quantities.modes, when)
-        modes = [mode for mode in found.modes if mode.direction == direction] if found else ()
+        state = getattr(self.quantities.modes, when)
+        modes = [mode for mode in state.modes if mode.direction == direction] if state else ()
         return max(modes, key=lambda mode: mode.mass_share[direction], default=None)
 
     def first_time(self, kind):

@@ -39,17 +39,17 @@ def town_frames(name, lots):
         [0, *np.cumsum(sizes)]
         for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed])
     )
-    made = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
-    made.time = [longest.time[k] for k in numbers]
+    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
-            getattr(made, key).append(values)
-    made.motion = _motion(placed)
-    made.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
-    made.history = History(("time [s]",), np.empty((0, 1)))
-    made.breaks = _breaks(placed, first_joints)
-    return made
+            getattr(town, key).append(values)
+    town.motion = _motion(placed)
+    town.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
+    town.history = History(("time [s]",), np.empty((0, 1)))
+    town.breaks = _breaks(placed, first_joints)
+    return town
 
 
 class _Lot:
@@ -111,8 +111,9 @@ def _motion(lots):
     first = min((lot for lot in lots if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
     if first is None:
         return None
-    given = first.run.motion
-    return frames.Motion(given.dt, given.start, given.acceleration @ first.axes.T, given.displacement @ first.axes.T)
+    motion = first.run.motion
+    axes = first.axes.T
+    return frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
 
 
 def _breaks(lots, first_joints):

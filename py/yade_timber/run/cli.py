@@ -38,17 +38,17 @@ def parser(script, file=None, loads=""):
         f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"
         " --out."
     )
-    made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
-    made._negative_number_matcher = NUMBER
+    reader = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
+    reader._negative_number_matcher = NUMBER
     offered = {each: field for each, field in options(RunOptions).items()
                if each != "house" and (file or each not in BY_SCRIPT)}
     if file:
-        made.add_argument(file, metavar=file.upper(),
+        reader.add_argument(file, metavar=file.upper(),
                           help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"])
     for group in ("main", *GROUPS):
-        place = made if group == "main" else made.add_argument_group(GROUPS[group])
+        place = reader if group == "main" else reader.add_argument_group(GROUPS[group])
         add_options(place, [field for field in offered.values() if field.metadata["group"] == group])
-    return made
+    return reader
 
 
 def read(house, earthquake, snow, argv):
@@ -65,13 +65,13 @@ def read_house(argv):
 
 def read_town(argv):
     """RunOptions of scripts/town.py, which runs a town. Raises RunError, RecordError."""
-    given = _checked(RunOptions(**parser("town", "town").parse(argv)))
+    request = _checked(RunOptions(**parser("town", "town").parse(argv)))
     for name in ("export", "ensemble", "disturb", "report"):
-        if getattr(given, name):
+        if getattr(request, name):
             raise RunError(f"{command_option(name)}: not for towns; run a house with scripts/house.py")
-    return given
+    return request
 
 
-def _checked(given):
-    given.check()
-    return given
+def _checked(request):
+    request.check()
+    return request

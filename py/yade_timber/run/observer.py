@@ -135,15 +135,15 @@ def contact_points():
 
 
 class Observer:
-    """Notes events, peak drifts of structures and first natural modes of the run. known: `progress` of a checkpoint"""
+    """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
-    def __init__(self, model, known=None):
+    def __init__(self, model, progress=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
-        self.log = EventLog(self.survey, known["events"] if known else ())
-        self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
-        self.modes = decode(ModesAt | None, known["modes"]) if known else None
-        self.upright = known["upright"] if known else (0.0, [])
+        self.log = EventLog(self.survey, progress["events"] if progress else ())
+        self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
+        self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
+        self.upright = progress["upright"] if progress else (0.0, [])
         self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):

@@ -69,10 +69,10 @@ class Recorder:
             frames.save(self.path, self.frames)
             self.described = True
 
-    def finish(self, found):
-        """Write all frames and all that is known at the end into one file. found: the summary. Raises OSError."""
+    def finish(self, summary):
+        """Write all frames and all that is known at the end into one file. summary: Summary. Raises OSError."""
         monitor = find_engine(yw.HouseMonitor)
-        self.frames.summary = found
+        self.frames.summary = summary
         self.frames.history = History(monitor.columns(), monitor.rows)
         self.frames.breaks = observer.describe_breaks()
         frame_log.add_frames(self.frames, self.log.records())

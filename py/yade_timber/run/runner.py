@@ -106,10 +106,10 @@ class Run:
             if self.recorder:
                 self.recorder.resume()
 
-    def _observe(self, known=None):
-        """Attach observer and recorder to the scene. known: `progress` of a checkpoint."""
+    def _observe(self, progress=None):
+        """Attach observer and recorder to the scene. progress: of a checkpoint."""
         self.identity = identity(self.origin)
-        self.observer = Observer(self.model, known)
+        self.observer = Observer(self.model, progress)
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)

@@ -99,10 +99,10 @@ class TownRun:
             with self._of(number) as run:
                 stops.append(run.next_stop())
         since = time.perf_counter()
-        made = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
+        outcomes = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
         self.wall_s += time.perf_counter() - since
         left = []
-        for number, (seconds, error) in zip(active, made):
+        for number, (seconds, error) in zip(active, outcomes):
             with self._of(number) as run:
                 if error:
                     raise RunError(f"{error}; the run stops at {O.time:.4f} s without results")
@@ -161,14 +161,14 @@ class TownRun:
         """Text of houses.csv."""
         rows = []
         for lot, run in zip(self.town.lots, self.runs):
-            found, scenario = run.summary, run.scenario
-            drift, residual = found.largest_drift()[0], found.largest_drift("residual_drift")[0]
-            place = lot.name, found.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
-            times = ["" if time is None else time for time in (found.tilt_time_s, found.collapse_time_s)]
-            joints, sheets = found.joints_and_sheets
+            summary, scenario = run.summary, run.scenario
+            drift, residual = summary.largest_drift()[0], summary.largest_drift("residual_drift")[0]
+            place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
+            times = ["" if time is None else time for time in (summary.tilt_time_s, summary.collapse_time_s)]
+            joints, sheets = summary.joints_and_sheets
             rows.append(
-                (*place, found.verdict, found.diagnosis.iw, drift, residual, *times, *joints, *sheets,
-                 round(run.wall_s, 3), sentence(found))
+                (*place, summary.verdict, summary.diagnosis.iw, drift, residual, *times, *joints, *sheets,
+                 round(run.wall_s, 3), sentence(summary))
             )
         return csv_text(COLUMNS, rows)
 

@@ -28,8 +28,8 @@ def complete(script, options):
         raise RunError(f"--ensemble: {script}: no such script, which the runs start")
     report = (lambda _line: None) if options.quiet else lambda line: print(line, flush=True)
     planned = tasks(script.stem, options)
-    found = run_missing(planned, script.resolve().parent, options.jobs, report)
-    done = {k: found[task] for k, task in enumerate(planned, 1) if found[task] is not None}
+    summaries = run_missing(planned, script.resolve().parent, options.jobs, report)
+    done = {k: summaries[task] for k, task in enumerate(planned, 1) if summaries[task] is not None}
     errors = {k: task.error or _reason(task) for k, task in enumerate(planned, 1) if k not in done}
     if len(done) >= FEWEST:
         report(_write(options, planned, done, errors))

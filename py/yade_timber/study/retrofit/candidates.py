@@ -36,16 +36,16 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     description = load_house(house)
     model = build_house(description, check=False)
     measures = in_bays if group == "bay" else in_walls
-    found = []
+    chosen = []
     if "brace" in kinds:
-        found += measures(model, free_bays(description))
+        chosen += measures(model, free_bays(description))
     if "wall" in kinds:
-        found += measures(model, free_wall_bays(description, SHEATHING))
+        chosen += measures(model, free_wall_bays(description, SHEATHING))
     if "fitting" in kinds:
-        found += fittings(description, model)
+        chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
-        found.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
-    return [candidate for candidate in found if any(text in candidate.name for text in texts)]
+        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
+    return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
 
 
 def fittings(description, model):

@@ -36,10 +36,10 @@ def records(folder, target=None, units=None):
                    if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
     if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
-    found = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
+    named = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
     return [(name, {"record": record, **stated, **window(record, units), **_text(target)})
-            for name, record in found.items()]
+            for name, record in named.items()]
 
 
 def _is_other_table(path):
@@ -61,10 +61,10 @@ def _record(prefix, paths):
     if len(paths) == 1:
         return paths[0].stem, str(paths[0])
     try:
-        known = set(find_files(prefix)) == set(paths)
+        is_prefix = set(find_files(prefix)) == set(paths)
     except RecordError:
-        known = False
-    return prefix.name, str(prefix) if known else ",".join(map(str, paths))
+        is_prefix = False
+    return prefix.name, str(prefix) if is_prefix else ",".join(map(str, paths))
 
 
 def window(record, units=None):
