@@ -252,20 +252,20 @@ def arias(motion):
     return {"ew": float(each[0]), "ns": float(each[1]), "ud": float(each[2]), "total": float(each.sum())}
 
 
-def significant_duration(motion):
-    """Time in which the Arias intensity (three components together) grows from 5 to 95 % of its final value. [s]
+def significant_duration(motion, start=0.05, end=0.95):
+    """Time in which the Arias intensity (three components together) grows from `start` to `end` of its final value. [s]
     """
     growth = _energy(motion).sum(axis=1)
     if growth[-1] <= 0.0:
         return 0.0
-    first, last = np.searchsorted(growth, np.array([0.05, 0.95]) * growth[-1])
+    first, last = np.searchsorted(growth, np.array([start, end]) * growth[-1])
     return float((last - first) * motion.dt)
 
 
-def onset(motion):
-    """Onset of strong shaking: the Arias intensity reaches 5 % of its final value. [s]; None without shaking."""
+def onset(motion, share=0.05):
+    """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
     growth = _energy(motion).sum(axis=1)
-    return float(np.searchsorted(growth, 0.05 * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
+    return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 
 
 def _energy(motion):

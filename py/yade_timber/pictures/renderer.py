@@ -4,15 +4,16 @@
 Soft lines along all edges smooth the outlines of faces. World frame: x east, y north, z up [m].
 """
 import threading
-from functools import wraps
+from functools import cache, wraps
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from ..base.errors import RunError
-from . import shaders
 
 PACKAGES = "python3-moderngl libegl1 libegl-mesa0 libgl1-mesa-dri"
+SHADERS = Path(__file__).resolve().parents[1] / "data" / "shaders.glsl"
 LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
 
@@ -54,12 +55,19 @@ def context():
         ) from None
 
 
+@cache
+def sections():
+    """{NAME_STAGE: code} of SHADERS; the first line of a section has its names."""
+    parts = (part.partition("\n") for part in SHADERS.read_text(encoding="utf-8").split("\n//// ")[1:])
+    return {name: code for names, _, code in parts for name in names.split()}
+
+
 @once_per_thread
 def program(name):
-    """The compiled program of the shaders NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT."""
-    stages = {f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None)
-              for stage in ("vertex", "geometry", "fragment")}
-    return context().program(**stages)
+    """The compiled program of the sections NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT, with NAME defined."""
+    codes = {stage: sections().get(f"{name}_{stage.upper()}") for stage in ("vertex", "geometry", "fragment")}
+    return context().program(**{f"{stage}_shader": code and f"#version 330\n#define {name}\n{code}"
+                                for stage, code in codes.items()})
 
 
 def put(shader, **values):
