@@ -3,10 +3,9 @@
 import numpy as np
 
 from ..base import colors
-from ..recording import ensemble
 from ..text.english import DRIFT_LINES, direction_name
 from .curves import DRIFT_RANGE, draw_events, draw_levels, label
-from .figures import A4, footer, heading, heading_height, new_figure, save
+from .figures import A4, footer, heading, heading_height, new_figure
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
@@ -16,11 +15,6 @@ DPI = 200
 QUANTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 LEGEND_HEIGHT = 0.42
 """Of the legend and of the labels of events above the axes. [inch]"""
-
-
-def write(stem, frames, folder, endings):
-    """Write `stem` with each ending; returns the paths. frames: of the run that is shown. Raises OSError, RunError."""
-    return save(page(frames, ensemble.histories(folder), DPI), stem, endings)
 
 
 @default_style()

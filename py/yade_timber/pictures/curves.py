@@ -8,7 +8,7 @@ from ..base import colors
 from ..base.energy_terms import DISSIPATED, ELASTIC
 from ..recording.walls import of_walls, sheet_states
 from ..text.english import DRIFT_LINES
-from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
+from .figures import A4, drawable, footer, heading, heading_height, new_figure
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
@@ -24,11 +24,6 @@ LABEL_PLACE = -0.108
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
 JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE,
                "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
-
-
-def write(stem, frames, endings):
-    """Write the page of an ended run as `stem` with each ending; returns the paths. Raises OSError."""
-    return save(page(frames, DPI), stem, endings)
 
 
 @default_style()

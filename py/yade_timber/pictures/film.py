@@ -5,7 +5,6 @@ Positions are interpolated between recorded frames, the ground moves as recorded
 The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the
 processor (SwiftShader), a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
 """
-import shutil
 import subprocess
 import threading
 from dataclasses import dataclass, replace
@@ -57,7 +56,9 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     if not all(len(run.time) for run in runs):
         raise RunError("a run without frames")
     end = max(map(last_change, runs)) if end is None else min(end, max(run.time[-1] for run in runs))
-    begin = _default_begin(runs, end) if begin is None else begin
+    if begin is None:
+        begin = min(first_shown(run) for run in runs)
+        begin = begin if begin < end else min(run.time[0] for run in runs)
     if not begin < end:
         raise RunError(f"a film from {begin:g} s to {end:g} s has no pictures")
     form = replace(form, width=form.width // len(runs) * len(runs))
@@ -87,17 +88,6 @@ def picture_times(runs, form, begin, end):
 def images(runs, view, form, times):
     """Images (of Pillow) at times [s], one after the other; each may reuse the memory of the one before."""
     yield from map(Pictures(runs, view, form).at, times)
-
-
-def _default_begin(runs, end):
-    """Shortly before the shaking, or the start of the runs for a film that ends before. [s]"""
-    shaking = min(first_shown(run) for run in runs)
-    return shaking if shaking < end else min(run.time[0] for run in runs)
-
-
-def default_name():
-    """Name of a film without --out: MP4 where ffmpeg is installed."""
-    return "film.mp4" if shutil.which("ffmpeg") else "film.webp"
 
 
 class Pictures:

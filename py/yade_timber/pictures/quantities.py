@@ -15,7 +15,7 @@ from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
 from ..text.english import direction_name, period_text, sentence
-from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure, save
+from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
 from .style import default_style
 
 DPI = 150
@@ -47,11 +47,6 @@ def read(folder):
     folder = Path(folder)
     tables = (rows(folder / name) for name in (JOINTS, COLUMNS))
     return Results(Summary.read(folder), History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
-
-
-def write(stem, results, endings):
-    """Write `stem` with each ending; returns the paths. Raises OSError."""
-    return save(page(results, DPI), stem, endings)
 
 
 @default_style()

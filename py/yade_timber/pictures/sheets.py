@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
-                      new_figure, save)
+                      new_figure)
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
@@ -82,11 +82,6 @@ def layout(form, count, box, result):
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
 
 
-def write_sheet(stem, frames, view, endings):
-    """Write `stem` with each ending: the key times in one view. Returns the paths. Raises OSError."""
-    return save(sheet(frames, view, PRINT), stem, endings)
-
-
 @default_style()
 def sheet(frames, view, form):
     """Figure with the key times of a run in one view."""
@@ -124,11 +119,6 @@ def fitted_title(ax, time, reason, width):
 def result(frames):
     """Result of a run that has ended, in one sentence; else an empty text."""
     return sentence(frames.summary) if frames.summary else ""
-
-
-def write_end(stem, frames):
-    """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
-    return save(both_views(frames, -1, END_DPI), stem)
 
 
 @default_style()

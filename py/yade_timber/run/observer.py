@@ -3,11 +3,13 @@
 
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
 """
+import json
 import math
 
 import numpy as np
 import yade.wrapper as yw
 
+from .. import host
 from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
 from ..plugin import compiled
@@ -80,6 +82,12 @@ def describe_breaks():
     """Columns of frames.h5's /breaks."""
     entries = list(find_engine(yw.JointEngine).breaks)
     return {name: [getattr(entry, name) for entry in entries] for name in BREAKS}
+
+
+def versions():
+    """{'yade': version of the running YADE, 'package': version with which the module was built}."""
+    build = json.loads(compiled.build_record()[len(host.RECORD_MARK):])
+    return {"yade": host.host_facts()["yade"], "package": build["package"]}
 
 
 def element_numbers(model):

@@ -10,7 +10,6 @@ from ..recording.append_log import AppendLog
 from ..recording.history import History
 from ..scene.engines import find_engine
 from . import observer
-from .versions import versions
 
 REMEDY = "continue with --no-frames, or run without --resume to start anew"
 O = yw.Omega()
@@ -21,7 +20,7 @@ class Recorder:
 
     def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
-        version = versions()["package"]
+        version = observer.versions()["package"]
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
                                     motion=observer.describe_motion(), run=run)
         self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []

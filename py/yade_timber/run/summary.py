@@ -22,7 +22,6 @@ from ..scene import queries
 from ..scene.engines import find_engine
 from ..text.english import sentence
 from . import observer, quantities
-from .versions import versions
 
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
@@ -63,7 +62,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
         peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
-        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**versions()),
+        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
         made_from=made_from
     )
