@@ -105,16 +105,11 @@ class Polyhedron:
 
 def _face(points, normal):
     """Face with its points ordered around `normal` and the normal recomputed from them (Newell)."""
-    points = points[np.argsort(_angles(points, normal))]
+    (u, v), local = plane_axes(normal), points - points.mean(0)
+    points = points[np.argsort(np.arctan2(local @ v, local @ u))]
     normal = cross(points, following(points)).sum(0)
     normal = normal / np.linalg.norm(normal)
     return Face(normal, float(np.mean(points @ normal)), points)
-
-
-def _angles(points, normal):
-    u, v = plane_axes(normal)
-    local = points - points.mean(0)
-    return np.arctan2(local @ v, local @ u)
 
 
 def plane_axes(normal):

@@ -88,15 +88,11 @@ class HipPlan(Plan):
     def outline(self, side):
         """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
         opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
-        hip_end = self._is_hip_end(side)
+        length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
+        hip_end = length >= (self.high - self.low).max() - 1e-9  # across the ridge; all four of a square plan
         planes = [self.nearer(side, other) for other in OUTWARD
                   if other != side and not (hip_end and other == opposite)]
         return planes + (self._corner_cuts(side) if hip_end else [])
-
-    def _is_hip_end(self, side):
-        """Hip ends are the two sides across the ridge; on a square plan, all four."""
-        length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
-        return length >= (self.high - self.low).max() - 1e-9
 
     def _corner_cuts(self, side):
         d, e = self.distance(side)

@@ -192,14 +192,12 @@ class _Pulses:
 
     def acceleration(self, parameters):
         """EW and NS accelerations of the pulses. (n, 2) [m/s2]"""
-        main, second, slow = (_pulse(*self._shape(k), parameters.cycles if k == 0 else 2.2) for k in range(3))
+        shapes = zip(self.times, self.periods, self.phases, (parameters.cycles, 2.2, 2.2))
+        main, second, slow = (_pulse(*shape) for shape in shapes)
         ew = main + 0.35 * second + 0.30 * slow
         delayed = _pulse(self.times[0] + 0.16, self.periods[0], self.phases[0], parameters.cycles)
         ns = self.signs[0] * parameters.share * delayed + self.signs[1] * 0.65 * second + self.signs[2] * 0.35 * slow
         return parameters.pulse * np.column_stack([ew, ns])
-
-    def _shape(self, k):
-        return self.times[k], self.periods[k], self.phases[k]
 
 
 def _pulse(centre, period, phase, cycles):

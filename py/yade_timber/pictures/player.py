@@ -81,14 +81,10 @@ def packed(source, run):
     if not len(run.time):
         raise RunError(f"{source}: it has no frames")
     try:
-        return pack(info(run, peaks_of(source, run)), arrays(run))
+        own = run.summary and Path(source).name == frames.NAME  # then the tables of the run are beside it
+        return pack(info(run, peaks.read(Path(source).parent) if own else peaks.Peaks()), arrays(run))
     except ValueError as problem:
         raise RunError(f"{source}: {problem}") from None
-
-
-def peaks_of(source, run):
-    """Peaks of an ended run from the tables in its folder; empty when `source` is not the frames of such a folder."""
-    return peaks.read(Path(source).parent) if run.summary and Path(source).name == frames.NAME else peaks.Peaks()
 
 
 # --- texts ------------------------------------------------------------------------------------------------------------

@@ -34,7 +34,8 @@ class Stage:
     def __init__(self, frames, size, camera, light):
         self.frames, self.camera, (self.sun, self.light) = frames, camera, light
         e = frames.elements
-        self.numbers = nearest_first(frames, camera.eye)
+        distance = np.linalg.norm(e.position[frames.shown] - camera.eye, axis=1)
+        self.numbers = np.asarray(frames.shown)[np.argsort(distance, kind="stable")]  # hidden faces cost no shading
         places = e.position[self.numbers, :2]
         self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(
             1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE
@@ -133,12 +134,6 @@ class Stage:
             self.points.render(mode=gl.POINTS, vertices=len(points))
         gl.depth_func = "<"
         self.canvas.frame.depth_mask = True
-
-
-def nearest_first(frames, eye):
-    """Numbers of the elements shown, nearest to an eye (3,) [m] first: hidden faces cost no shading."""
-    distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
-    return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
 
 
 def frame_before(frames, time):

@@ -26,7 +26,7 @@ SETTLED = 1.0
 """Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
 
 BREAKS = ("time", "joint", "spring", "cause", "force")
-"""Attributes of a JointBreak."""
+"""Attributes of a JointBreak, columns of frames.h5's /breaks."""
 
 O = yw.Omega()
 
@@ -76,12 +76,6 @@ def describe_motion():
         return None
     applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
     return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
-
-
-def describe_breaks():
-    """Columns of frames.h5's /breaks."""
-    entries = list(find_engine(yw.JointEngine).breaks)
-    return {name: [getattr(entry, name) for entry in entries] for name in BREAKS}
 
 
 def versions():

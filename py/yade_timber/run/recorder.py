@@ -70,10 +70,10 @@ class Recorder:
 
     def finish(self, summary):
         """Write all frames and all that is known at the end into one file. summary: Summary. Raises OSError."""
-        monitor = find_engine(yw.HouseMonitor)
+        monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
         self.frames.summary = summary
         self.frames.history = History(monitor.columns(), monitor.rows)
-        self.frames.breaks = observer.describe_breaks()
+        self.frames.breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
         frame_log.add_frames(self.frames, self.log.records())
         frames.save(self.path, self.frames)
         remove(self.log.path)

@@ -139,13 +139,6 @@ def principal_body(vertices, density, radius, **look):
     return body
 
 
-def scale_mass(body, factor):
-    """Multiply mass and inertia of a body by a factor [-], as for a member that carries a load along its whole volume.
-    """
-    body.state.mass *= factor
-    body.state.inertia *= factor
-
-
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):
     """Rectangular parallelepiped; append it to ``O.bodies``.
 
@@ -197,10 +190,3 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
         body = O.bodies[arguments.present_ids("set_velocity", body)[0]]
     body.state.vel = arguments.vector("velocity", velocity, "m/s")
     body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")
-    body.state.angMom = angular_momentum(body)
-
-
-def angular_momentum(body):
-    """I omega of a body, world frame. [kg m2/s]"""
-    local = body.state.ori.conjugate() * body.state.angVel
-    return body.state.ori * Vector3(*(local[k] * body.state.inertia[k] for k in range(3)))

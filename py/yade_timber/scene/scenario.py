@@ -94,7 +94,9 @@ def add_elements(model):
     for element in model.elements:
         body = bodies.polyhedron(element.vertices, materials[element.material], fixed=element.fixed, name=element.name,
                                  kind=element.kind, color=KINDS.get(element.kind))
-        bodies.scale_mass(body, element.density / model.materials[element.material]["density"])
+        loaded = element.density / model.materials[element.material]["density"]  # by what it carries
+        body.state.mass *= loaded
+        body.state.inertia *= loaded
         ids[element.name] = O.bodies.append(body)
     return ids
 

@@ -94,7 +94,7 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
 
 def _run_all(tasks, scripts, jobs, report):
     waiting, running, ended = deque(tasks), [], 0
-    previous = signal.signal(signal.SIGTERM, _interrupt)
+    previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
@@ -107,10 +107,6 @@ def _run_all(tasks, scripts, jobs, report):
     finally:
         _stop(running)
         signal.signal(signal.SIGTERM, previous)
-
-
-def _interrupt(*_):
-    raise KeyboardInterrupt
 
 
 def _stop(processes):
