@@ -86,18 +86,18 @@ def draw_drifts(axis, history, direction, name):
     curves = [history.drift(storey, direction) for storey in history.storeys]
     for storey, curve, (color, dashes) in zip(history.storeys, curves, cycle(STOREYS)):
         axis.plot(history.time, curve, color=color, ls=dashes, lw=0.9, label=f"storey {storey}")
-    reach = min(DRIFT_RANGE, max(1.2 * np.nanmax(np.abs(curves)), 1.25 * DRIFT_LINES[0][0]))
-    axis.set_ylim(-reach, reach)
-    draw_levels(axis, [(level, text) for level, text in DRIFT_LINES if level < reach], reach)
+    draw_levels(axis, np.nanmax(np.abs(curves)))
     label(axis, f"storey drift {name} [-]")
     axis.legend(loc="lower left", bbox_to_anchor=(1.01, -0.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
-def draw_levels(axis, levels, reach):
-    """Dotted lines at drift levels [(drift, text)], their labels moved apart. reach: upper end of the axis [-]"""
+def draw_levels(axis, largest):
+    """Limits for drifts up to the largest one [-], dotted lines at the drift levels, their labels moved apart."""
+    reach = min(DRIFT_RANGE, max(1.2 * largest, 1.25 * DRIFT_LINES[0][0]))
+    axis.set_ylim(-reach, reach)
     points = axis.get_position().height * axis.figure.get_size_inches()[1] * 72 / (2 * reach)  # [pt] per drift
     lowest = -np.inf
-    for level, text in levels:
+    for level, text in (line for line in DRIFT_LINES if line[0] < reach):
         for sign in (-1, 1):
             axis.axhline(sign * level, color="black", lw=0.7, ls=":")
         lowest = max(lowest + LABEL_GAP, level * points)

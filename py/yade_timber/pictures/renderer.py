@@ -157,7 +157,7 @@ class Canvas:
     def __init__(self, width, height):
         gl = context()
         self.size = int(width), int(height)
-        self.made = Image.new("RGB", self.size)
+        self.whole = Image.new("RGB", self.size)
         self.frame = gl.framebuffer([gl.renderbuffer(self.size, 4)], gl.depth_renderbuffer(self.size))
 
     def begin(self, color):
@@ -172,8 +172,8 @@ class Canvas:
 
     def image(self):
         """RGB image of Pillow."""
-        self.made.frombytes(self.frame.read(components=4), "raw", ("RGBX", 0, -1))
-        return self.made
+        self.whole.frombytes(self.frame.read(components=4), "raw", ("RGBX", 0, -1))
+        return self.whole
 
     def depths(self):
         """(height, width) float32, 0 near to 1 far, the first row at the top."""
