@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, fonts, key_times, raster, sheets, snapshot, views
+from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, snapshot, views
 from yade_timber.pictures.raster import Window
 from yade_timber.pictures.views import FRONT, SIDE, Solid
 from yade_timber.recording import frames as recorded
