@@ -324,6 +324,59 @@ TEST(Stiff, MassRatioOfAMillion)
 		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
 
+namespace {
+
+/// A heap in which every second body is a thousand times as heavy; its points have some energy to return.
+Heap unevenHeap(unsigned seed)
+{
+	Heap heap(seed, 7, 16, 1e3, 0.5, 1e5);
+	for (size_t k = 1; k < heap.bodies.size(); k += 2) {
+		heap.bodies[k].inverseMass *= 1e-3;
+		heap.bodies[k].inverseInertia *= 1e-3;
+	}
+	for (HeapPoint& p : heap.points)
+		p.energy = p.shearEnergy = 1;
+	return heap;
+}
+
+/// Energy that the points of a solved heap have returned in the normal direction beyond their accounts. [J]
+double excessOf(const Heap& heap)
+{
+	double excess = 0;
+	for (const HeapPoint& p : heap.points) {
+		const SolverBody &a = heap.bodies[size_t(p.bodyA)], &b = heap.bodies[size_t(p.bodyB)];
+		const Vec3 before = relativeVelocity<double>(p.armA, p.armB, a.velocity, a.spin, b.velocity, b.spin),
+		           after
+		        = relativeVelocity<double>(p.armA, p.armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		excess += std::max(0., p.impulse.dot(p.normal) * (before + after).dot(p.normal) / 2 - p.energy);
+	}
+	return excess;
+}
+
+} // namespace
+
+/// Accelerated sweeps converge where 500 plain ones do not, and no energy is returned twice.
+TEST(Accelerated, LightMembersBetweenHeavyOnes)
+{
+	int slow = 0, late = 0;
+	double plainExcess = 0, excess = 0, energy = 0;
+	for (unsigned seed = 0; seed < 40; ++seed) {
+		Heap plain = unevenHeap(seed), heap = plain;
+		const int sweeps = solveContacts(plain.bodies, plain.points, 5e-4, plainSweeps, 1e-3);
+		if (sweeps < slowSweeps) continue;
+		++slow;
+		late += solveContacts(heap.bodies, heap.points, 5e-4, 5 * plainSweeps, 1e-3) >= 5 * plainSweeps;
+		energy += kineticEnergy(heap.bodies);
+		plainExcess += excessOf(plain);
+		excess += excessOf(heap);
+	}
+	printf("slow %d late %d plain %g excess %g energy %g\n", slow, late, plainExcess, excess, energy);
+	EXPECT_GT(slow, 10);
+	EXPECT_EQ(late, 0);
+	EXPECT_GT(plainExcess, 1e-4 * energy);
+	EXPECT_LT(excess, returnTolerance * energy);
+}
+
 /// The warm start of a contact that has just become stiff may be 1e4 times the impulse of the step. The threshold of
 /// the sweeps follows the impulses; that of the first sweep alone would end them with errors of this size.
 TEST(Coupled, ALargeWarmStartDoesNotEndTheSweeps)
