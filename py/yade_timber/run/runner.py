@@ -14,7 +14,7 @@ from ..recording import ensemble, frame_log, frames
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
-from ..text.english import sentence
+from ..text.english import loads, sentence
 from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
@@ -117,6 +117,7 @@ class Run:
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
+        self.report(titled)
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
@@ -326,7 +327,5 @@ def clear(options, *more):
 
 def title(scenario, model):
     """Title of the pictures: house and loads."""
-    shaken = "earthquake" if scenario.motion is not None else ""
-    snow = f"{scenario.snow_depth:g} m of snow" if scenario.snow_depth > 0 else ""
     damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
-    return f"House {model.name}: {' and '.join(filter(None, (shaken, snow))) or 'own weight only'}{damped}"
+    return f"House {model.name}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"
