@@ -4,6 +4,7 @@ import math
 import signal
 import time
 from contextlib import contextmanager
+from shlex import quote
 
 import yade.wrapper as yw
 
@@ -272,6 +273,8 @@ class Run:
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(found))
         self.report("written: " + ", ".join(str(path) for path in written))
+        if not self.options.no_frames:
+            self.report(f"next: {command_for_pictures(self.options)}")
         if cut_off is None and found.cut_off:
             raise PhysicsError(found.cut_off)
 
@@ -309,6 +312,12 @@ def draw(folder, views, page):
 
         written += report.write(folder)
     return written
+
+
+def command_for_pictures(options):
+    """Command that shows a recorded run."""
+    page = options.folder / all_pictures.PLAYER
+    return f"xdg-open {quote(str(page))}" if options.views else options.door.pictures(options.folder)
 
 
 def clear(options, *more):
