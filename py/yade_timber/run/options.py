@@ -4,6 +4,7 @@ fields. Needs no YADE.
 """
 from dataclasses import dataclass, field
 from pathlib import Path
+from shlex import quote
 from typing import Callable
 
 from ..base.errors import RunError, one_line
@@ -32,11 +33,12 @@ ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repea
 @dataclass(frozen=True)
 class Door:
     """Where options come from. name: function that names an option in messages; earthquake: remedy for options of an
-    earthquake without one
+    earthquake without one; pictures: function that gives the command for the pictures of a folder
     """
 
     name: Callable = command_option
     earthquake: str = "add --quake or --record FILE"
+    pictures: Callable = lambda folder: f"scripts/show/show_run.py {quote(str(folder))}"
 
 
 SCRIPT = Door(earthquake="use a script of a run with an earthquake")
