@@ -68,7 +68,7 @@ public:
 		"(TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
 		"the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
+		((int, sweeps, 2500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
 			"springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's "
 			"explicit springs and dashpots, stable only for very small steps. [-]"))
 		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its "

@@ -154,11 +154,12 @@ namespace {
 		return kinds;
 	}
 
-	[[noreturn]] void refusePair(
-	        const Body& a, const Body& b, const char* functor, const string& classA, const string& classB)
+	[[noreturn]] void refusePair(const Body& a, const Body& b, const char* functor, const string& classA,
+	        const string& classB, const string& remedy = "")
 	{
 		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId())
-		        + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB);
+		        + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB
+		        + remedy);
 	}
 
 	/// Null if there is no law for the two materials.
@@ -185,8 +186,14 @@ namespace {
 	void checkPair(const InteractionLoop& loop, const Body& a, const Body& b)
 	{
 		const string shapeA = a.shape->getClassName(), shapeB = b.shape->getClassName();
-		if (!dispatches(loop.geomDispatcher->functors, shapeA, shapeB)) refusePair(a, b, "Ig2", shapeA, shapeB);
-		if (!roundedShape(a) || !roundedShape(b)) return; // laws of other packages
+		const bool areRounded = roundedShape(a) && roundedShape(b);
+		if (!dispatches(loop.geomDispatcher->functors, shapeA, shapeB))
+			refusePair(a, b, "Ig2", shapeA, shapeB,
+			        areRounded ? ""
+			                   : ". In place of " + (roundedShape(a) ? shapeB : shapeA)
+			                        + " take yade_timber.box(...) or yade_timber.polyhedron(...), "
+			                          "with fixed=True for the ground");
+		if (!areRounded) return; // laws of other packages
 		const string materialA = a.material->getClassName(), materialB = b.material->getClassName();
 		const ContactLaw* law = findLaw(materialA, materialB);
 		if (!law || !hasIp2(loop, *law)) refusePair(a, b, "Ip2", materialA, materialB);

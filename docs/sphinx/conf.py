@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sphinx: the guides (docs/*.md) and the API pages. scripts/build_docs starts it inside YADE, where all classes can "
-  "be imported."""
+"""Sphinx: the guides (docs/*.md) and the API pages. scripts/build_docs starts it inside YADE, where all classes can be
+imported.
+"""
 import sys
 from pathlib import Path
 

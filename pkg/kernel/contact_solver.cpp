@@ -33,6 +33,7 @@ void ContactSolver::begin(std::vector<SolverBody>& all, double step, int sweepLi
 	pairs.clear();
 	joints.clear();
 	weighted.resize(all.size());
+	freeBodies.clear();
 	++solveCount;
 	momentum = 0;
 }
@@ -46,9 +47,10 @@ void ContactSolver::startBody(int k)
 	weighted[k] = {};
 	weighted[k].root = InverseRootMass(body);
 	weighted[k].step = solveCount;
-	if (body.inverseMass > 0)
-		momentum += body.newVelocity.squaredNorm() / body.inverseMass
-		        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
+	if (body.inverseMass == 0) return;
+	freeBodies.push_back(k);
+	momentum += body.newVelocity.squaredNorm() / body.inverseMass
+	        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
 }
 
 size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t count)
@@ -255,6 +257,90 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 }
 
+/// Energy that points have returned beyond their accounts (5), over the kinetic energy and the accounts. [-]
+double ContactSolver::returnedTooMuch() const
+{
+	double excess = 0, energy = momentum / 2;
+	for (const SolverPair& pair : pairs) {
+		const PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+		for (size_t k = 0; k < pair.count; ++k) {
+			const PointStep& c = pair.points[k].step;
+			const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
+			excess += std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
+			energy += c.energy + c.shearEnergy;
+		}
+	}
+	return energy > 0 ? excess / energy : 0;
+}
+
+template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
+{
+	for (const SolverPair& pair : pairs)
+		for (size_t k = 0; k < pair.count; ++k)
+			for (int i = 0; i < 3; ++i) {
+				double p = pair.points[k].step.impulse[i];
+				visit(p, inverseMass(pair));
+				pair.points[k].step.impulse[i] = p;
+			}
+	for (ModalConstraint& joint : joints)
+		for (double& q : joint.impulse)
+			visit(q, 1.);
+	for (const int k : freeBodies)
+		for (double& w : weighted[k].change)
+			visit(w, 0.); // follows from the impulses
+}
+
+/// (9)
+struct ContactSolver::ConjugateDirection {
+	std::vector<double> before, direction; ///< x, d
+	double square = 0; ///< |x' - x|^2 of the last sweep
+};
+
+void ContactSolver::stepAlong(ConjugateDirection& d)
+{
+	double square = 0;
+	size_t n = 0;
+	visitUnknowns([&](double& x, double weight) {
+		const double change = x - d.before[n++];
+		square += weight * change * change;
+	});
+	const double gamma = square <= d.square ? square / d.square : 0;
+	n = 0;
+	visitUnknowns([&](double& x, double) {
+		const double change = x - d.before[n];
+		x += gamma * d.direction[n];
+		d.direction[n] = gamma * d.direction[n] + change;
+		d.before[n++] = x;
+	});
+	d.square = square;
+}
+
+/// A sweep over all joints and pairs. Returns whether one has changed.
+bool ContactSolver::sweepAll(double threshold)
+{
+	++sweepCount;
+	bool changed = sweepJoints(threshold);
+	for (SolverPair& pair : pairs) {
+		solvePair(pair, true);
+		changed = changed || pair.squaredChange > threshold * double(pair.count);
+	}
+	return changed;
+}
+
+/// Whether they have converged within the limit of all sweeps.
+bool ContactSolver::sweepAccelerated(double threshold, int& sweeps)
+{
+	ConjugateDirection direction;
+	visitUnknowns([&](double& x, double) { direction.before.push_back(x); });
+	direction.direction.resize(direction.before.size(), 0);
+	while (true) {
+		++sweeps;
+		if (!sweepAll(threshold) && returnedTooMuch() <= returnTolerance) return true;
+		if (sweeps >= maxSweeps) return false;
+		stepAlong(direction);
+	}
+}
+
 /// All sweeps of a step: the first one over all joints and pairs.
 Convergence ContactSolver::sweepToConvergence(double tolerance)
 {
@@ -269,7 +355,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 	bool changed = activateChanged(firstSweepShare * firstSweepShare * threshold);
 	changed = changed || sweepJoints(threshold);
 	Convergence result { 1, true, 0 };
-	while (changed && result.sweeps < maxSweeps) {
+	while (changed && result.sweeps < std::min(maxSweeps, plainSweeps)) {
 		changed = sweepOnce(threshold, result.sweeps % 2 == 0);
 		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold);
 		++result.sweeps;
@@ -281,10 +367,10 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 			changed = activateChanged(threshold);
 		}
 	}
-	if (changed) {
-		result.converged = false;
-		result.change = largestChange();
-	}
+	result.converged = !changed && (result.sweeps < slowSweeps || returnedTooMuch() <= returnTolerance);
+	if (!result.converged && result.sweeps < maxSweeps)
+		result.converged = sweepAccelerated(threshold, result.sweeps);
+	if (!result.converged) result.change = largestChange();
 	return result;
 }
 

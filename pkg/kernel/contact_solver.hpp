@@ -50,6 +50,15 @@
 /// Friction (4) is not the derivative of an energy: a wedged body may have several solutions, or none. Then the sweeps
 /// end at their limit with impulses that obey (3) to (6) point by point, and ContactForces counts the step.
 ///
+/// Accelerated sweeps. Where light members are pressed between heavy ones plain sweeps converge slowly, and a small
+/// change in the last one does not mean a small error: points may have returned more than (5) admits. A step that
+/// takes more than plainSweeps, or in which points have returned too much after slowSweeps or more, goes on with
+/// sweeps over all pairs and joints. A step along the conjugate direction d precedes each of them:
+///     x <- x' + gamma d,   d <- gamma d + (x' - x),   gamma = |x' - x|^2 / |x' - x|^2 of the sweep before    (9)
+/// with all impulses and velocities x before, x' after a sweep; gamma > 1 starts anew with d = x' - x and no step
+/// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),
+/// 893-901). They end after a sweep, so that (3) to (6) hold.
+///
 /// Mass-weighted velocities: W = M^1/2 V for the velocities and spins V of a pair, M^-1 = R R^T (Cholesky). A row of J
 /// gives a component of the relative velocity at a point, u = J V. An impulse p changes u by (J R) (J R)^T p:
 ///     u = u_0 + J R dW,   dW += (J R)^T p                                                       (8)
@@ -69,6 +78,7 @@
 ///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
 ///     f_n, f_s   factor         share of the current impulse that remains [-]
+///     gamma      -              share of the last direction in the next one [-]
 ///     h          length         of the step [s]
 ///     K_n, K_s   stiffness      of the springs (Eqs. 39, 40) [N/m]
 ///     M_n, M_s   mass           effective mass of bodies, spring and dashpot together [kg]
@@ -142,6 +152,7 @@ public:
 	/// (firstSweepShare of that in the first sweep). Where the island rests the root mean square of the first
 	/// sweep's changes is smaller and takes its place, down to restTolerance times that of the impulses, or
 	/// roundingTolerance times that of the momenta. A joint counts as one point.
+	/// Accelerated sweeps (9) visit all pairs.
 	/// A small fixed number of sweeps would suffice for a standing house. In an impact between heavy and light
 	/// members the remaining error of the warm start would create energy.
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
@@ -173,6 +184,7 @@ private:
 	std::vector<WeightedBody> weighted; ///< of each body of the island, by its index
 	std::vector<SolverPair> pairs;
 	std::vector<ModalConstraint> joints;
+	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
@@ -197,6 +209,13 @@ private:
 	bool sweepJoints(double threshold);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
+	double returnedTooMuch() const;
+	/// Calls visit(x, weight) for each number x of (9); weight: in the norm [1/kg].
+	template <class Visit> void visitUnknowns(Visit visit);
+	struct ConjugateDirection;
+	void stepAlong(ConjugateDirection& direction);
+	bool sweepAll(double threshold);
+	bool sweepAccelerated(double threshold, int& sweeps);
 	Convergence sweepToConvergence(double tolerance);
 };
 

@@ -5,8 +5,20 @@
     run = yt.run(yt.house("C2"), motion="shipped", snow=1.0)
     run.drift, run.broken, run.player()
 
-Inside a YADE session the import loads the compiled classes and re-exports them. Elsewhere `house`, `motion`, `load_run`
-and all parts that need no YADE still import.
+houses      house, House
+motions     motion
+runs        run
+recordings  load_run, RunResult
+
+In a YADE session only:
+
+bodies      box, polyhedron, timber, snow, set_velocity
+joints      connect, SlipLaw
+engines     engines, stable_dt
+queries     contacts, energy, energy_residual, export_scene
+classes     the compiled ones: TimberMat, HouseMonitor, ...
+
+`help(yt.box)` describes one of them. Guides: docs/python.md, docs/scenes.md.
 """
 from . import host as _host
 from . import house, motion, run
@@ -24,7 +36,8 @@ for _package, _function in ((house, House), (motion, _ground_motion), (run, _run
 __all__ = ["House", "RunResult", "house", "load_run", "motion", "run"]
 IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene",
            "polyhedron", "set_velocity", "snow", "stable_dt", "timber")
-"""Functions that need a YADE session."""
+"""Names that need a YADE session."""
+_class_names = ()
 
 if _host.running():
     import yade.wrapper as _wrapper
@@ -48,7 +61,11 @@ if _host.running():
     from .scene.joints import SlipLaw, connect  # noqa: E402,F401
     from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401
 
-    __all__ += [*IN_YADE, *_class_names]
+    __all__ += IN_YADE
+
+
+def __dir__():
+    return [*__all__, *_class_names]
 
 
 def __getattr__(name):

@@ -24,8 +24,7 @@ from yade_timber.base.atomic_write import written_whole
 from yade_timber.base.errors import RunError
 from yade_timber.house import build_house, load_house
 from yade_timber.motion import default_motion
-from yade_timber.pictures import curves, drawings, film, motion_sheet, player, sheets
-from yade_timber.pictures.style import default_style
+from yade_timber.pictures import curves, drawings, figures, film, motion_sheet, player, sheets
 from yade_timber.pictures.views import FRONT, SIDE
 from yade_timber.recording import frames
 
@@ -52,12 +51,9 @@ def telling_view(run):
     return SIDE if run.summary and run.summary.tilt_direction == "ew" else FRONT
 
 
-@default_style()
-def write(path, figure, dpi=DPI):
-    """Write a figure as PNG; returns the path."""
-    data = io.BytesIO()
-    figure.savefig(data, format="png", dpi=dpi)
-    return save(path, Image.open(data).convert("RGB"))
+def write(path, figure):
+    """Write a figure as PNG with its own resolution; returns the path."""
+    return save(path, figures.image_of(figure))
 
 
 def save(path, picture):
@@ -111,11 +107,8 @@ def make(results, out):
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
     runs = {name: ended(results / name) for name in {*SHEETS, *sum(FILMS.values(), ()), HISTORY, LEAD}}
-    written = [
-        write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN),
-              sheets.SCREEN.dpi)
-        for name in SHEETS
-    ]
+    written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN))
+               for name in SHEETS]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))
@@ -126,7 +119,7 @@ def make(results, out):
         begin, end = (fallen_at(runs[pair[0]]) + time for time in SPAN)
         film.write(gallery / name, [runs[run] for run in pair], form=FILM, begin=begin, end=end)
         written.append(gallery / name)
-    written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI), sheets.END_DPI))
+    written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI)))
     return written
 
 

@@ -16,6 +16,7 @@ from textwrap import fill
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy import optimize, stats
+from scipy.special import ndtr
 from study_common import house_name, parser, run_all, save, write_table
 
 from yade_timber.base.colors import BLUE, GREEN, GREY, ORANGE
@@ -110,7 +111,7 @@ def fit(curve, start=None):
         return None
 
     def cost(logs):
-        share = np.clip(stats.norm.cdf((np.log(scale) - logs[0]) / np.exp(logs[1])), 1e-9, 1 - 1e-9)
+        share = np.clip(ndtr((np.log(scale) - logs[0]) / np.exp(logs[1])), 1e-9, 1 - 1e-9)
         return -(collapsed * np.log(share) + (runs - collapsed) * np.log(1 - share)).sum()
 
     bounds = [tuple(np.log([scale.min() / 2, scale.max() * 2])), tuple(np.log(SPREAD))]
@@ -126,7 +127,7 @@ def has_curve(curve):
 
 def share_at(fitted, scales):
     """Share of collapses of a fitted curve at these strengths. [-]"""
-    return stats.norm.cdf(np.log(np.asarray(scales) / fitted[0]) / fitted[1])
+    return ndtr(np.log(np.asarray(scales) / fitted[0]) / fitted[1])
 
 
 def resampled(curve, fitted):

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Coupled contact points on shared bodies: balances of momentum and energy, comparison with a dense solution, stiff
-/// heaps.
+/// Coupled contact points on shared bodies: balances of momentum and energy, comparison with a dense solution.
 #include "heap.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -256,72 +255,6 @@ TEST(Islands, DoNotInfluenceEachOther)
 			EXPECT_EQ(both.bodies[k].newSpin, alone.newSpin) << seed;
 		}
 	}
-}
-
-/// h C / m = 1e4 at every point, hundreds of steps, without and with warm start.
-TEST(Stiff, HeapComesToRest)
-{
-	for (const bool warm : { false, true })
-		for (unsigned seed = 0; seed < 5; ++seed) {
-			Heap heap(seed, 5, 12, 1e8, 0.5);
-			double before = kineticEnergy(heap.bodies);
-			const double start = before;
-			for (int step = 0; step < 300; ++step) {
-				for (auto& p : heap.points)
-					if (!warm) p.impulse.setZero();
-				heap.solve(1e-4, 4);
-				for (auto& b : heap.bodies) {
-					b.velocity = b.newVelocity;
-					b.spin = b.newSpin;
-				}
-				const double now = kineticEnergy(heap.bodies);
-				ASSERT_TRUE(std::isfinite(now));
-				EXPECT_LE(now, (warm ? start : before) * (1 + rounding)) << seed;
-				before = now;
-			}
-			EXPECT_LT(before, 0.9 * start) << seed;
-		}
-}
-
-/// A tower of light bodies on a heavy one with the large impulses: the remaining error is small for the light ones,
-/// too.
-TEST(Stiff, ConvergenceIsJudgedByLightMembers)
-{
-	constexpr double h = 1e-4, heavy = 1e5, light = 1, gravity = 10;
-	constexpr int tower = 8;
-	const auto solved = [&](int sweeps, double tolerance) {
-		std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(heavy, Vec3::Zero()) };
-		std::vector<HeapPoint> points { central(1e7, heavy * gravity) };
-		for (int k = 0; k < tower; ++k) {
-			bodies.push_back(body(light, { 0, 0, k == tower - 1 ? -1. : 0. }));
-			points.push_back(central(1e5));
-			points.back().bodyA = k + 1;
-			points.back().bodyB = k + 2;
-		}
-		solveContacts(bodies, points, h, sweeps, tolerance);
-		return bodies;
-	};
-	const std::vector<SolverBody> converged = solved(10000, 0), found = solved(10000, 1e-3);
-	for (int k = 2; k < tower + 2; ++k)
-		EXPECT_NEAR(found[k].newVelocity.z(), converged[k].newVelocity.z(), 1e-3) << k; // of 1 m/s
-}
-
-TEST(Stiff, MassRatioOfAMillion)
-{
-	for (const double light : { 1e-3, 1. }) {
-		const double heavy = 1e6 * light, v = after(heavy, light, 1, 1e4 * light / 1e-4, 1e-4, 4);
-		EXPECT_NEAR(v, 0, 1e-3); // 2 / x of the speed remains, x = 1e4
-	}
-	std::vector<SolverBody> bodies { body(0, Vec3::Zero()), body(1e-3, { 0, 0, -1 }), body(1e3, { 0, 0, -1 }) };
-	// The heavy one falls on the light one on the ground
-	std::vector<HeapPoint> points { central(1e7), central(1e7) };
-	points[1].bodyA = 1;
-	points[1].bodyB = 2;
-	const double before = kineticEnergy(bodies);
-	solveContacts(bodies, points, 1e-4, 8);
-	EXPECT_LE(kineticEnergy(bodies), before * (1 + rounding));
-	for (const auto& b : bodies)
-		EXPECT_LE(std::abs(b.newVelocity.z()), 1.5);
 }
 
 /// The warm start of a contact that has just become stiff may be 1e4 times the impulse of the step. The threshold of

@@ -3,7 +3,7 @@
 import browser
 import frames_sample
 import pytest
-from player_page import ask, load
+from player_page import at_rest
 from yade_timber.pictures import player
 
 
@@ -23,17 +23,13 @@ def pages(tmp_path_factory):
     return f"file://{folder}/one.html", f"file://{folder}/two.html", runs
 
 
-@pytest.fixture(scope="module")
-def one(driver, pages):
-    """The page with one run, opened at 1.5 s."""
-    load(driver, pages[0] + "#t=1.5", motion=False)
-    assert ask(driver, "player.time") == 1.5 and not ask(driver, "player.playing")
-    return driver
+@pytest.fixture
+def still(driver, pages):
+    """The page with one run, at rest."""
+    return at_rest(driver, pages[0])
 
 
 @pytest.fixture
-def still(one):
-    """The same, seen from the front, at 1.5 s."""
-    ask(one, "document.getElementById('camera-front').click()")
-    ask(one, "player.seek(1.5)")
-    return one
+def two(driver, pages):
+    """The page with two runs, at rest."""
+    return at_rest(driver, pages[1])

@@ -19,8 +19,27 @@ def load(driver, address, size=WIDE, motion=True, phone=False):
     wait(lambda: driver.execute_script("return !!window.player"))
 
 
+def reshape(driver, size, phone=False):
+    """Set the size of the page and wait until it is drawn."""
+    resize(driver, *size, phone)
+    wait(lambda: ask(driver, "innerWidth") == size[0])
+    driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+
+
 def ask(driver, expression):
     return driver.execute_script(f"return {expression}")
+
+
+def at_rest(driver, page):
+    """The driver with a page, seen from the front, at 1.5 s; a page that is open is not loaded again."""
+    address = page + "#t=1.5"
+    if driver.current_url != address:
+        load(driver, address, motion=False)
+        assert ask(driver, "player.time") == 1.5 and not ask(driver, "player.playing")
+    reshape(driver, WIDE)
+    ask(driver, "document.getElementById('camera-front').click()")
+    ask(driver, "player.seek(1.5)")
+    return driver
 
 
 def press(driver, *keys):

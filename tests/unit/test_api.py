@@ -2,6 +2,8 @@
 """`yt.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an
 object.
 """
+import pydoc
+import re
 import signal
 import subprocess
 import sys
@@ -111,4 +113,8 @@ def test_names_outside_yade():
 
 
 def test_every_name_is_there():
-    assert [name for name in yt.__all__ if not hasattr(yt, name)] == []
+    """Those of `yt.<tab>` are public; the help begins with all but the classes of YADE, on one screen."""
+    assert [name for name in dir(yt) if not hasattr(yt, name) or name.startswith("_")] == []
+    assert {"run", "box", "TimberMat"} <= set(dir(yt)) and not {"host", "scene", "plugin", "compiled"} & set(dir(yt))
+    screen = pydoc.plaintext.document(yt).split("PACKAGE CONTENTS")[0]
+    assert screen.count("\n") < 30 and set(yt.__all__) <= set(re.findall(r"\w+", screen))

@@ -275,8 +275,10 @@ def test_error_is_a_value_error():
     assert issubclass(RunError, ValueError)
 
 
-@pytest.mark.parametrize("earthquake, loads", [(False, "House A: no earthquake, snow."), (True, "House A: earthquake, snow.")])
-def test_help_states_the_loads(earthquake, loads, capsys):
+@pytest.mark.parametrize(
+    "earthquake, snow, loads", [(False, True, "1 m of snow only"), (True, True, "earthquake and 1 m of snow"), (True, False, "earthquake"), (False, False, "own weight only")]
+)
+def test_help_states_the_loads(earthquake, snow, loads, capsys):
     with pytest.raises(SystemExit):
-        cli.read("A", earthquake, True, ["scripts/run.py", "--help"])
-    assert loads in capsys.readouterr().out
+        cli.read("A", earthquake, snow, ["scripts/run.py", "--help"])
+    assert f"House A: {loads}. " in " ".join(capsys.readouterr().out.split())

@@ -23,13 +23,14 @@ def test_scripts_exist(script):
 
 
 def test_help_names_each_command():
+    shown = run("--help").stdout
     for name in [*KNOWN["IN_YADE"], *KNOWN["IN_PYTHON"]]:
-        assert f"yade-timber {name} " in run("--help").stdout
-    assert run().stdout == run("-h").stdout
+        assert re.search(rf"^ +yade-timber {name} ", shown, re.MULTILINE)
+    assert run().stdout == run("-h").stdout == shown
 
 
 def test_arguments_reach_the_script(tmp_path):
-    done = run("house", "A", "--out", str(tmp_path / "a.png"))
+    done = run("record", "--end", "20", "--out", str(tmp_path / "a.png"))
     assert done.returncode == 0 and (tmp_path / "a.png").is_file()
 
 

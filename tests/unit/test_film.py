@@ -5,11 +5,11 @@ YADE.
 """
 import shutil
 import subprocess
-import sys
 import warnings
 from pathlib import Path
 
 import frames_sample
+import in_process
 import numpy as np
 import pytest
 from PIL import Image
@@ -182,17 +182,13 @@ def test_films_that_cannot_be_made(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def call(*words):
-    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], capture_output=True, text=True)
-
-
 def test_script(tmp_path):
     frames_sample.write(tmp_path / frames.NAME)
-    done = call(tmp_path, "--size", "160x90", "--rate", 5, "--start", 1, "--end", 2, "--out", tmp_path / "x.webp")
+    done = in_process.run(SCRIPT, tmp_path, "--size", "160x90", "--rate", 5, "--start", 1, "--end", 2, "--out", tmp_path / "x.webp")
     assert done.returncode == 0 and "5 pictures" in done.stdout and (tmp_path / "x.webp").exists()
     wrong = [("--speed", "0", "0.01 to 20"), ("--size", "10x10", "64 to 4096"), ("--out", "x.gif", ".mp4 or .webp"), ("--end", "0", "no pictures")]
     for *words, said in wrong:
-        done = call(tmp_path, *words)
+        done = in_process.run(SCRIPT, tmp_path, *words)
         assert done.returncode == 1 and said in done.stderr and done.stderr.count("\n") == 1
 
 

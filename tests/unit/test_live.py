@@ -2,9 +2,11 @@
 """Changes to the scene of a live run: another scene or an earlier state loaded, members removed. At a terminal:
 test_run.
 """
+import builtins
 import json
 import time
 from contextlib import ExitStack
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,9 +20,9 @@ from yade_timber.scene import scenario
 from yade_timber.scene.engines import find_engine
 
 
-def begin(folder, steps=4000, **more):
+def begin(folder, steps=4000, quiet=True, **more):
     """A live run of house A under snow, going on in the background. more: of the Scenario."""
-    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), RunOptions(house="A", out=folder, no_views=True, quiet=True))
+    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), RunOptions(house="A", out=folder, no_views=True, quiet=quiet))
     folder_lock = ExitStack()
     assert folder_lock.enter_context(lock.locked(folder))
     run.start(folder_lock)
@@ -47,6 +49,21 @@ def test_another_scene(tmp_path, capfd):
     O.reset()
     wait_for(lambda: not lock.is_locked(tmp_path))
     assert "another scene was loaded" in capfd.readouterr().err and not (tmp_path / "summary.json").exists()
+
+
+def test_the_prompt_shows_time_drift_and_events(tmp_path, monkeypatch, capfd):
+    """Below IPython's prompt; nothing there after the end. The last line names the next command."""
+    texts = []
+    session = SimpleNamespace(app=SimpleNamespace(invalidate=lambda: texts.append(session.bottom_toolbar)))
+    monkeypatch.setattr(builtins, "get_ipython", lambda: SimpleNamespace(pt_app=session), raising=False)
+    run = begin(tmp_path, 2000, quiet=False)
+    step_to(100)
+    find_engine(yw.HouseMonitor).collapseTime = 0.0
+    O.run(run.steps - O.iter)
+    wait_for(lambda: not lock.is_locked(tmp_path))
+    assert "live 0.30/0.40 s, drift below 1/1000, 0/206 joints broken" in texts and texts[-1] is None
+    said = capfd.readouterr().out.splitlines()
+    assert sum(line.startswith("   0.00 s  collapse: ") for line in said) == 1 and said[-1] == f"next: scripts/show/show_run.py {tmp_path}"
 
 
 def test_a_collapse_ends_the_run_on_request(tmp_path):

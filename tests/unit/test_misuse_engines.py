@@ -82,7 +82,7 @@ def test_shape_without_functor(shape):
     new = O.bodies.append(other)
     with pytest.raises(RuntimeError) as error:
         O.step()
-    is_one_line(error, str(new), "Ig2", type(shape).__name__)
+    is_one_line(error, str(new), "Ig2", f"In place of {type(shape).__name__} take yade_timber.box(", "fixed=True")
     O.bodies[new].mask = 2
     O.run(20, True)  # another group: no contact is possible
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """The show scripts and the gallery: pictures of finished runs, one line and status 1 for wrong input. Need no YADE."""
-import os
 import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import h5py
+import in_process
 import pytest
 from small_frames import frames
 from yade_timber.pictures.figures import stem_of
@@ -19,7 +19,7 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 def run(script, *arguments):
     """CompletedProcess of a script; it finds no Chromium, whose picture of the player has a test of its own."""
-    return subprocess.run([sys.executable, SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, env={**os.environ, "PATH": ""})
+    return in_process.run(SCRIPTS / script, *arguments)
 
 
 def check_one_line(done, *parts):
@@ -98,7 +98,9 @@ def test_frames_that_cannot_be_used(tmp_path, script, damage):
 
 
 def test_gallery_of_nothing(tmp_path):
-    check_one_line(run("paper/make_gallery.py", tmp_path, "--out", tmp_path), "frames.h5: no such file")
+    """In a process of its own, as a user starts it."""
+    words = [sys.executable, SCRIPTS / "paper" / "make_gallery.py", tmp_path, "--out", tmp_path]
+    check_one_line(subprocess.run(words, capture_output=True, text=True), "frames.h5: no such file")
 
 
 @pytest.mark.parametrize("script, arguments", [
@@ -120,10 +122,11 @@ def test_pictures_of_several_runs_lie_apart(tmp_path):
     assert {path.parent.name for path in (tmp_path / "pictures").rglob("front.png")} == {"modelA_snow", "modelA_quake"}
 
 
-def test_a_dot_in_a_name_is_no_ending(tmp_path):
+def test_a_dot_in_a_name_is_no_ending(tmp_path, monkeypatch):
     assert stem_of(tmp_path / "site.a") == tmp_path / "site.a" and stem_of(tmp_path / "site.a.png") == tmp_path / "site.a"
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.yaml").write_text("extends: A\nname: house 1.5\n")
-    done = subprocess.run([sys.executable, SCRIPTS / "show" / "show_house.py", "mine.yaml"], capture_output=True, text=True, cwd=tmp_path)
+    done = run("show/show_house.py", "mine.yaml")
     assert done.returncode == 0, done.stderr
     assert {path.name for path in tmp_path.glob("house_*")} == {"house_house 1.5.png", "house_house 1.5.pdf"}
 
@@ -140,9 +143,10 @@ def test_a_picture_that_cannot_be_written(tmp_path, script, first):
 
 
 @pytest.mark.parametrize("name, file", [("a/../b", "house_a_.._b.png"), ("$\\\\frac{$", None), ("y" * 60, f"house_{'y' * 60}.png")])
-def test_any_name_of_a_house(tmp_path, name, file):
+def test_any_name_of_a_house(tmp_path, monkeypatch, name, file):
     """Drawn literally, and a file name in this folder."""
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.yaml").write_text(f'extends: A\nname: "{name}"\n')
-    done = subprocess.run([sys.executable, SCRIPTS / "show" / "show_house.py", "mine.yaml"], capture_output=True, text=True, cwd=tmp_path)
+    done = run("show/show_house.py", "mine.yaml")
     made = [path.name for path in tmp_path.glob("*.png")]
     assert done.returncode == 0 and len(made) == 1 and file in (None, *made), (done.stderr, made)

@@ -5,7 +5,7 @@ import frames_sample
 import numpy as np
 import pytest
 from browser import errors, wait
-from player_page import PHONE, ask, click, load, press
+from player_page import PHONE, ask, click, load, press, reshape
 from yade_timber.pictures import player
 
 pytest_plugins = ["player_fixtures"]
@@ -143,22 +143,21 @@ def place_of_curves(driver):
     return box["left"] + 0.8 * box["width"], box["top"] + 0.5 * box["height"]
 
 
-def test_a_scroll_that_begins_on_a_curve_keeps_the_time(driver, pages):
+def test_a_scroll_that_begins_on_a_curve_keeps_the_time(still):
     """A tap and a sideways drag go to a time, a drag upwards scrolls the page."""
-    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
-    x, y = place_of_curves(driver)
-    before = ask(driver, "scrollY")
-    touch(driver, (x, y), *((x, y - 10 * k) for k in range(1, 10)))
-    wait(lambda: ask(driver, "scrollY") != before)
-    assert ask(driver, "player.time") == 1.5
-    load(driver, pages[0] + "#t=1.5", PHONE, motion=False, phone=True)
-    x, y = place_of_curves(driver)
-    touch(driver, (x, y))
-    wait(lambda: ask(driver, "player.time") > 2.5)
-    touch(driver, (x, y), (x - 30, y), (x - 60, y), (x - 90, y))
-    wait(lambda: ask(driver, "player.time") < 2.5)
-    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+    still.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    reshape(still, PHONE, phone=True)
+    x, y = place_of_curves(still)
+    before = ask(still, "scrollY")
+    touch(still, (x, y), *((x, y - 10 * k) for k in range(1, 10)))
+    wait(lambda: ask(still, "scrollY") != before)
+    assert ask(still, "player.time") == 1.5
+    x, y = place_of_curves(still)
+    touch(still, (x, y))
+    wait(lambda: ask(still, "player.time") > 2.5)
+    touch(still, (x, y), (x - 30, y), (x - 60, y), (x - 90, y))
+    wait(lambda: ask(still, "player.time") < 2.5)
+    still.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
 
 
 def test_a_click_names_a_member_and_a_joint(still, pages):

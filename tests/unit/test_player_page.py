@@ -6,8 +6,8 @@ import re
 import frames_sample
 import numpy as np
 import pytest
-from browser import errors, picture, resize, wait
-from player_page import LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, between, click, load, pixels, press, roof_is_drawn
+from browser import errors, picture, wait
+from player_page import LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, at_rest, between, click, load, pixels, press, reshape, roof_is_drawn
 from yade_timber.pictures import key_times, player
 from yade_timber.recording import frames
 
@@ -95,8 +95,7 @@ def check_fits(driver):
 
 
 def test_it_fits_a_phone(still):
-    resize(still, *PHONE, phone=True)
-    wait(lambda: ask(still, "innerWidth") == PHONE[0])
+    reshape(still, PHONE, phone=True)
     check_fits(still)
     wait(lambda: roof_is_drawn(still, 0))
     small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 36).length"
@@ -108,104 +107,57 @@ def test_it_fits_a_phone(still):
 
 def test_the_state_is_in_sight_on_a_lying_phone(still):
     """A long result takes two lines; the line with the state is not below the controls."""
-    resize(still, *LYING_PHONE, phone=True)
-    wait(lambda: ask(still, "innerWidth") == LYING_PHONE[0])
+    reshape(still, LYING_PHONE, phone=True)
     ask(still, "scrollTo(0, 0)")
     before = ask(still, "document.querySelector('.result').textContent")
     ask(still, "void (document.querySelector('.result').textContent = 'a long result '.repeat(15))")
     now, controls = (ask(still, f"document.querySelector('{name}').getBoundingClientRect().toJSON()") for name in (".now", "#transport"))
     assert now["top"] >= 0 and now["bottom"] <= controls["top"] and controls["bottom"] <= LYING_PHONE[1] + 1
     ask(still, f"void (document.querySelector('.result').textContent = {before!r})")
-    resize(still, *WIDE)
 
 
 def box(driver, selector):
     return ask(driver, f"document.querySelector('{selector}').getBoundingClientRect().toJSON()")
 
 
-def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(driver, pages):
-    load(driver, pages[0] + "#t=2.9", LYING_PHONE, motion=False, phone=True)
-    ask(driver, "scrollTo(0, 0)")
-    place = ask(driver, "player.screen('roof')")
-    click(driver, place)
-    controls, card = box(driver, "#transport"), wait(lambda: (found := box(driver, ".card"))["height"] and found)
-    assert card["top"] >= box(driver, ".stage")["top"] and card["bottom"] <= controls["top"]
-    line, event = box(driver, "#ticks"), box(driver, "#event")
-    assert ask(driver, "document.getElementById('event').textContent") != ""
+def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(still):
+    reshape(still, LYING_PHONE, phone=True)
+    ask(still, "scrollTo(0, 0)")
+    ask(still, "player.seek(2.9)")
+    place = ask(still, "player.screen('roof')")
+    click(still, place)
+    controls, card = box(still, "#transport"), wait(lambda: (found := box(still, ".card"))["height"] and found)
+    assert card["top"] >= box(still, ".stage")["top"] and card["bottom"] <= controls["top"]
+    line, event = box(still, "#ticks"), box(still, "#event")
+    assert ask(still, "document.getElementById('event').textContent") != ""
     assert line["left"] - 1 <= event["left"] and event["right"] <= line["right"] + 1
-    ask(driver, "void document.querySelector('#more summary').click()")
-    menu = box(driver, ".menu")
-    assert 0 <= menu["top"] and menu["bottom"] <= controls["bottom"] and ask(driver, "(m => m.scrollHeight <= m.clientHeight + 1)(document.querySelector('.menu'))")
-    press(driver, "?")
-    assert ask(driver, "document.getElementById('help').open && document.getElementById('help').scrollTop") == 0
-    assert errors(driver) == []
+    ask(still, "void document.querySelector('#more summary').click()")
+    menu = box(still, ".menu")
+    assert 0 <= menu["top"] and menu["bottom"] <= controls["bottom"] and ask(still, "(m => m.scrollHeight <= m.clientHeight + 1)(document.querySelector('.menu'))")
+    press(still, "?")
+    assert ask(still, "document.getElementById('help').open && document.getElementById('help').scrollTop") == 0
+    assert errors(still) == []
+    still.find_element("css selector", "#help form button").click()
 
 
-def test_labels_of_the_drift_limits_are_in_order(driver, pages):
+def test_labels_of_the_drift_limits_are_in_order(still):
     """From the top down 1/10, 1/30, 1/120, apart by the height of a letter; recorded while the curves are drawn again.
     """
-    load(driver, pages[0] + "#t=1", motion=False)
-    ask(driver, """(() => {
+    ask(still, """(() => {
         window.labels = {};
         const draw = CanvasRenderingContext2D.prototype.fillText;
         CanvasRenderingContext2D.prototype.fillText = function (text, x, y) { labels[text] = y; draw.call(this, text, x, y); };
     })()""")
-    resize(driver, 1280, 800)
-    high, middle, low = wait(lambda: ask(driver, "'1/120' in labels && [labels['1/10'], labels['1/30'], labels['1/120']]"))
+    reshape(still, (1280, 800))
+    high, middle, low = wait(lambda: ask(still, "'1/120' in labels && [labels['1/10'], labels['1/30'], labels['1/120']]"))
     assert high > 0 and middle - high >= 9 and low - middle >= 9
-    resize(driver, *WIDE)
 
 
-def test_full_screen(driver, pages):
-    load(driver, pages[0] + "#t=1", motion=False)
+def test_full_screen(still):
     for shown in (True, False):
-        press(driver, "f")
-        wait(lambda: ask(driver, "!!document.fullscreenElement") == shown)
-    assert errors(driver) == []
-
-
-def test_it_plays_by_itself_unless_the_user_wants_no_motion(driver, pages):
-    load(driver, pages[0], PHONE, motion=False)
-    assert not ask(driver, "player.playing")
-    load(driver, pages[0], PHONE, motion=True)
-    assert ask(driver, "player.playing || player.time > 0")
-    assert errors(driver) == []
-
-
-def test_wall_sheets_are_counted_apart(driver, tmp_path):
-    page = player.make([("walled", frames_sample.walled_run())], tmp_path / "walled.html")
-    load(driver, f"file://{page}#t=2.45", motion=False)
-    now = driver.find_element("class name", "now")
-    assert now.text.endswith("0 of 2 joints and 2 of 3 wall sheets broken, 1 partly")
-    ask(driver, "player.seek(2.65)")
-    assert now.text.endswith("1 of 2 joints and 3 of 3 wall sheets broken")
-    assert "joint or wall broken" in driver.find_element("tag name", "body").text
-    assert driver.find_element("class name", "result").text.count("2 of 2 joints and 3 of 3 wall sheets broken") == 1
-    assert errors(driver) == []
-
-
-def test_two_runs_in_step(driver, pages):
-    load(driver, pages[1] + "#t=2.5", motion=False)
-    for time in (2.5, 2.875, 3.6):
-        ask(driver, f"player.seek({time})")
-        for k, run in enumerate(pages[2]):
-            assert ask(driver, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
-    whole = "[...document.querySelectorAll('.origin')].every((e) => e.textContent && e.scrollWidth <= e.clientWidth)"
-    assert ask(driver, whole)
-    assert [place.text.startswith("recorded up to 3.0 s: ") for place in driver.find_elements("class name", "now")] == [False, True]
-    ask(driver, "player.seek(1)")
-    first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
-    assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
-    assert roof_is_drawn(driver, 0, 1)
-
-    resize(driver, *PHONE, phone=True)
-    wait(lambda: ask(driver, "innerWidth") == PHONE[0])
-    check_fits(driver)
-    assert ask(driver, whole)
-    first, second = (ask(driver, f"player.screen('roof', {k})") for k in (0, 1))
-    assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
-    assert second["y"] < ask(driver, "document.getElementById('transport').getBoundingClientRect().top")
-    assert errors(driver) == []
+        press(still, "f")
+        wait(lambda: ask(still, "!!document.fullscreenElement") == shown)
+    assert errors(still) == []
 
 
 def test_the_page_speaks_japanese(still):
@@ -221,63 +173,105 @@ def test_the_page_speaks_japanese(still):
     assert still.find_element("class name", "now").text == english and still.find_element("id", "camera-front").text == "Front"
 
 
-def test_the_current_event_is_marked_and_in_view(driver, pages):
-    """Of a list that is higher than its place, too."""
-    load(driver, pages[1] + "#t=1.2", motion=False)
-    for time in (1.2, 2.95):
-        ask(driver, f"player.seek({time})")
-        past = [event["text"] for event in player.events(pages[2][0]) if event["time"] <= time]
-        current = driver.find_element("css selector", ".run .events [aria-current]")
-        assert current.text.endswith(past[-1]) and len(driver.find_elements("css selector", ".run:first-child .events [aria-current]")) == 1
-        box, place = (ask(driver, f"document.querySelector('.run {name}').getBoundingClientRect().toJSON()") for name in (".events [aria-current]", ".event-list"))
-        assert place["top"] <= box["top"] and box["bottom"] <= place["bottom"]
+def test_things_for_scale_are_drawn(still):
+    """Glass walls, the house at the start and a person change the picture, and leave it when they are switched off."""
+    ask(still, "player.seek(3.5)")
+    before = picture(still)
+    for name in ("walls", "ghost", "person"):
+        ask(still, f"void document.getElementById('{name}').click()")
+        wait(lambda: (abs(picture(still) - before) > 0.02).sum() > 100)
+        ask(still, f"void document.getElementById('{name}').click()")
+        wait(lambda: (abs(picture(still) - before) > 0.02).sum() == 0)
+    assert errors(still) == []
 
 
-@pytest.mark.parametrize("size, share", [((1280, 800), 0.55), ((1920, 1080), 0.6)])
-def test_the_house_has_most_of_the_window(driver, pages, size, share):
-    for page in pages[:2]:
-        load(driver, page + "#t=1.2", size=size, motion=False)
+def test_it_plays_slowly_around_the_main_event(still, pages):
+    ask(still, "player.seek(0.5)")
+    assert ask(still, "player.pace") == 1
+    ask(still, "void document.getElementById('slow').click()")
+    main = player.main_event(pages[2][0])
+    ask(still, f"player.seek({main})")
+    assert ask(still, "player.pace") == 0.25
+
+
+def test_a_film_is_recorded(still, tmp_path):
+    """A click starts it, a second one ends it and saves a WebM file."""
+    still.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    ask(still, "player.seek(3)")
+    ask(still, "void document.getElementById('film').click()")
+    wait(lambda: ask(still, "player.time > 3.5"))
+    ask(still, "void document.getElementById('film').click()")
+    (film,) = wait(lambda: [path for path in tmp_path.glob("*.webm") if path.stat().st_size])
+    assert film.read_bytes()[:4] == b"\x1aE\xdf\xa3" and not ask(still, "player.playing")  # EBML
+    assert errors(still) == []
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_the_house_has_most_of_the_window(driver, pages, number):
+    at_rest(driver, pages[number])
+    for size, share in (((1280, 800), 0.55), ((1920, 1080), 0.6)):
+        reshape(driver, size)
         boxes = ask(driver, "[...document.querySelectorAll('.stage')].map((e) => e.clientWidth * e.clientHeight)")
         assert sum(boxes) > share * size[0] * size[1]
 
 
-def test_things_for_scale_are_drawn(driver, pages):
-    """Glass walls, the house at the start and a person change the picture, and leave it when they are switched off."""
-    load(driver, pages[0] + "#t=3.5", motion=False)
-    before = picture(driver)
-    for name in ("walls", "ghost", "person"):
-        ask(driver, f"void document.getElementById('{name}').click()")
-        wait(lambda: (abs(picture(driver) - before) > 0.02).sum() > 100)
-        ask(driver, f"void document.getElementById('{name}').click()")
-        wait(lambda: (abs(picture(driver) - before) > 0.02).sum() == 0)
+def test_two_runs_in_step(two, pages):
+    for time in (2.5, 2.875, 3.6):
+        ask(two, f"player.seek({time})")
+        for k, run in enumerate(pages[2]):
+            assert ask(two, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
+    whole = "[...document.querySelectorAll('.origin')].every((e) => e.textContent && e.scrollWidth <= e.clientWidth)"
+    assert ask(two, whole)
+    assert [place.text.startswith("recorded up to 3.0 s: ") for place in two.find_elements("class name", "now")] == [False, True]
+    ask(two, "player.seek(1)")
+    first, second = (ask(two, f"player.screen('roof', {k})") for k in (0, 1))
+    assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
+    assert roof_is_drawn(two, 0, 1)
+
+    reshape(two, PHONE, phone=True)
+    check_fits(two)
+    assert ask(two, whole)
+    first, second = (ask(two, f"player.screen('roof', {k})") for k in (0, 1))
+    assert second["y"] - first["y"] > 100 and second["x"] == pytest.approx(first["x"], abs=1)  # one above the other
+    assert second["y"] < ask(two, "document.getElementById('transport').getBoundingClientRect().top")
+    assert errors(two) == []
+
+
+def test_the_current_event_is_marked_and_in_view(two, pages):
+    """Of a list that is higher than its place, too."""
+    for time in (1.2, 2.95):
+        ask(two, f"player.seek({time})")
+        past = [event["text"] for event in player.events(pages[2][0]) if event["time"] <= time]
+        current = two.find_element("css selector", ".run .events [aria-current]")
+        assert current.text.endswith(past[-1]) and len(two.find_elements("css selector", ".run:first-child .events [aria-current]")) == 1
+        box, place = (ask(two, f"document.querySelector('.run {name}').getBoundingClientRect().toJSON()") for name in (".events [aria-current]", ".event-list"))
+        assert place["top"] <= box["top"] and box["bottom"] <= place["bottom"]
+
+
+def test_it_plays_by_itself(driver, pages):
+    load(driver, pages[0], PHONE, motion=True)
+    assert ask(driver, "player.playing || player.time > 0")
     assert errors(driver) == []
 
 
-def test_it_plays_slowly_around_the_main_event(driver, pages):
-    load(driver, pages[0] + "#t=0.5", motion=False)
-    assert ask(driver, "player.pace") == 1
-    ask(driver, "void document.getElementById('slow').click()")
-    main = player.main_event(pages[2][0])
-    ask(driver, f"player.seek({main})")
-    assert ask(driver, "player.pace") == 0.25
-
-
 def test_it_opens_before_an_event_that_is_earlier_than_the_shaking(driver, tmp_path):
+    """It does not play when the user wants no motion."""
     run = frames_sample.run()
     run.motion.start = 3.0
     first = min(event["time"] for event in player.events(run))
     player.make([("x", run)], tmp_path / "x.html")
-    load(driver, (tmp_path / "x.html").as_uri(), motion=False)
+    load(driver, (tmp_path / "x.html").as_uri(), PHONE, motion=False)
+    assert not ask(driver, "player.playing")
     assert ask(driver, "player.time") == pytest.approx(max(0, first - 2), abs=1e-3) and first < key_times.onset(run.motion)
 
 
-def test_a_film_is_recorded(driver, pages, tmp_path):
-    """A click starts it, a second one ends it and saves a WebM file."""
-    driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
-    load(driver, pages[0] + "#t=0", motion=False)
-    ask(driver, "void document.getElementById('film').click()")
-    wait(lambda: ask(driver, "player.time > 3.5"))
-    ask(driver, "void document.getElementById('film').click()")
-    (film,) = wait(lambda: [path for path in tmp_path.glob("*.webm") if path.stat().st_size])
-    assert film.read_bytes()[:4] == b"\x1aE\xdf\xa3" and not ask(driver, "player.playing")  # EBML
+def test_wall_sheets_are_counted_apart(driver, tmp_path):
+    page = player.make([("walled", frames_sample.walled_run())], tmp_path / "walled.html")
+    load(driver, f"file://{page}#t=2.45", motion=False)
+    now = driver.find_element("class name", "now")
+    assert now.text.endswith("0 of 2 joints and 2 of 3 wall sheets broken, 1 partly")
+    ask(driver, "player.seek(2.65)")
+    assert now.text.endswith("1 of 2 joints and 3 of 3 wall sheets broken")
+    assert "joint or wall broken" in driver.find_element("tag name", "body").text
+    assert driver.find_element("class name", "result").text.count("2 of 2 joints and 3 of 3 wall sheets broken") == 1
     assert errors(driver) == []

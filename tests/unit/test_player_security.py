@@ -4,13 +4,16 @@
 import frames_sample
 import pytest
 from browser import errors
-from player_page import WIDE, ask, load
+from player_page import ask, load
 from yade_timber.pictures import player
 from yade_timber.recording.events import Event, StructureFallen
 
 pytest_plugins = ["player_fixtures"]
 
-HOSTILE = ["<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>", "'\"><svg/onload=document.title='RUN'>", "$\\frac{$", "__proto__"]
+HOSTILE = ["".join(("<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>", "'\"><svg/onload=document.title='RUN'>", "$\\frac{$")),
+           "__proto__"]
+SMALL = 320, 240
+"""Size of the page: its text counts, not its picture. [pixel]"""
 
 
 def hostile_run(text):
@@ -28,7 +31,7 @@ def test_no_text_from_data_runs(driver, tmp_path, number):
     """Names, titles, kinds and events appear as text; the page has the elements that it has without them."""
     text = HOSTILE[number]
     page = player.make([("x", hostile_run(text))], tmp_path / "hostile.html")
-    load(driver, f"file://{page}#t=2.5", WIDE, motion=False)
+    load(driver, f"file://{page}#t=2.5", SMALL, motion=False)
     assert driver.title == text and ask(driver, "document.querySelector('h1').textContent") == text
     assert f"House {text} " in ask(driver, "document.querySelector('.result').textContent")
     labels = ask(driver, "[...document.querySelectorAll('#legend-list li')].map((e) => e.textContent)")
@@ -45,7 +48,7 @@ def test_the_policy_stops_foreign_code(driver, tmp_path):
     page = player.make([("x", frames_sample.run())], tmp_path / "page.html")
     foreign = "<script>document.title = 'RUN'</script><img src=x onerror=\"document.title = 'RUN'\"><style>h1 { display: none }</style>"
     page.write_text(page.read_text(encoding="utf-8").replace('<main id="runs">', foreign + '<main id="runs">'), encoding="utf-8")
-    load(driver, f"file://{page}#t=2.5", WIDE, motion=False)
+    load(driver, f"file://{page}#t=2.5", SMALL, motion=False)
     assert driver.title == "House A: earthquake" and driver.find_element("css selector", "h1").is_displayed()
     assert ask(driver, "fetch('https://example.org/').then(() => 'reached', () => 'refused')") == "refused"
     assert sum("Content Security Policy" in line for line in errors(driver)) >= 4

@@ -452,12 +452,16 @@ def test_failed_run_is_named_as_cut_off(tmp_path):
 
 
 def test_messages_pictures_export(tmp_path):
-    """Without --quiet: bar, a sentence, the files written; all of them are there. Snow only, with the scene exported.
+    """Without --quiet: house and loads first, a bar, a sentence, the files written; all of them are there. Snow only,
+    with the scene exported.
     """
     done = run("modelA_snow", "--dt", "2e-4", "--duration", "0.02", "--out", tmp_path / "out", "--export", tmp_path / "scene.json")
     assert done.returncode == 0, done.stderr
+    assert [line for line in done.stdout.splitlines() if "House" in line][0] == "House A: 1 m of snow only"
     assert "House A is undamaged: peak storey drift" in done.stdout and re.search(r"snow 5\.6 t$", done.stdout, re.MULTILINE)
-    files = done.stdout.split("written: ")[1].strip().split(", ")
+    *_, written, following = done.stdout.splitlines()
+    files = written.removeprefix("written: ").split(", ")
+    assert following == f"next: xdg-open {tmp_path / 'out' / 'player.html'}" and Path(following.split()[-1]).is_file()
     assert {Path(name).name for name in files} >= {"summary.json", "history.csv", "breaks.csv", "end_state.png", "checkpoint.yade", "scene.json"}
     assert all(Path(name).stat().st_size > 0 for name in files) and "0.02 s" in done.stderr
     assert summary(tmp_path / "out")["record"] is None and not list(tmp_path.rglob(".part*"))

@@ -9,6 +9,7 @@ import yade.wrapper as yw
 import yade_timber as yt
 from compare import assert_close
 from yade import O
+from yade_timber.motion import GroundMotion
 from yade_timber.scene.engines import find_engine, gravity_now
 
 
@@ -195,6 +196,25 @@ def test_gravity_of_either_engine():
         assert abs(yt.energy_residual(yt.energy())) < 1e-9 * yt.energy()["kinetic"]
     O.engines = yt.engines(gravity=(0, 0, 0))
     assert gravity_now().norm() == 0
+
+
+def test_velocities_imposed_in_mid_run():
+    """Under gravity and ground motion they are input, to rounding; twice; the scene keeps it when it is saved. Setting
+    the attribute itself is not booked.
+    """
+    O.reset()
+    body = O.bodies[O.bodies.append(yt.box((1, 1, 1), (0, 0, 0)))]
+    O.dt, O.engines = 1e-3, yt.engines(ground_motion=GroundMotion(0.1, np.full((9, 3), 2.0)))
+    for velocity in ((3, 2, 1), (0, 0, -4)):
+        O.run(50, True)
+        yt.set_velocity(body, velocity, (0, 2, 0))
+    O.run(50, True)
+    O.saveTmp()
+    O.loadTmp()
+    terms = yt.energy()
+    assert abs(yt.energy_residual(terms)) < 1e-9 * terms["kinetic"] and terms["imposed_velocity"] > 1e3
+    O.bodies[0].state.vel *= 2
+    assert abs(yt.energy_residual(yt.energy())) > 0.1 * terms["kinetic"]
 
 
 def test_refused_shapes_leave_others_alone():

@@ -35,7 +35,10 @@ def test_each_class_has_a_short_line():
 def test_a_joint_shows_its_state(scene):
     joint = yt.connect(*scene, [(0.05, 0, 0), (-0.05, 0, 0)], kind="column_sill", strength=23500)
     assert repr(joint) == "<TimberJoint column_sill: bodies 0 and 1, 2 springs, load 0 of 23.5 kN a spring, intact>"
+    assert repr(joint.springs).splitlines()[1:] == [f"{k:6}  {0:10} {0:10} {0:10}  {0:12}  intact" for k in (0, 1)]
+    assert isinstance(joint.springs, list) and joint.springs[1]["stretch"] == 0
     joint.broken = [1, 0]
+    assert [row.split()[-1] for row in repr(joint.springs).splitlines()[1:]] == ["broken", "intact"]
     assert repr(joint).endswith("1 broken>")
     assert repr(scene[1].shape) == "<RoundedPolyhedron: 8 vertices, 0.105 x 0.105 x 2.73 m, radius 0.0105 m>"
 

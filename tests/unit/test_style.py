@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import in_process
 import matplotlib
 import pytest
 from cycler import Cycler, cycler
@@ -20,6 +21,7 @@ from yade_timber.pictures.views import FRONT
 OTHER_TEXTS = {"white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic", "left": "right"}
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "py" / "yade_timber"
+RECORD = ROOT / "scripts" / "show" / "show_record.py"
 
 
 def other(value):
@@ -75,9 +77,13 @@ def files(folder, made):
     return {path.name: path.read_bytes() for path in paths} | {name: report.picture(figure) for name, figure in made.items()}
 
 
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    return files(tmp_path_factory.mktemp("pictures") / "expected", pages())
+
+
 @pytest.mark.parametrize("settings", [estranged, settings_of_a_user])
-def test_pictures_do_not_depend_on_settings(tmp_path, settings):
-    expected = files(tmp_path / "expected", pages())
+def test_pictures_do_not_depend_on_settings(expected, tmp_path, settings):
     with matplotlib.rc_context():
         settings()
         before = dict(matplotlib.rcParams)
@@ -100,12 +106,11 @@ def test_font_files_do_not_depend_on_settings():
 def test_matplotlibrc_of_a_user(tmp_path):
     """As a user has it: the file that MATPLOTLIBRC names, LaTeX for all texts."""
     (tmp_path / "matplotlibrc").write_text("text.usetex: True\nfigure.facecolor: black\nfont.size: 30\n")
-    pictures = []
-    for name, environment in (("plain", {}), ("own", {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")})):
-        command = [sys.executable, str(ROOT / "scripts/show/show_record.py"), "--end", "20", "--out", str(tmp_path / name)]
-        subprocess.run(command, check=True, capture_output=True, env={"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), **environment})
-        pictures.append((tmp_path / f"{name}.png").read_bytes())
-    assert pictures[0] == pictures[1]
+    words = ["--end", "20", "--out"]
+    assert in_process.run(RECORD, *words, tmp_path / "plain").returncode == 0
+    environment = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
+    subprocess.run([sys.executable, RECORD, *words, tmp_path / "own"], check=True, capture_output=True, env=environment)
+    assert (tmp_path / "plain.png").read_bytes() == (tmp_path / "own.png").read_bytes()
 
 
 def makers(path):

@@ -13,7 +13,8 @@ from .motion import source_of
 from .result import RunResult
 
 RESULTS = Path("results")
-DOOR = Door(name=str, earthquake="give motion='shipped', a record, or seed")
+DOOR = Door(name=str, earthquake="give motion='shipped', a record, or seed",
+            pictures=lambda folder: f"yt.load_run({str(folder)!r}).player()")
 INSTEAD = {"quake": "give motion='shipped'", "record": "give motion='FILE_OR_PREFIX'", "export": "call export_scene",
            **dict.fromkeys(("ensemble", "jobs"), "scripts/house.py has it")}
 """Options of the command line that are no keywords, and what takes their place."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Terms of the energy balance, as HouseMonitor names them: the sum of sign times energy is constant."""
+"""Terms of the energy balance, as `yade_timber.energy` names them: the sum of sign times energy is constant."""
 from dataclasses import dataclass
 
 from . import colors
@@ -7,7 +7,7 @@ from . import colors
 
 @dataclass(frozen=True)
 class Term:
-    """name: of the HouseMonitor; sign in the balance; label (with a line break) and color: of a dissipated term."""
+    """name; sign in the balance; label (with a line break) and color: of a dissipated term in pictures."""
 
     name: str
     sign: int = 1
@@ -22,6 +22,8 @@ DISSIPATED = (Term("dashpot_normal", 1, "contact dashpots,\nnormal", colors.SKY_
               Term("lost_contacts", 1, "contacts lost\nunder load", colors.PURPLE),
               Term("joint_dashpot", 1, "joint dashpots", colors.GREEN),
               Term("joint_yield", 1, "yielding joints", colors.GREY))
+IMPOSED = "imposed_velocity"
 SIGNS = {term.name: term.sign
-         for term in (Term("ground_motion", -1), Term("gravity"), Term("kinetic"), *ELASTIC, *DISSIPATED)}
+         for term in (Term("ground_motion", -1), Term(IMPOSED, -1), Term("gravity"), Term("kinetic"), *ELASTIC,
+                      *DISSIPATED)}
 """{name: sign}"""

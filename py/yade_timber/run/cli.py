@@ -8,7 +8,8 @@ from ..base.errors import RunError
 from ..base.options import BY_SCRIPT, add_options, command_option, options, read_arguments
 from ..base.remedies import close
 from ..motion import with_then
-from .options import RunOptions, scripted
+from ..text import english
+from .options import SNOW_DEPTH, RunOptions, scripted
 
 GROUPS = {"run": "time and results", "motion": "ground motion", "expert": "for experts"}
 """Titles of groups of options in the help, after the main ones."""
@@ -54,7 +55,7 @@ def parser(script, file=None, loads=""):
 def read(house, earthquake, snow, argv):
     """RunOptions of a script that gives house and loads. argv: as sys.argv. Raises RunError, RecordError."""
     script = Path(argv[0]).stem
-    loads = f"House {house}: {'earthquake' if earthquake else 'no earthquake'}, {'snow' if snow else 'no snow'}. "
+    loads = f"House {house}: {english.loads(earthquake, SNOW_DEPTH if snow else 0)}. "
     return _checked(scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)))
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run in a live session: it continues in the background; its results are written at its last step."""
+import builtins
 import sys
 import threading
 import time
@@ -9,6 +10,7 @@ import yade.wrapper as yw
 
 from ..base.errors import InputError, RunError
 from ..scene import viewer
+from .progress import Status
 from .runner import Run
 
 TAG = "yade-timber run"
@@ -30,7 +32,7 @@ class LiveRun(Run):
             return
         O.tags[TAG] = self.tag = uuid.uuid4().hex
         viewer.show()
-        self._since = time.perf_counter()
+        self._since, self._status = time.perf_counter(), Status(self.observer.log)
         self._record_frames()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()
@@ -59,7 +61,15 @@ class LiveRun(Run):
         """The same without waiting."""
         return TAG in O.tags.keys() and O.tags[TAG] == self.tag
 
+    def tell(self, time):
+        """Print new events, and show time [s], drift and broken joints below the prompt."""
+        for line in self._status.events():
+            self.report(line)
+        if not self.options.quiet:
+            show_below(f"{self.scenario.name} {time:.2f}/{self.scenario.duration:.2f} s, {self._status.numbers()}")
+
     def _end(self):
+        show_below(None)
         with self._folder_lock:
             try:
                 if self.steps > 0 and not self.is_loaded():
@@ -75,9 +85,20 @@ class LiveRun(Run):
         return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
 
 
+def show_below(text):
+    """Show a text below IPython's prompt, or nothing with None; without effect where no prompt controls the terminal.
+    """
+    shell = getattr(builtins, "get_ipython", lambda: None)()  # there while the prompt is in use
+    session = getattr(shell, "pt_app", None)
+    if session is not None:
+        session.bottom_toolbar = text
+        session.app.invalidate()
+
+
 def record_frame():
     """Record the state that the present step of the live run leads to; its bodies have moved already."""
     if live and live.is_tagged() and O.iter + 1 < live.steps:
         live.take(O.time + O.dt)
+        live.tell(O.time + O.dt)
         if live.collapse_ends_it():
             live.steps = O.stopAtIter = O.iter + 1

@@ -2,6 +2,7 @@
 """All options of a run: command line, `yt.run`, batches, towns and the identity of a run follow from them."""
 from dataclasses import dataclass, field
 from pathlib import Path
+from shlex import quote
 from typing import Callable
 
 from ..base.errors import RunError, one_line
@@ -29,10 +30,13 @@ ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repea
 
 @dataclass(frozen=True)
 class Door:
-    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake"""
+    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake;
+    pictures: function that gives the command for the pictures of a folder
+    """
 
     name: Callable = command_option
     earthquake: str = "add --quake or --record FILE"
+    pictures: Callable = lambda folder: f"scripts/show/show_run.py {quote(str(folder))}"
 
 
 SCRIPT = Door(earthquake="use a script of a run with an earthquake")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Progress of a run or a town on standard error: a bar, and a line for each event of a run."""
+"""Progress of a run or a town: events and numbers as texts; a bar on standard error."""
 import sys
 
 import numpy as np
@@ -18,6 +18,27 @@ O = yw.Omega()
 tqdm.monitor_interval = (
     0  # no thread that refreshes bars: at the end of a run the process with one thread is copied (pictures/copies.py)
 )
+
+
+class Status:
+    """Events and numbers of one run as texts. log: EventLog"""
+
+    def __init__(self, log):
+        self.log, self.told = log, list(log.events)
+
+    def events(self):
+        """Lines of the events since the last call."""
+        new = [event for event in self.log.events if event not in self.told]
+        self.told += new
+        return [f"{event.time_s:7.2f} s  {english.event(event)}" for event in new]
+
+    def numbers(self):
+        """'drift 1/245, 3/382 joints broken'"""
+        joints = find_engine(yw.JointEngine).joints
+        described = self.log.survey.joints
+        broken = np.array([joint.isBroken for joint in joints[:len(described.damaged)]], bool) & ~described.damaged
+        peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
+        return f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(described, broken), of='/')}"
 
 
 class Bar:
@@ -43,20 +64,13 @@ class Progress(Bar):
 
     def __init__(self, scenario, log, quiet=False):
         super().__init__(scenario.name, scenario.duration, O.time, quiet)
-        self.log, self.shown = log, len(log.events)
+        self.status = Status(log)
 
     def update(self):
         """Print new events and refresh the bar."""
         if self.bar.disable:
             return
-        for event in self.log.events[self.shown:]:
-            self.bar.write(f"{event.time_s:7.2f} s  {english.event(event)}", file=sys.stderr)
-        self.shown = len(self.log.events)
-        joints = find_engine(yw.JointEngine).joints
-        described = self.log.survey.joints
-        broken = np.array([joint.isBroken for joint in joints[:len(described.damaged)]], bool) & ~described.damaged
-        peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        self.bar.set_postfix_str(
-            f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(described, broken), of='/')}", refresh=False
-        )
+        for line in self.status.events():
+            self.bar.write(line, file=sys.stderr)
+        self.bar.set_postfix_str(self.status.numbers(), refresh=False)
         self.advance(O.time)

@@ -4,6 +4,7 @@ import math
 import signal
 import time
 from contextlib import contextmanager
+from shlex import quote
 
 import yade.wrapper as yw
 
@@ -14,7 +15,7 @@ from ..recording import ensemble, frame_log, frames
 from ..scene.engines import find_engine
 from ..scene.export import export_scene
 from ..scene.scenario import build
-from ..text.english import sentence
+from ..text.english import loads, sentence
 from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
@@ -113,6 +114,7 @@ class Run:
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
+        self.report(titled)
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
@@ -245,6 +247,8 @@ class Run:
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
         self.report(sentence(self.summary))
         self.report("written: " + ", ".join(str(path) for path in written))
+        if not self.options.no_frames:
+            self.report(f"next: {command_for_pictures(self.options)}")
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
@@ -273,6 +277,12 @@ def draw(folder, views, page):
     return written
 
 
+def command_for_pictures(options):
+    """Command that shows a recorded run."""
+    page = options.folder / all_pictures.PLAYER
+    return f"xdg-open {quote(str(page))}" if options.views else options.door.pictures(options.folder)
+
+
 def clear(options, *more):
     """Remove results of an earlier run and the files `more`, which are none of this run. Raises RunError."""
     with removing(options):
@@ -294,7 +304,5 @@ def removing(options):
 
 def title(scenario, model):
     """Title of the pictures: house and loads."""
-    shaken = "earthquake" if scenario.motion is not None else ""
-    snow = f"{scenario.snow_depth:g} m of snow" if scenario.snow_depth > 0 else ""
     damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
-    return f"House {model.name}: {' and '.join(filter(None, (shaken, snow))) or 'own weight only'}{damped}"
+    return f"House {model.name}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"

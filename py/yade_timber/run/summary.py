@@ -7,7 +7,7 @@ import numpy as np
 import yade.wrapper as yw
 
 from ..base.atomic_write import write_text
-from ..base.energy_terms import DISSIPATED, ELASTIC
+from ..base.energy_terms import DISSIPATED, ELASTIC, IMPOSED
 from ..base.errors import RunError
 from ..base.json_types import decode, encode
 from ..base.table import csv_text
@@ -106,19 +106,21 @@ def recorded_history(monitor):
 
 def last_energies(history):
     """Terms of `queries.energy` in the last sample of a History; zero without one."""
-    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in queries.energy()}
+    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in yw.HouseMonitor().energy()}
 
 
 def energy_balance(terms):
     """The part `energy` [J] from the terms of `queries.energy`.
 
-    input: work of the ground motion and potential energy released by gravity since the start. residual: stored, kinetic
-    and dissipated energy minus the input; residual_fraction: its absolute value over the input, None without input.
+    input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
+    start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
+    the input, None without input.
     created: negative dissipation of single contact points and joints, as a positive number; contained in `dissipated`.
     Raises RunError for numbers that are not finite.
     """
-    terms = {"ground_motion": 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
-    supplied, residual = terms["ground_motion"] - terms["gravity"], queries.energy_residual(terms)
+    terms = {"ground_motion": 0.0, IMPOSED: 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
+    supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
+    residual = queries.energy_residual(terms)
     balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[term.name] for term in ELASTIC),
                      dissipated={term.name: terms[term.name] for term in DISSIPATED},
                      created=find_engine(yw.ContactForces).created, residual=residual,

@@ -5,6 +5,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
+from .queries import imposed_velocities
 
 O = yw.Omega()
 
@@ -175,7 +176,7 @@ def box(extents, centre, orientation=None, material=None, fixed=False, radius=No
 
 
 def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
-    """Give a body a velocity, and the angular momentum that the integrator needs.
+    """Give a body a velocity, and the angular momentum that the integrator needs; the energy is booked as imposed.
 
     Parameters
     ----------
@@ -188,5 +189,7 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
     """
     if not isinstance(body, yw.Body):
         body = O.bodies[arguments.present_ids("set_velocity", body)[0]]
-    body.state.vel = arguments.vector("velocity", velocity, "m/s")
-    body.state.angVel = arguments.vector("angular_velocity", angular_velocity, "rad/s")
+    velocity = arguments.vector("velocity", velocity, "m/s")
+    angular_velocity = arguments.vector("angular_velocity", angular_velocity, "rad/s")
+    with imposed_velocities():
+        body.state.vel, body.state.angVel = velocity, angular_velocity

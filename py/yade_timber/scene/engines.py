@@ -36,8 +36,8 @@ class ContactOptions:
         arguments.positive("engines: tolerance", self.tolerance)
 
     def loop(self):
-        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a "
-          "functor."""
+        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a functor.
+        """
         geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(
             vertexEdge=self.vertex_edge, flushSupports=self.flush_supports
         )

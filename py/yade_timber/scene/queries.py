@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts, energies and stable time step of the scene that is loaded in YADE."""
+from contextlib import contextmanager
+
 import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
-from ..base.energy_terms import SIGNS
+from ..base.energy_terms import IMPOSED, SIGNS
 from . import arguments
+from .background import between_steps
 from .engines import find_engine
+
+TAG = f"yade-timber {IMPOSED}"
+"""Tag of the scene: energy that velocities have brought in which `set_velocity` imposed. [J]"""
 
 O = yw.Omega()
 
@@ -74,16 +80,16 @@ def energy():
     -------
     dict
         Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the
-        placement of bodies in contact), ``elastic_joints``;
-        ``ground_motion`` (work done by it); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``,
+        placement of bodies in contact), ``elastic_joints``; ``ground_motion`` (work done by it), ``imposed_velocity``
+        (brought in by `set_velocity`); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``,
         ``broken_springs``, ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
-        The sum of all terms but ``ground_motion``, minus ``ground_motion``, is constant.
+        The sum of all terms but ``ground_motion`` and ``imposed_velocity``, minus these two, is constant.
     """
-    return Energies(yw.HouseMonitor().energy())
+    return Energies(yw.HouseMonitor().energy() | {IMPOSED: float(O.tags[TAG]) if TAG in O.tags.keys() else 0.0})
 
 
 def energy_residual(terms):
-    """Residual of the energy balance; zero at the start of a scene at rest.
+    """Residual of the energy balance; zero at the start of a scene at rest, also after `set_velocity`.
 
     Parameters
     ----------
@@ -98,6 +104,17 @@ def energy_residual(terms):
     arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
     supplied, others = (sum(value for name, value in terms.items() if SIGNS.get(name, 1) == sign) for sign in (-1, 1))
     return others - supplied
+
+
+@contextmanager
+def imposed_velocities():
+    """Context between two steps; what velocities that are set in it change in the energy balance is booked as imposed.
+    """
+    with between_steps():
+        before = energy_residual(energy())
+        yield
+        terms = energy()
+        O.tags[TAG] = repr(terms[IMPOSED] + energy_residual(terms) - before)
 
 
 def stable_dt(safety=0.5):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One line about each object of the package's classes, for the prompt: units, four digits."""
+"""One line about each object of the package's classes, and a table of a joint's springs, for the prompt: units, four
+digits.
+"""
 
 ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),
@@ -14,6 +16,24 @@ def install(classes):
     """Give classes of yade.wrapper their lines."""
     for cls in classes:
         cls.__repr__ = cls.__str__ = LINES.get(cls.__name__, _line)
+        if cls.__name__ == "TimberJoint":
+            cls.springs = property(_springs(cls.springs.fget), doc=cls.springs.__doc__)
+
+
+class Springs(list):
+    """Springs of a joint; a short table at the prompt."""
+
+    def __repr__(self):
+        rows = (
+            f"{k:6}  {' '.join(f'{x:10.4g}' for x in spring['force'])}  {spring['stretch'] * 1e3:12.4g}"
+            f"  {'broken' if spring['broken'] else 'intact'}"
+            for k, spring in enumerate(self)
+        )
+        return "\n".join(["spring  force x, y, z on body 1 [N]           stretch [mm]  state", *rows])
+
+
+def _springs(springs):
+    return lambda joint: Springs(springs(joint))
 
 
 def _line(part):

@@ -14,6 +14,15 @@ ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Reco
 """Words of pictures/provenance.py."""
 
 
+# --- the loads of a run -----------------------------------------------------------------------------------------------
+
+
+def loads(earthquake, snow_depth):
+    """'earthquake and 1 m of snow'. earthquake: whether there is one; snow_depth [m]"""
+    snow = f"{snow_depth:g} m of snow{'' if earthquake else ' only'}" if snow_depth > 0 else ""
+    return " and ".join(filter(None, ("earthquake" * earthquake, snow))) or "own weight only"
+
+
 # --- the result of a run ----------------------------------------------------------------------------------------------
 
 
