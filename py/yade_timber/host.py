@@ -41,10 +41,7 @@ def host_facts() -> dict:
 
 
 def build_record(module_file) -> dict:
-    """Build record of a module file: keys yade, headers, features, python, package. The file is read, not loaded.
-
-    Raises ImportError when the file has no record.
-    """
+    """Build record in a module file, which is not loaded: yade, headers, features, python, package. Or ImportError."""
     with open(module_file, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
         start = content.find(RECORD_MARK + b"{")
         if start < 0:
@@ -60,9 +57,9 @@ def check_build(record: dict, host: dict) -> None:
             raise ImportError(
                 f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}"
             )
-    built, found = set(record["features"].split()), set(host["features"].split())
-    if built != found:
-        changes = [f"+{name}" for name in sorted(found - built)] + [f"-{name}" for name in sorted(built - found)]
+    built, features = set(record["features"].split()), set(host["features"].split())
+    if built != features:
+        changes = [f"+{name}" for name in sorted(features - built)] + [f"-{name}" for name in sorted(built - features)]
         raise ImportError(
             f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}."
             f" {REMEDY}"
@@ -129,9 +126,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
 
 
 def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
-    """Containers without a Python attribute: those of a scene, and the functors of a collider and an InteractionLoop.
-    Raises ImportError like check_layout.
-    """
+    """Containers without a Python attribute: of a scene, a collider, an InteractionLoop. Raises as check_layout."""
     omega, force = wrapper.Omega(), type(wrapper.State().pos)(1.5, 2.5, 3.5)
     scene = wrapper.Scene()
     before = plugin.swap_scene(scene)
@@ -143,8 +138,8 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
         seen = plugin.read_containers(scene)
     finally:
         plugin.swap_scene(before)
-    for name, stored, found in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
-        check_value(f"Scene.{name}", stored, found, record, host)
+    for name, stored, value in zip(("engines", "bodies", "interactions", "forces"), (3, 1, 0, force), seen):
+        check_value(f"Scene.{name}", stored, value, record, host)
     collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()])
     check_value("BoundDispatcher.functors", 1, plugin.count_bound_functors(collider), record, host)
     loop = wrapper.InteractionLoop(
@@ -155,9 +150,7 @@ def check_containers(plugin, wrapper, record: dict, host: dict) -> None:
 
 
 def import_module(package: str, directory):
-    """Import the compiled module in `directory`, or the one in FASTER if it is there and the loader finds this
-    processor fit for it.
-    """
+    """Import the compiled module in `directory`, or the one in FASTER where it is there and fits this processor."""
     if (Path(directory) / FASTER / f"{MODULE}.so").exists():
         try:
             return importlib.import_module(f".{FASTER}.{MODULE}", package)
@@ -168,10 +161,7 @@ def import_module(package: str, directory):
 
 
 def load(package: str, directory):
-    """Check and load the compiled module `<package>._yade_timber` in `directory`, then register its classes.
-
-    Returns (module, names of the registered classes). Raises ImportError as the module's documentation says.
-    """
+    """Check and load `<package>._yade_timber` in `directory`; returns (module, classes). ImportError as above."""
     file = Path(directory) / f"{MODULE}.so"
     if not file.exists():
         raise ImportError(f"yade-timber's compiled module is missing ({file}). {REMEDY}")

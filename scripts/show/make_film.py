@@ -10,6 +10,7 @@ in .webp gives an animated picture for a web page.
 """
 import argparse
 import math
+import shutil
 import time
 
 from show_common import Parser, errors_in_a_line, frames_path, path
@@ -80,7 +81,7 @@ def arguments():
 def main():
     options = arguments()
     files = [frames_path(run) for run in (options.run, options.compare) if run]
-    out = options.out or files[0].parent / film.default_name()
+    out = options.out or files[0].parent / ("film.mp4" if shutil.which("ffmpeg") else "film.webp")
     form = film.Format(*options.size, options.rate, options.speed, options.quality)
     since = time.perf_counter()
     with errors_in_a_line(out):

@@ -10,7 +10,7 @@ import frames_sample
 import numpy as np
 import pytest
 from yade_timber.base.errors import RunError
-from yade_timber.pictures import quantities, report, report_pictures
+from yade_timber.pictures import figures, quantities, report, report_pictures
 from yade_timber.recording import peaks
 from yade_timber.recording.failures import cause_of, first_failures
 from yade_timber.recording.events import Collapse, Event, SnowFallen
@@ -85,7 +85,8 @@ def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
 def test_page_and_report(folder, tmp_path):
     for name in ("frames.h5", "summary.json", "history.csv", "storeys.csv", "joints.csv", "columns.csv"):
         shutil.copy(folder / name, tmp_path / name)
-    assert [path.suffix for path in quantities.write(tmp_path / "quantities", quantities.read(tmp_path), ("png", "pdf"))] == [".png", ".pdf"]
+    page = quantities.page(quantities.read(tmp_path), quantities.DPI)
+    assert [path.suffix for path in figures.save(page, tmp_path / "quantities", ("png", "pdf"))] == [".png", ".pdf"]
     written = report.write(tmp_path)
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"

@@ -7,10 +7,9 @@ import sys
 
 import numpy as np
 import pytest
-from fontTools import subset
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, fonts, key_times, raster, sheets, snapshot, views
+from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, snapshot, views
 from yade_timber.pictures.raster import Window
 from yade_timber.pictures.views import FRONT, SIDE, Solid
 from yade_timber.recording import frames as recorded
@@ -136,21 +135,6 @@ def test_labels_of_drift_levels_do_not_overlap():
     labels = [text for text in page.axes[2].texts if text.get_text().startswith("1/")]
     heights = sorted(text.get_window_extent().y0 for text in labels)
     assert len(heights) == 3 and np.diff(heights).min() >= 0.99 * curves.LABEL_GAP * 50 / 72
-
-
-def test_fonts_are_embedded_without_layout_tables():
-    """The embedded font has outlines but no kerning; other programs in this process get whole fonts again."""
-    def tables():
-        options = subset.Options(glyph_names=True, recommended_glyphs=True)  # as matplotlib does
-        cutter, font = subset.Subsetter(options), subset.load_font(fonts.file(fonts.OWN), options)
-        cutter.populate(text="House")
-        cutter.subset(font)
-        return set(font.keys())
-
-    with fonts.without_layout():
-        reduced = tables()
-    assert "glyf" in reduced and not reduced & set(fonts.LAYOUT)
-    assert "GPOS" in tables()
 
 
 def test_pdf_files_embed_truetype_fonts(tmp_path):

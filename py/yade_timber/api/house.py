@@ -4,7 +4,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..base.atomic_write import write_text
-from ..base.errors import RunError
+from ..base.errors import os_errors
 from ..house import build_house, changed_house, free_bays, load_house
 from ..house.parser import house_text
 
@@ -60,9 +60,7 @@ class House:
 
     @cached_property
     def free_bays(self):
-        """Names of the braces that `variant` can add, one for each bay without a brace, a window or a door:
-        ``"main.brace1.NS.x0.1-2"``.
-        """
+        """Names of the braces that `variant` can add, one for each free bay: ``"main.brace1.NS.x0.1-2"``."""
         return free_bays(self._description)
 
     def model(self, snow=None):
@@ -114,10 +112,8 @@ class House:
         from ..pictures import drawings
         from ..pictures.figures import stem_of
 
-        try:
+        with os_errors(lambda fault: f"{path}: the drawing cannot be written: {fault}"):
             return drawings.write(stem_of(Path(path or f"house_{self.name}.png")), self.model(snow))
-        except OSError as problem:
-            raise RunError(f"{path}: the drawing cannot be written: {problem.strerror}") from None
 
     def variant(self, path, settings=(), braces=(), strength=1.0):
         """Write a changed copy to a house file, and return it as a house.
@@ -139,8 +135,6 @@ class House:
         """
         data = changed_house(self.path, settings, braces, strength, where=lambda change: f"{self.name}, {change}")
         data["name"] = Path(path).stem
-        try:
+        with os_errors(lambda fault: f"{path}: the house file cannot be written: {fault}"):
             write_text(Path(path), f"# House {self.name} with changes\n{house_text(data)}")
-        except OSError as problem:
-            raise RunError(f"{path}: the house file cannot be written: {problem.strerror}") from None
         return House(path)

@@ -42,15 +42,15 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     >>> weak = yt.motion("shipped", scale=0.5)
     >>> kobe = yt.motion("RSN1106_KOBE_KJM", pga=400)
     """
-    record, given = source_of(source)
+    record, measured = source_of(source)
     request = MotionRequest(
         **{**read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}),
            "record": record}
     )
     request.check("motion: {}".format)
-    if given is not None and request.seed is not None:
+    if measured is not None and request.seed is not None:
         raise RecordError("motion: seed: a GroundMotion is given; leave one of them out")
-    return scaled(request.motion(dt, given), 1.0 if request.scale is None else request.scale)
+    return scaled(request.motion(dt, measured), 1.0 if request.scale is None else request.scale)
 
 
 def source_of(motion):

@@ -5,7 +5,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..base.atomic_write import make_folder
-from ..base.errors import RunError
+from ..base.errors import os_errors
 from ..base.input_file import require_regular
 from ..recording import ensemble, frames
 from ..recording.history import NAME as HISTORY
@@ -89,16 +89,12 @@ class RunResult:
 
     @cached_property
     def history(self):
-        """Time histories (`History`): ``history.time`` (F,) [s], ``history.drift(1, "ns")`` (F,) [-],
-        ``history.energy("kinetic")`` (F,) [J].
-        """
+        """Time histories: ``history.time`` [s], ``history.drift(1, "ns")`` [-], ``history.energy("kinetic")`` [J]."""
         return History.read(self.folder / HISTORY)
 
     @cached_property
     def breaks(self):
-        """Each spring that broke, in order: dictionaries with the columns of ``breaks.csv`` as keys and texts as
-        values.
-        """
+        """Each spring that broke, in order: dictionaries of texts with the columns of ``breaks.csv`` as keys."""
         path = self.folder / BREAKS
         require_regular(path)
         with open(path, newline="", encoding="utf-8") as file:
@@ -106,16 +102,12 @@ class RunResult:
 
     @cached_property
     def frames(self):
-        """Recorded frames (`Frames`): positions (F, N, 3) [m], orientations (F, N, 4), loads and breaks of joints, 20
-        times per simulated second.
-        """
+        """Recorded frames (`Frames`), 20 times per simulated second: positions, orientations, loads, breaks."""
         return frames.load(self.folder / frames.NAME)
 
     @cached_property
     def ensemble(self):
-        """Medians, ranges and shares over the runs of an ensemble (content of ``ensemble.json``); None for a run on its
-        own.
-        """
+        """Medians, ranges and shares of an ensemble (content of ``ensemble.json``); None for a run on its own."""
         return ensemble.read(self.folder) if (self.folder / ensemble.NAME).exists() else None
 
     # --- pictures -----------------------------------------------------------------------------------------------------
@@ -140,10 +132,8 @@ class RunResult:
         runs = [run for run in (self, other) if run is not None]
         name = PLAYER if other is None else f"compare_with_{other.folder.resolve().name}.html"
         page = Path(path) if path is not None else self.folder / name
-        try:
+        with os_errors(lambda fault: f"{page}: cannot be written: {fault}"):
             return player.make([(run.folder / frames.NAME, run.frames) for run in runs], page)
-        except OSError as problem:
-            raise RunError(f"{page}: cannot be written: {problem.strerror}") from None
 
     def pictures(self, folder=None):
         """Make all pictures of the run and the player.
@@ -160,11 +150,9 @@ class RunResult:
         from ..pictures import all_pictures
 
         folder = self.folder if folder is None else Path(folder)
-        try:
+        with os_errors(lambda fault: f"{folder}: the pictures cannot be written: {fault}"):
             make_folder(folder)
             return all_pictures.write(folder, self.folder)
-        except OSError as problem:
-            raise RunError(f"{folder}: the pictures cannot be written: {problem.strerror}") from None
 
 
 def load_run(folder):

@@ -99,9 +99,7 @@ def _complete(options):
 
 @contextmanager
 def _restored_handlers():
-    """The session's own signal handlers again at the end: a run that is stopped keeps its handlers for the end of a
-    script.
-    """
+    """The session's own signal handlers again at the end: an interrupted run keeps its handlers."""
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield

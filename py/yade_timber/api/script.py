@@ -36,9 +36,7 @@ def _launch(read, argv):
 
 
 def _planned(script, options):
-    """(Scenario or TownPlan, options), for a report on a house with rated walls after a run with those of the other
-    level. Raises InputError.
-    """
+    """(Scenario or TownPlan, options); with a report, after a run with walls of the other level. Raises InputError."""
     from ..run.plan import planned
     from ..study import other_walls
 

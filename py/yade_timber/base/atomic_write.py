@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files that are either complete or absent: written under a temporary name, then renamed. Needs no YADE.
+"""Files that are either complete or absent: written under a temporary name, then renamed.
 
 Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a
 terminal, a pipe with a reader, a character device) gets the content of the complete file; folders, sockets and disks
@@ -34,9 +34,7 @@ def written_whole(path):
 
 @contextmanager
 def written_from_memory(path):
-    """`written_whole` for writers that end the process on a full disk (YADE, HDF5) or miss it (VTK): to a file in
-    memory, which is copied to the disk.
-    """
+    """`written_whole` through a file in memory, for writers that crash on a full disk (YADE, HDF5) or miss it (VTK)."""
     descriptor = os.memfd_create(Path(path).name)
     with open(descriptor, "rb") as memory:
         yield Path(f"/proc/self/fd/{descriptor}")
@@ -45,9 +43,7 @@ def written_from_memory(path):
 
 
 def _is_stream(path):
-    """Whether content is written to what is at `path` instead of replacing it. Raises OSError for what can be neither
-    written to nor replaced.
-    """
+    """Whether content is written to what is at `path` instead of replacing it. Raises OSError for neither."""
     try:
         status = path.stat()
     except FileNotFoundError:
@@ -95,9 +91,7 @@ def _written_to(path):
 
 
 def _opened(path):
-    """Stream to what is at `path`, before anything is computed for it. A pipe without a reader is refused: it would
-    wait for ever.
-    """
+    """Stream to what is at `path`. A pipe without a reader is refused: it would wait for ever."""
     output = _output_of(path.stat())
     if output is not None:
         (sys.stdout if output == 1 else sys.stderr).flush()
@@ -122,9 +116,7 @@ def _sync(path):
 
 
 def remove(path):
-    """Remove the regular file that a path or its links lead to, if there is one. Links and what can be written to stay.
-    Raises OSError for all else.
-    """
+    """Remove the regular file at a path or its links, if any; links and streams stay. Raises OSError."""
     if not _is_stream(Path(path)):
         Path(os.path.realpath(path)).unlink(missing_ok=True)
 
@@ -145,8 +137,6 @@ def make_folder(path):
 
 
 def write_text(path, text):
-    """Write a text file (UTF-8, line ends as given; halves of character pairs, as in undecodable names of files, as
-    escapes). Raises OSError.
-    """
+    """Write a text file: UTF-8, line ends as given, halves of character pairs as escapes. Raises OSError."""
     with written_whole(path) as part:
         part.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")

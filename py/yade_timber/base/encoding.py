@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Paths and output in any encoding: names of files are bytes, and a terminal may have ASCII only. Needs no YADE."""
+"""Paths and output in any encoding: names of files are bytes, and a terminal may have ASCII only."""
 import os
 import sys
 from contextlib import contextmanager
@@ -8,9 +8,7 @@ from pathlib import Path
 
 @contextmanager
 def encodable(path):
-    """Path of the same file as a text that has an encoding, for YADE: through a descriptor of its folder if need be.
-    The file's own name is ASCII.
-    """
+    """Path of the same file that has an encoding, for YADE: through a descriptor of its folder if need be."""
     path = Path(path)
     if str(path).isprintable():  # lone surrogates, which stand for undecodable bytes, are not
         yield str(path)

@@ -7,9 +7,7 @@ from . import colors
 
 @dataclass(frozen=True)
 class Term:
-    """name; sign in the balance; label and color: of a dissipated term in pictures, with a line
-    break.
-    """
+    """name; sign in the balance; label (with a line break) and color: of a dissipated term in pictures."""
 
     name: str
     sign: int = 1

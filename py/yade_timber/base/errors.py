@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Exceptions for input that cannot be used; the message is one printable line: place, fault, admissible range, remedy.
-Needs no YADE.
-"""
+"""Exceptions for input that cannot be used."""
+from contextlib import contextmanager
 
 MAX_MESSAGE = 900
 """Longest error message; the middle of a longer one is left out. [characters]"""
 
 
 class InputError(ValueError):
-    """Input that cannot be used. The message is one printable line: file:line: member: problem; admissible range;
-    remedy.
-    """
+    """Input that cannot be used. The message is one printable line: file:line, member, problem, range, remedy."""
 
     def __init__(self, message):
         super().__init__(one_line(str(message)))
@@ -18,6 +15,15 @@ class InputError(ValueError):
 
 class RunError(InputError):
     """A run that cannot be done as requested, or a file of a run that cannot be used."""
+
+
+@contextmanager
+def os_errors(message):
+    """Context in which an OSError becomes a RunError. message: function of its text"""
+    try:
+        yield
+    except OSError as problem:
+        raise RunError(message(problem.strerror)) from None
 
 
 def one_line(text):

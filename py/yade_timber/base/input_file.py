@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Input files of unknown content: only regular files, only up to a size. Needs no YADE."""
+"""Input files of unknown content: only regular files, only up to a size."""
 
 import errno
 import os
@@ -46,9 +46,7 @@ def _is(kind, path):
 
 
 def read_bytes(path, limit):
-    """Content of a regular file of at most `limit` bytes. Raises OSError with strerror; never waits for a pipe or a
-    device.
-    """
+    """Content of a regular file of at most `limit` bytes. Raises OSError; never waits for a pipe or a device."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     except ValueError:

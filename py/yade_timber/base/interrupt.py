@@ -6,9 +6,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def deferred_interrupt():
-    """Ctrl-C takes effect at the end of the block: KeyboardInterrupt in the middle of an import may crash compiled
-    modules.
-    """
+    """Ctrl-C takes effect at the end of the block: within an import it may crash compiled modules."""
     received = []
     before = signal.signal(signal.SIGINT, lambda *_: received.append(True))
     try:

@@ -46,9 +46,7 @@ def encode(value):
 
 
 def decode(kind, value, path="content"):
-    """Value of a type from JSON. path: names the place in messages. Raises ValueError for a missing entry and for a
-    value of another type.
-    """
+    """Value of a type from JSON. path: its place in messages. Raises ValueError for a missing or wrong entry."""
     if hasattr(kind, "decoded"):
         return kind.decoded(value, path)
     if is_dataclass(kind):

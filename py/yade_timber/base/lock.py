@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""At most one process per folder of results: a lock on a file in the folder, released when the process ends, however it
-ends.
-"""
+"""At most one process per folder of results: a lock on a file in the folder, released when the process ends."""
 import fcntl
 import os
 import tempfile
 from contextlib import contextmanager
 
 from .atomic_write import make_folder
-from .errors import RunError
+from .errors import os_errors
 
 LOCK = ".lock"
 _descriptors = set()
@@ -17,25 +15,16 @@ _descriptors = set()
 
 def prepare_folder(folder, option):
     """Create the folder and check that files can be written in it. option: its name for the user. Raises RunError."""
-    try:
+    with os_errors(lambda fault: f"{option} {folder}: results cannot be written there: {fault}; choose another folder"):
         make_folder(folder)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as problem:
-        raise RunError(
-            f"{option} {folder}: results cannot be written there: {problem.strerror}; choose another folder"
-        ) from None
+        tempfile.TemporaryFile(dir=folder).close()
 
 
 @contextmanager
 def locked(folder):
-    """True while this process alone has the folder, False when another process has it. Copies of the process (fork) do
-    not have it. Raises RunError.
-    """
-    try:
+    """True while this process alone, without its copies (fork), has the folder; else False. Raises RunError."""
+    with os_errors(lambda fault: f"{folder / LOCK}: cannot be opened: {fault}"):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-    except OSError as problem:
-        raise RunError(f"{folder / LOCK}: cannot be opened: {problem.strerror}") from None
     _descriptors.add(descriptor)
     try:
         yield _acquired(descriptor)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Warnings as lines for users. Needs no YADE."""
+"""Warnings as lines for users."""
 import sys
 import warnings
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Options as fields of a dataclass. Readers of command lines, table cells and keywords follow from the fields. Needs no
-YADE.
-"""
+"""Options as fields of a dataclass. Readers of command lines, table cells and keywords follow from the fields."""
 from dataclasses import field, fields
 from numbers import Integral, Real
 from pathlib import Path
@@ -19,9 +17,7 @@ BY_SCRIPT = ("house", "quake", "snow", "walls")
 
 
 def option(kind, about, metavar=None, low=None, high=None, default=None, choices=(), group="motion", decides=True):
-    """Field of a dataclass that is an option. low, high: admissible range, both included; decides: whether it decides
-    results.
-    """
+    """Field of a dataclass that is an option. low, high: range, both included; decides: whether it decides results."""
     default = False if kind is bool else default
     return field(
         default=default,
@@ -103,21 +99,17 @@ def read_arguments(kind, arguments):
 
 
 def words(values, named):
-    """Arguments of a run script that give options {name: value}. named: whether the script gives BY_SCRIPT; otherwise
-    its house is first
-    """
-    given = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
+    """Arguments of a run script. named: whether the script gives BY_SCRIPT; otherwise its house is first."""
+    passed = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
     return [*([] if named else [values["house"]]),
-            *(command_option(name) + ("" if value is True else f"={value}") for name, value in given.items())]
+            *(command_option(name) + ("" if value is True else f"={value}") for name, value in passed.items())]
 
 
 # --- keywords ---------------------------------------------------------------------------------------------------------
 
 
 def read_keywords(kind, function, keywords, instead={}):
-    """{option: value} of the keywords of a function, without None. instead: {option that it does not have: remedy}.
-    Raises TypeError, RunError.
-    """
+    """{option: value} of a function's keywords, without None. instead: {excluded option: remedy}. Raises RunError."""
     names = [name for name in options(kind) if name not in instead]
     for name in keywords:
         if name not in names:

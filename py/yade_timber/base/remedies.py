@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ends of error messages that name the remedy. Needs no YADE."""
+"""Ends of error messages that name the remedy."""
 import re
 from difflib import get_close_matches
 

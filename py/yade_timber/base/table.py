@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Text of CSV files. Needs no YADE."""
+"""Text of CSV files."""
 import csv
 import io
 
@@ -19,9 +19,7 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def inert(value):
-    """A text that a spreadsheet would take for a formula, with an apostrophe before it; numbers, a lone dash and other
-    values as they are.
-    """
+    """A text that a spreadsheet would take for a formula, with an apostrophe before it; other values as they are."""
     if not isinstance(value, str) or not value.startswith(FORMULA) or len(value) == 1:
         return value
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time steps and durations of runs. Needs no YADE."""
+"""Time steps and durations of runs."""
 
 DEFAULT_DT = 5e-4
 """Time step of house runs. [s]"""
@@ -8,9 +8,7 @@ MAX_DT = 5e-4
 MIN_DT = 1e-7
 """Smallest time step of house runs [s]: a hundredth of the paper's."""
 REST_STRIDE = 0.05
-"""Time between computed steps while house and ground are at rest [s]: 30 of them in the time over which rest is
-observed (RestSkipper.restTime).
-"""
+"""Time between computed steps at rest [s]: 30 of them in RestSkipper.restTime."""
 MAX_DURATION = 1e5
 """Longest simulated time of a run. [s]"""
 

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bays that can take a brace or a wall: between neighbouring columns on a line of beams. Names are those that
-`changed_house` takes.
-"""
+"""Bays that can take a brace or a wall, between neighbouring columns on a line of beams; for `changed_house`."""
 
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
 
 
 def free_bays(description):
-    """Names of the braces that can be added with `changed_house`, e.g. 'main.brace1.EW.y0.3-4'; one for each bay
-    without brace, window or door.
+    """Names of the braces that can be added, e.g. 'main.brace1.EW.y0.3-4'; one for each bay without brace or opening.
 
-    The foot is at the column nearer to an end of the line (in the middle: at the lower node), as in the corners of
-    houses B and C.
+    The foot is at the column nearer to an end of the line; in the middle at the lower node.
     """
     names = []
     for structure, storey in _storeys(description):
@@ -25,9 +21,7 @@ def free_bays(description):
 
 
 def free_wall_bays(description, kind):
-    """Names of the walls of a type that can be added with `changed_house`, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for
-    each bay without walls.
-    """
+    """Names of walls of a type that can be added, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for each free bay."""
     names = []
     for structure, storey in _storeys(description):
         walled = _walled(structure, storey)
@@ -58,9 +52,7 @@ def _bays(structure, storey):
 
 
 def _name(structure, kind, storey, bay):
-    """Name of a bay. A whole node before a fraction is written with its decimal: 'x4.0.1.5-3', as 'x4.1.5-3' is the bay
-    5-3 on the line 4.1.
-    """
+    """Name of a bay; a whole node before a fraction has its decimal: x4.0.1.5-3, as x4.1.5-3 is bay 5-3 of line 4.1."""
     along, at, start, end = bay
     line = f"{at:.1f}" if at == int(at) and start != int(start) else f"{at:g}"
     return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
@@ -77,9 +69,7 @@ def _braced(structure, storey):
 
 
 def _walled(structure, storey, only_open=False):
-    """{(along, at, lower node, higher node)} of the bays that have a wall in this storey. only_open: those with a
-    window or a door
-    """
+    """{(along, at, lower node, higher node)} of the bays with walls in a storey. only_open: with a window or a door"""
     walls = [line for line in _in_storey(structure.table["walls"], storey)
              if line["opening"] != "none" or not only_open]
     lines = [(line["along"], at, line["from"], line["to"]) for line in walls for at in line["at"]]

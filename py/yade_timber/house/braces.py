@@ -12,9 +12,7 @@ from .structure import ACROSS
 
 @dataclass(frozen=True)
 class Diagonal:
-    """One brace on the grid: on the line `along` x or y at node `at`, from the foot of the column at node `foot` to the
-    head of that at `head`.
-    """
+    """One brace on the grid line `along` x or y at node `at`, from a column's foot at `foot` to a head at `head`."""
 
     along: str
     at: float
@@ -29,12 +27,10 @@ class Diagonal:
 
 
 def lay_braces(structure, layer):
-    """Braces of one storey. A run [foot, head] leans from the foot of the column at node `foot` to the head of the one
-    at `head`.
-    """
+    """Braces of one storey. A run [foot, head] leans from the foot of one column to the head of another."""
     plan, elements = column_plan(structure, layer.storey), []
     for line in structure.table["braces"]["lines"]:
-        _check_storeys(structure, line)
+        structure.check_storeys(line["storeys"], line.at("storeys"), "braces")
         if line["storeys"] and layer.storey not in line["storeys"]:
             continue
         for at in line["at"]:
@@ -42,14 +38,6 @@ def lay_braces(structure, layer):
                 diagonal = Diagonal(line["along"], at, foot, head, layer.storey, line["runs"].at(i))
                 elements.append(_brace(structure, layer, diagonal, plan))
     return elements
-
-
-def _check_storeys(structure, line):
-    for number in line["storeys"]:
-        if number not in structure.storeys:
-            raise HouseError(
-                f"{line.at('storeys')}: {structure.name}: braces: no storey {number}; the stack has {structure.storeys}"
-            )
 
 
 def _brace(structure, layer, diagonal, plan):
@@ -73,9 +61,9 @@ def _clear_bay(structure, diagonal, plan):
     )
     for node in (foot, head):
         if node not in on_line:
-            known = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
+            nodes = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
             raise HouseError(
-                f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {known}"
+                f"{place} has no bay: no column at node {node:g}; nodes with columns on this line: {nodes}"
             )
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:

@@ -24,11 +24,7 @@ STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
 
 def build_house(description, snow_depth=None, check=True, wall_level=None):
-    """Build a described house. snow_depth [m], vertical; wall_level: of walls of a rated multiplier (None: the
-    description's own).
-
-    Raises HouseError; see `check_house`.
-    """
+    """Build a described house. snow_depth [m]; wall_level: of rated walls, None: the file's. Raises HouseError."""
     data = description.data
     level = wall_level or data["law"]["wall_level"]
     depth = _snow_depth(data, snow_depth)
@@ -38,7 +34,8 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     _require_storeys(structures)
     elements = [_ground(data, structures)]
     for structure in structures.values():
-        elements += _structure_elements(structure, depth, data["snow"]["material"])
+        for layer in structure.layers:
+            elements += _layer_elements(structure, layer, depth, data["snow"]["material"])
         require_few(len(elements), structure.table.where, f"structures.{structure.name}")
     if data["plumb"]["drift"]:
         _lean(elements[1:], structures, data["plumb"])
@@ -58,9 +55,7 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
 
 
 def _require_storeys(structures):
-    """HouseError for columns without a layer, and for a first structure, whose storey drifts are reported, without a
-    storey.
-    """
+    """HouseError for columns without a layer, and for a first structure without a storey: its drifts are reported."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
             raise HouseError(
@@ -97,11 +92,6 @@ def _number_repeats(elements):
             element.name += f".{seen[element.name]}"
 
 
-def _structure_elements(structure, depth, snow_material):
-    return [element for layer in structure.layers
-            for element in _layer_elements(structure, layer, depth, snow_material)]
-
-
 def _layer_elements(structure, layer, depth, snow_material):
     if layer.kind in STRIPS:
         return lay_strips(structure, layer, STRIPS[layer.kind])
@@ -113,11 +103,7 @@ def _layer_elements(structure, layer, depth, snow_material):
 
 
 def _lean(elements, structures, plumb):
-    """Construction tolerance: everything above the lowest columns' feet is sheared by `drift` (horizontal per vertical
-    metre).
-
-    A shear keeps bodies convex, faces flush and volumes; horizontal faces stay horizontal.
-    """
+    """Construction tolerance: shear all above the lowest columns' feet by `drift`; faces stay flush."""
     foot = min((structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys),
                default=0.0)
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])

@@ -13,11 +13,9 @@ TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder 
 
 
 def check_house(model):
-    """Raises HouseError for the deepest overlap, an end of a column or brace without a joint, or an unsupported
-    element.
+    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element.
 
-    Returns {'pairs': pairs of elements with touching bounding boxes, 'touching': pairs in contact, 'deepest': largest
-    overlap [m], from rounding}.
+    Returns the numbers of near and of touching pairs, and the deepest overlap [m], from rounding.
     """
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
@@ -31,9 +29,7 @@ def check_house(model):
 
 
 def overlaps(model):
-    """[(element, element, gap [m])] of all pairs whose bounding boxes touch; a negative gap is an overlap (exact,
-    convex bodies).
-    """
+    """[(element, element, gap [m])] of pairs whose bounding boxes touch; a negative gap is an overlap (exact)."""
     return [(a, b, separation(a.solid, b.solid)) for a, b in near_pairs(model.elements, TOUCH)]
 
 

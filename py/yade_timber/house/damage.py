@@ -9,10 +9,8 @@ KINDS = ("column_beam", "brace_beam")
 
 
 def apply_damage(joints, structures, damage):
-    """Mark joints as broken, region by region.
-
-    A region breaks `count` joints of one kind on one wall and storey: those at the given end (default: `damage.end`)
-    that are nearest to the middle of the wall; of two at the same distance, the southern or western one is first.
+    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those
+    nearest to the middle of the wall, the southern or western one first.
     """
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]
@@ -26,14 +24,14 @@ def apply_damage(joints, structures, damage):
 def _break(joints, structure, region, kind, default_end, path):
     wanted, side, storey = region[kind], region["side"], region["storey"]
     end = wanted["end"] or default_end
-    found = [j for j in joints
+    candidates = [j for j in joints
              if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
-    if wanted["count"] > len(found):
+    if wanted["count"] > len(candidates):
         raise HouseError(
             f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall of"
-            f" {structure.name} has {len(found)} at the {end} of storey {storey}; lower the count"
+            f" {structure.name} has {len(candidates)} at the {end} of storey {storey}; lower the count"
         )
-    for joint in nearest_to_middle(found, structure, side)[: wanted["count"]]:
+    for joint in nearest_to_middle(candidates, structure, side)[: wanted["count"]]:
         joint.broken = True
 
 

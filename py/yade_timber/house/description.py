@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""House files as checked descriptions: merged with the files they extend, in accordance with the schema, without
-unknown names.
-"""
+"""House files as checked descriptions: merged with the files they extend, without unknown names."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,9 +29,7 @@ class Description:
 
 
 def load_house(name_or_path):
-    """Path of a YAML file or name of a shipped house (see shipped_houses) -> Description; raises HouseError (one line,
-    file:line).
-    """
+    """Path of a YAML file or name of a shipped house -> Description; raises HouseError (one line, file:line)."""
     path = house_path(name_or_path)
     data = checked(load_table(path), path)
     return Description(data["name"], path, data)

@@ -49,27 +49,24 @@ class RatedBay:
 
 
 def diagnose(model):
-    """The part `diagnosis` of summaries: the least iw and wall quantity ratio of all structures, where they are, and
-    the numbers of each one.
+    """The part `diagnosis` of summaries: the least iw and wall quantity ratio, where they are, and of each structure.
 
-    None for numbers that the rules do not give: more than three storeys, a structure without floor area.
+    None for what the rules do not give: beyond three storeys, without floor area.
     """
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     iw, iw_at = _least(structures, "iw")
     ratio, ratio_at = _least(structures, "wall_quantity_ratio")
-    known = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
+    totals = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
              "wall_quantity_at": ratio_at, "broken_from_start": sum(joint.broken for joint in model.joints),
              "structures": structures}
-    return {**known, "sentence": sentence(known)}
+    return {**totals, "sentence": sentence(totals)}
 
 
 def _least(structures, key):
-    """(least value of a key, 'side, storey 1, N-S') over all structures, storeys and directions; (None, None) without
-    any.
-    """
+    """(least value of a key, 'side, storey 1, N-S') over structures, storeys, directions; (None, None) without any."""
     values = [(side[key], f"{group}, storey {storey}, {rules.DIRECTION_NAMES[name]}")
-              for group, structure in structures.items() for storey, known in structure["storeys"].items()
-              for name, side in known["directions"].items() if side[key] is not None]
+              for group, structure in structures.items() for storey, table in structure["storeys"].items()
+              for name, side in table["directions"].items() if side[key] is not None]
     return min(values, key=lambda value: value[0], default=(None, None))
 
 
@@ -91,10 +88,9 @@ def sentence(diagnosis):
 
 
 def comparison(summary):
-    """Sentence on the first structure whose index and outcome disagree, with what the index does not know of the run;
-    '' if none does.
+    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does.
 
-    summary: recording.summary.Summary. Without an earthquake a structure that stands agrees with every index.
+    Without an earthquake a structure that stands agrees with every index.
     """
     for name, facts in summary.structures.items():
         iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
@@ -107,9 +103,7 @@ def comparison(summary):
 
 
 def _circumstances(summary):
-    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; 8 joints broken from
-    the start'.
-    """
+    """'peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; snow 1 m; ...'."""
     parts = ["no earthquake"]
     if summary.earthquake:
         peak = max(summary.record.pga_gal[axis] for axis in DIRECTIONS) / 100
@@ -209,9 +203,7 @@ def is_balanced(low, high, eccentricity):
 
 
 def _quarters(bays, axis, plan, needed):
-    """[low, high] existing over required wall quantity of the outer quarters at either side of the walls' direction.
-    plan: (2, 2) [m]
-    """
+    """[low, high] existing over required wall quantity of the outer quarters. plan: (2, 2) [m]"""
     across = 1 - axis
     low, high = plan[:, across]
     quarter = (high - low) / 4
@@ -221,8 +213,7 @@ def _quarters(bays, axis, plan, needed):
 
 
 def _eccentricities(bays, mass):
-    """{direction: Re}: distance of the centre of mass from that of rigidity, across the direction, over the elastic
-    radius. None where no wall resists in that direction.
+    """{direction: Re}: distance of the centres of mass and rigidity over the elastic radius; None without walls.
 
     The rigidity of a bay is its wall quantity: bays of a storey have one height.
     """
@@ -240,9 +231,7 @@ def _eccentricity(rigidity, mass, torsion, total):
 
 
 def _mass_centre(model, group, storey):
-    """(2,) of all that the storey carries, without snow: members of higher storeys, and of its own above the columns.
-    [m]
-    """
+    """(2,) of what the storey carries, without snow: higher storeys, and its own members above the columns. [m]"""
     carried = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"
                and (e.storey > storey or (e.storey == storey and e.kind not in ("column", "brace")))]
     total = sum(e.mass for e in carried)
@@ -308,8 +297,7 @@ def brace_multiplier(section):
 
 
 def _uplift(model, group, bays):
-    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need with its
-    joint [kN].
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN].
 
     The corrections for the direction of braces are left out.
     """
@@ -327,9 +315,7 @@ def _uplift(model, group, bays):
 
 
 def n_value(columns, key, bays, storeys):
-    """N = sum of A B over the column and those above it, less L. columns: {(storey, x, y): element}; the larger of both
-    directions. [-]
-    """
+    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, x, y): ...}"""
     storey, x, y = key
     stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
     corner = [len(column.side) > 1 for column in stack]

@@ -40,15 +40,11 @@ SNOW_STRENGTH, SNOW_DEPTHS = 0.26, (1.0, 2.0)
 OTHER_ELEMENTS = 0.25
 """Share of Qr that walls with openings and other elements bear. [-] (JBDPA, method 1; not verified)"""
 DETERIORATION, FITTINGS = 1.0, 1.0
-"""dK of a sound house; factor of a wall's strength for columns with fittings on a reinforced foundation. [-] (assumed
-for every house)
-"""
+"""dK of a sound house; factor on walls with fittings on a reinforced foundation. [-] (assumed for every house)"""
 BANDS = ((1.5, "will not collapse"), (1.0, "unlikely to collapse"), (0.7, "may collapse"), (0.0, "likely to collapse"))
 """(least Iw, judgement) under a very rare earthquake. (JBDPA; compared: mokutaikyo.com)"""
 VERY_RARE_PEAK = 4.0
-"""Peak acceleration of a very rare earthquake: response of 1 g (shear coefficient 1.0, Order, Article 88), 2.5 times
-the peak. [m/s2] (assumed)
-"""
+"""Peak acceleration of a very rare earthquake: its response is 1 g (Order, Article 88), 2.5 times. [m/s2] (assumed)"""
 
 ECCENTRICITY_LIMIT = 0.30
 """[-] (Notification 1352 of 2000; compared: what-myhome.net)"""
@@ -56,17 +52,11 @@ ECCENTRICITY_START, ECCENTRICITY_END = 0.15, 0.45
 """Between them eKfl = 1 / (3.33 Re + 0.5), for rigid floors, as those of the model; 0.5 beyond. [-] (JBDPA; the ends
 compared with the program kouzou, which is linear between them; the formula not verified)"""
 QUARTER_RATIO = 0.5
-"""Least ratio of the fulfilment of opposite quarters, where one of them is below 1. [-] (Notification 1352 of 2000;
-compared: what-myhome.net)
-"""
+"""Least ratio of opposite quarters, one of them below 1. [-] (Notification 1352 of 2000; compared: what-myhome.net)"""
 
 UPLIFT_KN = 5.3
-"""Tension of N = 1: 1.96 kN/m over 2.7 m of height. [kN] (Notification 1460 of 2000, N-value method; compared:
-stmaki.com)
-"""
+"""Tension of N = 1: 1.96 kN/m over 2.7 m. [kN] (Notification 1460 of 2000, N-value method; compared: stmaki.com)"""
 RESTRAINT = {True: 0.8, False: 0.5}
 """B of a corner column (True) or another one. [-] (N-value method; compared: mokuzou.com)"""
 VERTICAL = {"top": {True: 0.4, False: 0.6}, "lower": {True: 1.0, False: 1.6}}
-"""L of corner columns (True) and others, of the top storey and of one below a storey. [-] (N-value method; compared:
-mokuzou.com)
-"""
+"""L of corner columns (True) and others, of the top storey and below. [-] (N-value method; compared: mokuzou.com)"""

@@ -8,10 +8,9 @@ LARGEST = 1e-9
 
 
 def disturb(model, seed):
-    """Move each vertex of every free element of a HouseModel by a random vector of at most LARGEST, in place.
+    """Move each vertex of a HouseModel's free elements by a random vector in a cube, at most LARGEST long, in place.
 
-    seed: whole number >= 1 of the random numbers. Joints, and masses that were computed before, are left alone. The
-    vectors are uniformly distributed in a cube.
+    seed: whole number >= 1. Joints and masses that were computed before are left alone.
     """
     random = np.random.default_rng(seed)
     reach = LARGEST / np.sqrt(3)  # half an edge of the cube [m]

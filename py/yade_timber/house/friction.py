@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Friction of material pairs. YADE gives a pair the smaller coefficient of its two materials; a description must be of
-that form.
-"""
+"""Friction of material pairs. A description must have YADE's form: the smaller coefficient of both materials."""
 
 from .errors import HouseError
 

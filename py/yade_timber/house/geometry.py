@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two of them. Lengths in m, world
-frame.
-"""
+"""Convex polyhedra from vertices or half-spaces; contact polygon and separation of two. Lengths in m, world frame."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -28,9 +26,7 @@ def cross(a, b):
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise seen from
-    outside.
-    """
+    """A plane face: unit outward normal (3,), offset normal . x [m], vertices (n, 3) counter-clockwise from outside."""
 
     normal: np.ndarray
     offset: float
@@ -44,9 +40,7 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """Convex polyhedron given by its vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the
-    hull.
-    """
+    """Convex polyhedron of vertices (n, 3); raises ValueError when flat or when a vertex is no corner of the hull."""
 
     vertices: np.ndarray
 
@@ -111,16 +105,11 @@ class Polyhedron:
 
 def _face(points, normal):
     """Face with its points ordered around `normal` and the normal recomputed from them (Newell)."""
-    points = points[np.argsort(_angles(points, normal))]
+    (u, v), local = plane_axes(normal), points - points.mean(0)
+    points = points[np.argsort(np.arctan2(local @ v, local @ u))]
     normal = cross(points, following(points)).sum(0)
     normal = normal / np.linalg.norm(normal)
     return Face(normal, float(np.mean(points @ normal)), points)
-
-
-def _angles(points, normal):
-    u, v = plane_axes(normal)
-    local = points - points.mean(0)
-    return np.arctan2(local @ v, local @ u)
 
 
 def plane_axes(normal):
@@ -144,8 +133,7 @@ def box(low, high):
 def halfspace_vertices(planes):
     """Vertices (n, 3) of the region where normal . x <= offset for every (normal (3,), offset [m]) of `planes`.
 
-    Every triple of planes is solved and kept when no plane cuts it off: exact to rounding, meant for the
-    dozen planes of a member. Raises ValueError when the region is empty or flat.
+    Every triple of planes is solved, exact to rounding. Raises ValueError for an empty or flat region.
     """
     normals = np.array([p[0] for p in planes], float)
     scale = np.linalg.norm(normals, axis=1)
@@ -153,13 +141,13 @@ def halfspace_vertices(planes):
     triples = np.array(list(combinations(range(len(planes)), 3)), int).reshape(-1, 3)
     triples = triples[np.abs(np.linalg.det(normals[triples])) >= SAME]
     points = np.linalg.solve(normals[triples], offsets[triples][..., None])[..., 0]
-    found = []
+    corners = []
     for point in points[(points @ normals.T <= offsets + SAME).all(1)]:
-        if all(np.abs(point - other).max() > SAME for other in found):
-            found.append(point)
-    if len(found) < 4:
+        if all(np.abs(point - other).max() > SAME for other in corners):
+            corners.append(point)
+    if len(corners) < 4:
         raise ValueError("the planes enclose no volume")
-    return np.round(found, SNAP_DIGITS) + 0.0
+    return np.round(corners, SNAP_DIGITS) + 0.0
 
 
 def polygon_area(points):
@@ -195,8 +183,7 @@ def _clip_edge(polygon, a, b):
 
 
 def contact_polygon(a, b, tolerance):
-    """Flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]) of the largest one, or
-    None.
+    """Largest flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]), or None.
 
     Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
     """

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values of joints: a joint type has those of one fitting, a rule the number of fittings and the share of them that
-acts in its joints.
-"""
+"""Values of joints: a joint type has those of one fitting, a rule the number of fittings and their share."""
 
 from ..base.joint_kinds import WALL_KINDS
 from .layout import SLIP_KEYS
@@ -36,15 +34,13 @@ def _check_slip(table, path):
 
 
 def rules_by_kinds(rules):
-    """{(kind a, kind b, across): (name, rule)}; a is the brace of the two, else the column, else the first kind of the
-    rule.
-    """
-    found = {}
+    """{(kind a, kind b, across): (name, rule)}; a is the brace, else the column, else the first kind of the rule."""
+    rules_of = {}
     for name, rule in rules.items():
         pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
         for pair in pairs.values():
-            found.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
-    return found
+            rules_of.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
+    return rules_of
 
 
 def _rank(kind):
@@ -52,9 +48,7 @@ def _rank(kind):
 
 
 def check_joint_rules(rules):
-    """HouseError for two rules for the same kinds of members, and for a rule with a kind of joint that only sheathed
-    walls have.
-    """
+    """HouseError for two rules for the same kinds of members, and for a kind of joint that only walls have."""
     for name, rule in rules.items():
         if rule["kind"] in WALL_KINDS:
             fail(rule.at("kind"), f"joints.{name}.kind",

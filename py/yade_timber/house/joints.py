@@ -18,9 +18,7 @@ LYING = 0.1
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    A rule joins elements of one structure, or with `across` those of two structures. Contacts below
-    `joint_search.min_area` get no joint: a 12 cm column overhangs a 10.5 cm beam by 7.5 mm and touches the next beam
-    with that strip only.
+    Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip.
     """
     data = description.data
     rules = {kinds: rule for kinds, [(_, rule)] in rules_by_kinds(data["joints"]).items()}
@@ -40,9 +38,7 @@ def find_joints(elements, description):
 
 
 def near_pairs(elements, margin):
-    """Pairs of elements whose bounding boxes are within `margin` [m] of each other, in order; HouseError for more than
-    MAX_PAIRS.
-    """
+    """Pairs of elements with bounding boxes within `margin` [m], in order; HouseError for more than MAX_PAIRS."""
     bounds = np.array([e.solid.bounds for e in elements])
     low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []

@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Limits of a house description, far above any real house. They bound the time (seconds) and memory (some 100 MB) that
-any file can take.
-"""
+"""Limits of a house description, far above any real house: they bound the time (seconds) and memory (100 MB)."""
 
 MAX_FILE_SIZE = 500_000
 """Of one YAML file. [bytes] The largest shipped house has 5 kB."""
 MAX_FILES = 10
 """A house file and the chain of files that it extends."""
 MAX_NODES = 20_000
-"""YAML values (scalars, lists, tables) of a house file and the files that it extends; aliases count as often as they
-are used.
-"""
+"""YAML values of a house file and the files that it extends; aliases count as often as they are used."""
 MAX_DEPTH = 20
 """Levels of nested lists and tables."""
 MAX_NUMBER_LENGTH = 40

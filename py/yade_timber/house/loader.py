@@ -28,10 +28,10 @@ _known_chains = {}
 def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
     path = Path(path)
-    known = _known_chains.get(path)
-    if known is None or any(not is_file(file) or text_of(file) != text for file, text in known):
-        known = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
-    return [file for file, _ in known]
+    chain = _known_chains.get(path)
+    if chain is None or any(not is_file(file) or text_of(file) != text for file, text in chain):
+        chain = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
+    return [file for file, _ in chain]
 
 
 def _chain(path):
@@ -69,20 +69,18 @@ def _extended(path, table):
         return None
     if not isinstance(parent, str):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {shown(parent)}")
-    found = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
-    if found is None:
+    file = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
+    if file is None:
         raise HouseError(
             f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that"
             f" name ({', '.join([*COMMON, *shipped_houses()])})"
         )
-    require_house_file(found, f"{table.at('extends')}: extends")
-    return found
+    require_house_file(file, f"{table.at('extends')}: extends")
+    return file
 
 
 def require_house_file(path, where):
-    """Refuse a file that another file names and that is no house file by its name: messages about its content would
-    quote it.
-    """
+    """Refuse a file that is no house file by its name: messages about its content would quote it."""
     if path.resolve().suffix not in SUFFIXES:
         raise HouseError(
             f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}"
@@ -100,9 +98,7 @@ def shipped_paths(name):
 
 
 def merge(base, change):
-    """`change` laid over `base`: tables entry by entry, null removes an entry if there is one, everything else is
-    replaced as a whole.
-    """
+    """`change` over `base`: tables entry by entry, null removes an entry, all else is replaced as a whole."""
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
         if value is None:

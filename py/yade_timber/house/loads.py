@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Loads as engineers state them, in kN per m2: of roof surface and of floor with the slab itself, of outer wall beside
-its columns.
+"""Loads in kN per m2: of roof surface and floor with the slab itself, of outer wall beside its columns.
 
-A load becomes mass of the member that carries it, spread evenly over the member's volume: roof and floor slabs, and for
-walls the columns, half of each bay on the column at either end.
+A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
 """
 
 import numpy as np
@@ -14,9 +12,7 @@ from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
 
 
 def apply_loads(elements, structures, loads):
-    """Set the masses of loaded elements. loads: those of the house file, which a structure's own ones override key by
-    key.
-    """
+    """Set the masses of loaded elements. loads: of the house file; a structure's own ones override them key by key."""
     for structure in structures.values():
         own = structure.table["loads"]
         mine = {key: loads[key] if own[key] is None else own[key] for key in loads}

@@ -11,9 +11,7 @@ DIRECTION = {"x": "EW", "y": "NS"}
 
 
 def lay_strips(structure, layer, kind):
-    """Members along the lines of the layer or of the structure: one piece per line; `cut` lines end at the lines they
-    cross.
-    """
+    """Members along the lines of the layer or structure: one piece per line; `cut` lines end where they cross."""
     table, elements = layer.table, []
     lines = _single_lines(structure, table["lines"] if table["lines"] is not None else structure.table["lines"])
     for line in lines:
@@ -76,9 +74,7 @@ def _strip(structure, layer, kind, name, line, start, end):
 
 
 def lay_floors(structure, layer):
-    """Floor slabs: one per area (default: the whole grid), extended by the margin beyond the grid; neighbouring areas
-    share a grid line.
-    """
+    """Floor slabs: one per area (default: the whole grid), extended by the margin; neighbours share a grid line."""
     areas = layer.table["areas"] or [None]
     elements = []
     for number, area in enumerate(areas, 1):
@@ -108,12 +104,7 @@ def column_plan(structure, storey):
     """{(x node, y node): (section [m], file:line)} of one storey; groups given by lines fill only free nodes."""
     plan = {}
     for i, group in enumerate(structure.table["columns"]):
-        for number in group["storeys"]:
-            if number not in structure.storeys:
-                raise HouseError(
-                    f"{group.at('storeys')}: {structure.name}: columns[{i + 1}]: no storey {number}; the stack has"
-                    f" {structure.storeys}"
-                )
+        structure.check_storeys(group["storeys"], group.at("storeys"), f"columns[{i + 1}]")
         if group["storeys"] and storey not in group["storeys"]:
             continue
         for x, y in _group_nodes(structure, group):

@@ -14,9 +14,7 @@ from .geometry import Polyhedron
 
 @dataclass(eq=False)
 class Element:
-    """One rigid member. World frame: x east, y north, z up, origin at the south-west column's centre line on the
-    ground.
-    """
+    """One rigid member. World frame: x east, y north, z up, origin on the ground at the south-west column."""
 
     name: str               # e.g. 'main.column1.x4y0'
     kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
@@ -68,9 +66,7 @@ class Element:
 
 @dataclass(eq=False)
 class JointSpec:
-    """Springs between elements `a` and `b` of a house, or of `connect`: four at the corners of their contact area
-    (paper, 2.4 and 4), or one of a wall.
-    """
+    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4), or a wall's one."""
 
     a: str
     b: str
@@ -152,9 +148,7 @@ class HouseModel:
         return f"{counts['joints']} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
 
     def counts(self):
-        """Numbers to check a house: elements, columns by section, braces, joints without those of walls, joints by
-        kind, masses [kg].
-        """
+        """Numbers to check a house: elements, columns, braces, joints without those of walls, kinds, masses [kg]."""
         columns, braces = self.of_kind("column"), self.of_kind("brace")
         return {"elements": len(self.elements), "by_kind": dict(Counter(e.kind for e in self.elements)),
                 "free": sum(not e.fixed for e in self.elements),

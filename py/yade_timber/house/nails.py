@@ -69,9 +69,7 @@ def nailed_wall(nails):
 
 
 def _positions(nails, height):
-    """(n, 2) nails of a board from its centre: along its edges, and on its vertical centre line where there is an inner
-    spacing.
-    """
+    """(n, 2) nails of a board from its centre: along its edges, with an inner spacing on the vertical centre line."""
     half = np.array([nails["board"]["width"], height]) / 2 - nails["board"]["edge"]
     sides, ends = _line(half[1], nails["spacing"]), _line(half[0], nails["spacing"])[1:-1]
     points = [(x, y) for x in (-half[0], half[0]) for y in sides] + [(x, y) for x in ends for y in (-half[1], half[1])]

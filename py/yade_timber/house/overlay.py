@@ -93,9 +93,7 @@ def _steps(key, where):
 
 
 def _entered(node, step, key, where):
-    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, which the schema checks
-    later.
-    """
+    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, checked later."""
     if isinstance(step, str) and isinstance(node, Table):
         return node.setdefault(step, Table(where=where))
     _require_item(node, step, key, where)
@@ -124,9 +122,7 @@ def _require_item(node, step, key, where):
 
 
 def brace_parts(name, where="brace"):
-    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0) [grid nodes]; raises
-    HouseError.
-    """
+    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0); raises HouseError."""
     match = _BRACE.fullmatch(name)
     if match is None:
         raise HouseError(
@@ -137,9 +133,7 @@ def brace_parts(name, where="brace"):
 
 
 def wall_parts(name):
-    """'main.wall1.EW.y0.3-4.plywood' -> ('main', storey 1, along 'x', at 0.0, from 3.0, to 4.0 [grid nodes],
-    'plywood'); None for another name.
-    """
+    """'main.wall1.EW.y0.3-4.plywood' -> ('main', 1, 'x', 0.0, from 3.0, to 4.0, 'plywood'); None for another name."""
     match = _WALL.fullmatch(name)
     return match and (*_parts(match), match.groups()[-1])
 

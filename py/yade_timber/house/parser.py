@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""YAML text -> tables and lists that know their file and line. Sizes are limited; other types than numbers, texts and
-flags are refused.
-"""
+"""YAML text -> tables and lists that know their file and line; only numbers, texts and flags, limited in size."""
 
 import re
 

@@ -28,9 +28,7 @@ OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Plan and slope of a pitched roof: corners (2,) of the outline, eave level z [m], horizontal run from eave to
-    ridge [m], rise over run.
-    """
+    """Pitched roof: corners (2,) of the outline, eave level z, run from eave to ridge [m], rise over run."""
 
     low: np.ndarray
     high: np.ndarray
@@ -44,9 +42,7 @@ class Plan:
         return d, max(d @ self.low, d @ self.high)
 
     def bottom(self, side, rise, drop):
-        """Plane of the slab's underside: it rises by `rise` [-] and lies `drop` [m] below the parallel plane through
-        the eave.
-        """
+        """Plane of the slab's underside: rises by `rise` [-], lies `drop` [m] below the parallel plane at the eave."""
         d, e = self.distance(side)
         return (*(-rise * d), -1.0), -(self.eave + rise * e - drop)
 
@@ -61,9 +57,7 @@ class Plan:
         return (*(self.slope * d), 1.0), self.eave + self.slope * e
 
     def nearer(self, side, other):
-        """Vertical plane between the points nearer to the eave of `side` and those nearer to the eave of `other`: a hip
-        or the ridge.
-        """
+        """Vertical plane between the points nearer to the eave of `side` and to that of `other`: a hip or the ridge."""
         (d, e), (d2, e2) = self.distance(side), self.distance(other)
         return (*(d2 - d), 0.0), e2 - e
 
@@ -94,15 +88,11 @@ class HipPlan(Plan):
     def outline(self, side):
         """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
         opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
-        hip_end = self._is_hip_end(side)
+        length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
+        hip_end = length >= (self.high - self.low).max() - 1e-9  # across the ridge; all four of a square plan
         planes = [self.nearer(side, other) for other in OUTWARD
                   if other != side and not (hip_end and other == opposite)]
         return planes + (self._corner_cuts(side) if hip_end else [])
-
-    def _is_hip_end(self, side):
-        """Hip ends are the two sides across the ridge; on a square plan, all four."""
-        length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
-        return length >= (self.high - self.low).max() - 1e-9
 
     def _corner_cuts(self, side):
         d, e = self.distance(side)
@@ -159,14 +149,14 @@ PLANS = {"hip": hip_plan, "gable": gable_plan, "mono": mono_plan}
 
 def slope(structure, layer, half):
     """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves."""
-    table, found = layer.table, layer.table["pitch"]
-    if found is None:
+    table, pitch = layer.table, layer.table["pitch"]
+    if pitch is None:
         rise = table["ridge_height"] - layer.z0
         if rise <= 0:
             raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
                              f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
-        found = rise / half
-    return found
+        pitch = rise / half
+    return pitch
 
 
 def vertical_thickness(layer, plan):
@@ -256,9 +246,7 @@ def lay_snow(structure, layer, depth, material):
 
 
 def carry_roofs(structure, elements, joints):
-    """Change and append joints, so that the walls bear the weight of the structure's roofs and no thrust: tie beams and
-    posts.
-    """
+    """Change and append joints, so that the walls bear the roofs' weight and no thrust: tie beams and posts."""
     for layer in structure.layers:
         if layer.kind == "roof" and layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
@@ -267,11 +255,9 @@ def carry_roofs(structure, elements, joints):
 
 
 def _tie_slabs(structure, layer, joints):
-    """Move half of a ridge joint's springs down to the tie beams of a gable roof, where its slabs would push the walls
-    apart.
+    """Move half of a ridge joint's springs down to tie beams at the level of the plates, which take the slabs' thrust.
 
-    The tie beams lie at the level of the wall plates. The ridge and each tie beam have the stiffness and strength of
-    one fitting.
+    The ridge and each tie beam have the stiffness and strength of one fitting.
     """
     slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
              for side in gable_plan(structure, layer).sides}
@@ -289,9 +275,7 @@ def _row(joint, length):
 
 
 def _posts(structure, layer, elements, joints):
-    """JointSpecs of a mono-pitch roof's slab with the plates of its high wall; each post has the stiffness and strength
-    of one fitting of its eave.
-    """
+    """JointSpecs of a mono-pitch slab with its high plates; a post is like one fitting of its eave."""
     side = layer.table["falls"]
     name = f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
     plates = {e.name: e for e in elements

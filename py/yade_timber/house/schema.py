@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema checker with one-line errors: file and line, key, problem, admissible range, nearest known key.
 
-A schema is made of Number, Text, Flag, Choice, Pair, ListOf, MapOf, Record and Variants. Each has `default`
-(REQUIRED = must be given) and `check(value, where, name)`, which returns the value, checked and with
-defaults filled in, or raises HouseError. `where` is the value's "file:line", `name` the path of its key.
+Each part of a schema has `default` (REQUIRED: must be given) and `check(value, where, name)`, which returns the value
+with defaults filled in. `where`: "file:line"; `name`: path of the key.
 """
 
 import math
@@ -33,11 +32,7 @@ def fail(where, name, problem):
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number (infinite only where `high` is and `infinite` is set) in [low, high], or (low, high] when
-    `open_low`.
-
-    In rad a text like 1/120 is a number, too.
-    """
+    """A finite number (infinite if `high` and `infinite` allow) in [low, high], or (low, high]; in rad also 1/120."""
 
     unit: str = ""
     low: float = -math.inf
@@ -146,9 +141,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of `item`; `scalar` allows one item without brackets; `length` fixes the number of items, `most` limits
-    it.
-    """
+    """A list of `item`; `scalar` allows one item without brackets; `length` fixes their number, `most` limits it."""
 
     item: object
     length: int = 0
@@ -216,9 +209,9 @@ class Record:
         for key in value:
             if key not in self.fields:
                 fail(value.at(key), name or "house", f"unknown key {shown(key)}, {nearest(key, self.fields)}")
-        given = [key for key in self.one_of if key in value]
-        if self.one_of and len(given) != 1:
-            got = " and ".join(given) if given else "none"
+        present = [key for key in self.one_of if key in value]
+        if self.one_of and len(present) != 1:
+            got = " and ".join(present) if present else "none"
             fail(value.where, name, f"give exactly one of {', '.join(self.one_of)}; got {got}")
 
 

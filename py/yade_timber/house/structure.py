@@ -54,8 +54,7 @@ class Structure:
         self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
-        """(low, high) corners (2,) [m] of a rectangle of grid nodes (default: the whole grid), extended by the margin
-        and `beyond` [m].
+        """(low, high) corners (2,) [m] of a rectangle of grid nodes (None: all), extended by margin and `beyond` [m].
 
         An edge shared with one of the `others` (areas of the same layer) is not extended.
         """
@@ -83,13 +82,13 @@ class Structure:
 
     def sides(self, **nodes):
         """Walls on which a node (x=, y=) or a line (only one of them) lies."""
-        found = set()
+        walls = set()
         for axis, node in nodes.items():
             if node == 0:
-                found.add(LOW_SIDE[axis])
+                walls.add(LOW_SIDE[axis])
             if node == self.axes[axis].last:
-                found.add(HIGH_SIDE[axis])
-        return frozenset(found)
+                walls.add(HIGH_SIDE[axis])
+        return frozenset(walls)
 
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""
@@ -98,6 +97,12 @@ class Structure:
                 raise HouseError(
                     f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to {self.axes[axis].last}"
                 )
+
+    def check_storeys(self, storeys, where, name):
+        """HouseError for a storey that the stack does not have. name: of the list that names it"""
+        for number in storeys:
+            if number not in self.storeys:
+                raise HouseError(f"{where}: {self.name}: {name}: no storey {number}; the stack has {self.storeys}")
 
     def layer_of_storey(self, storey):
         return next((layer for layer in self.layers if layer.kind == "columns" and layer.storey == storey), None)
@@ -119,9 +124,7 @@ class Structure:
         return self.element(kind, name, box(low, high), table, where, **more)
 
     def cut(self, name, planes, where):
-        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of the member `name`; HouseError where nothing is
-        left.
-        """
+        """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of a member; HouseError where nothing is left."""
         try:
             return halfspace_vertices(planes)
         except ValueError as problem:
@@ -166,10 +169,10 @@ def _origin(table, local, others, name):
             )
         return np.array(place["origin"])
     if place["beside"] not in others:
-        known = ", ".join(others) or "none yet"
+        earlier = ", ".join(others) or "none yet"
         raise HouseError(
             f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this one; known:"
-            f" {known}"
+            f" {earlier}"
         )
     low, high = others[place["beside"]].area()
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Town files: houses at places under one ground motion, which reaches them as a wave. Needs no YADE."""
+"""Town files: houses at places under one ground motion, which reaches them as a wave."""
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -50,10 +50,10 @@ class Lot:
         c, s = turn[quarters % 4] if rest == 0 else (math.cos(angle), math.sin(angle))
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], float)
 
-    def motion(self, given):
+    def motion(self, incoming):
         """GroundMotion in the axes of the house."""
-        return (given if np.array_equal(self.axes, np.eye(3))
-                else replace(given, acceleration=given.acceleration @ self.axes))
+        return (incoming if np.array_equal(self.axes, np.eye(3))
+                else replace(incoming, acceleration=incoming.acceleration @ self.axes))
 
     def outline(self, model):
         """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
@@ -77,9 +77,7 @@ def plan(model):
 
 @dataclass(frozen=True)
 class Town:
-    """Lots in the order of the file. velocity: apparent velocity of the wave [m/s], infinite without a wave; direction:
-    azimuth towards which it travels, clockwise from north [degrees].
-    """
+    """Lots in the order of the file. velocity of the wave [m/s], infinite without one; direction: azimuth [degrees]."""
 
     name: str
     path: Path
@@ -95,9 +93,7 @@ class Town:
 
 
 def load_town(path):
-    """Town of a YAML file. House files are looked for beside it, then as for `load_house`. Raises HouseError (one line,
-    file:line).
-    """
+    """Town of a YAML file; house files are looked for beside it, too. Raises HouseError (one line, file:line)."""
     path = Path(path)
     if not is_file(path):
         raise HouseError(f"{path}: no such regular file; give a town file")
@@ -116,11 +112,11 @@ def _lot(name, entry, path):
         require_snow_depth(entry["snow"], f"{entry.at('snow')}: town.lots.{name}.snow")
     beside = path.parent / entry["house"]
     try:
-        found = beside if is_file(beside) else house_path(entry["house"])
+        file = beside if is_file(beside) else house_path(entry["house"])
     except HouseError as problem:
         raise HouseError(f"{where}: {problem}") from None
-    require_house_file(found, where)
-    return Lot(name, str(found), entry["x"], entry["y"], entry["rotation"], entry["snow"], where)
+    require_house_file(file, where)
+    return Lot(name, str(file), entry["x"], entry["y"], entry["rotation"], entry["snow"], where)
 
 
 def check_places(placed):

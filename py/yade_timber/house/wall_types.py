@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Types of sheathing -> envelopes: shear per metre of wall over the drift at first loading.
-
-A type has a rated multiplier, a strength and a stiffness, the points of a test, or nails. Lengths in m, drifts in rad,
-shears in N/m.
-"""
+"""Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading."""
 
 from dataclasses import dataclass
 
@@ -13,9 +9,7 @@ from .nails import nailed_wall
 from .schema import fail
 
 ALLOWABLE = 1960.0
-"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Enforcement Order of the Building Standard Law, Article
-46)
-"""
+"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
 
 RATED_DRIFT = 1 / 120
 """Drift at which walls with pinned feet are rated. [rad]"""
@@ -51,9 +45,7 @@ FORMS = ("multiplier", "envelope", "nails")
 
 
 def check_wall_types(types):
-    """HouseError for a type with none or several descriptions of its shear, and for points or drifts that do not
-    ascend.
-    """
+    """HouseError for none or several descriptions of a type's shear, and for points or drifts that do not ascend."""
     for name, table in types.items():
         path = f"wall_types.{name}"
         forms = [key for key in FORMS if table[key] is not None]
@@ -152,17 +144,12 @@ _CHECKS = {"envelope": _check_envelope, "nails": _check_nails}
 def has_rated_walls(data):
     """Whether a house (data of its file) has walls whose envelope depends on the level."""
     used = {name for structure in data["structures"].values() for line in structure["walls"] for name in line["type"]}
-    return any(_is_rated(data["wall_types"][name]) for name in used)
-
-
-def _is_rated(table):
-    return table["multiplier"] is not None and (table["strength"] is None or table["stiffness"] is None)
+    tables = [data["wall_types"][name] for name in used]
+    return any(table["multiplier"] is not None and None in (table["strength"], table["stiffness"]) for table in tables)
 
 
 def envelope(table, level):
-    """[(drift, shear)] of a wall type from its first point to zero shear. level: key of LEVELS, for types of a rated
-    multiplier.
-    """
+    """[(drift, shear)] of a wall type from its first point to zero shear. level: of LEVELS, for rated types"""
     if table["envelope"] is not None:
         return _tested(table)
     if table["nails"] is not None:
@@ -173,9 +160,7 @@ def envelope(table, level):
 def multiplier(table):
     """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
 
-    Allowable shear of nails: nails.py; of other envelopes: the lesser of the shear at 1/120 and two thirds of the
-    largest one. The two other loads by which tests with pinned feet are evaluated, at yield and from the ductility, are
-    left out.
+    Allowable: of nails as in nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one.
     """
     if table["multiplier"] is not None:
         return table["multiplier"]
@@ -199,9 +184,7 @@ def _rated(table, level):
 
 
 def _concave(rising, peak):
-    """The points up to the peak without those below a line between two others: a wall that reaches its largest shear
-    early is stiffer.
-    """
+    """The points up to the peak without those below a line between two others: early strength makes it stiffer."""
     kept = [(0.0, 0.0)]
     for drift, shear in [*(point for point in rising if point[1] == peak[1] or point[0] < peak[0]), peak]:
         while len(kept) > 1 and _slope(kept[-2], kept[-1]) <= _slope(kept[-1], (drift, shear)):
@@ -215,9 +198,7 @@ def _slope(a, b):
 
 
 def _tested(table):
-    """Points of a test; beyond the last one the line from the largest shear through it, unless `ultimate_drift` says
-    otherwise.
-    """
+    """Points of a test; beyond them the line from the largest shear, unless `ultimate_drift` says otherwise."""
     points = _points(table)
     (drift, shear), peak = points[-1], max(points, key=lambda point: point[1])
     if shear == 0:

@@ -74,9 +74,7 @@ class Bay:
 
 
 def sheathe(structure, elements, data, level):
-    """JointSpecs of the walls of a structure. elements: those of the house; data: of the house file; level: of walls of
-    a rated multiplier.
-    """
+    """JointSpecs of a structure's walls. elements: of the house; data: of the house file; level: of rated walls."""
     members = [element for element in elements if element.group in (structure.name, "")]
     joints, seen = [], {}
     for line in structure.table["walls"]:
@@ -94,11 +92,7 @@ def sheathe(structure, elements, data, level):
 
 def _bays(structure, line, by_name):
     """Bays of a line of the house file in all its storeys and positions."""
-    for number in line["storeys"]:
-        if number not in structure.storeys:
-            raise HouseError(
-                f"{line.at('storeys')}: {structure.name}: walls: no storey {number}; the stack has {structure.storeys}"
-            )
+    structure.check_storeys(line["storeys"], line.at("storeys"), "walls")
     bays = []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
@@ -114,10 +108,10 @@ def _nodes(structure, line, storey, at):
                      if (y if along == "x" else x) == at)
     for key in ("from", "to"):
         if line[key] not in on_line:
-            known = ", ".join(f"{node:g}" for node in on_line) or "none"
+            columns = ", ".join(f"{node:g}" for node in on_line) or "none"
             raise HouseError(
                 f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey"
-                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {known}"
+                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {columns}"
             )
     if line["from"] >= line["to"]:
         raise HouseError(
@@ -138,9 +132,7 @@ def _bay(structure, line, place, by_name):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of the type `name`; their labels end in '.plywood.beams', with an opening in
-    '.plywood.window.beams'.
-    """
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams'."""
     label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
     along = bay.high.solid.centroid - bay.low.solid.centroid
     along[2] = 0.0

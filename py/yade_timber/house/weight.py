@@ -37,12 +37,12 @@ def floor_area(model, group, storey):
 
 def _storeys(model, group):
     members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
-    found, carried = {}, 0.0
+    levels, carried = {}, 0.0
     for storey in sorted(model.storey_levels[group], reverse=True):
         level = weight_of(sum(_share(e, storey) * e.mass for e in members))
         carried += level
-        found[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
-    return dict(reversed(found.items()))
+        levels[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
+    return dict(reversed(levels.items()))
 
 
 def _share(element, storey):
@@ -53,9 +53,7 @@ def _share(element, storey):
 
 
 def sentence(weights):
-    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', for drawings; of the first
-    structure's storeys.
-    """
+    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', of the first structure."""
     per_area = ("" if weights["per_floor_area_kn_m2"] is None
                 else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor")
     storeys = next(iter(weights["storeys"].values()), {})

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ground motion: readers of records, optional processing, measures, and a seeded synthetic motion.
-
-Needs numpy and scipy only, never YADE. Frame everywhere: columns ew, ns, ud = x east, y north, z up; m/s2.
-"""
+"""Ground motion: readers, processing, measures, synthetic motion. Columns ew, ns, ud = x east, y north, z up; m/s2."""
 
 from .constant_part import constant_note
 from .measures import (JmaIntensity, Spectrum, arias, displacement, jma_intensity, onset, pga, pgd, pgv,

@@ -35,9 +35,7 @@ def column_name(cell):
 
 
 def equal_step(path, stated, times):
-    """Time step [s]. stated: {'dt' or 'sampling': (text, file:line: key)}; times: column of times [s], or None. Raises
-    RecordError.
-    """
+    """Time step [s]. stated: {'dt' or 'sampling': (text, place)}; times: column [s] or None. Raises RecordError."""
     where = path
     if "dt" in stated:
         text, where = stated["dt"]

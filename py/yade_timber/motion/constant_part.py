@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Constant part of a motion: the zero error of a sensor, or gravity left in the vertical. It acts like a lean or like
-another weight.
+"""Constant part of a motion: the zero error of a sensor, or gravity; it acts like a lean or like another weight.
 
-The mean of a whole recorded motion is the change of the ground's velocity over its duration: below 0.01 % of the peak
-in records as published, below 1 % in parts of them of a few seconds.
+The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds.
 """
 
 from __future__ import annotations
@@ -17,9 +15,7 @@ from .record import GAL, STANDARD_GRAVITY, RecordWarning
 LARGEST_SHARE = 0.02
 """Largest mean of a component that needs no warning, as a share of its peak. [-]"""
 VISIBLE = 1e-3
-"""Smaller means are left alone, as a share of the largest acceleration of all components: noise of a component without
-motion. [-]
-"""
+"""Smaller means, as a share of the largest acceleration of all components, are noise. [-]"""
 ROUNDING = 1e-9
 """What is left of a constant part that was removed. [m/s2]"""
 REMEDY = "--detrend 0 removes it"
@@ -28,11 +24,7 @@ AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of 
 
 
 def constant_note(motion, scale=1.0):
-    """'constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it', or an empty
-    text.
-
-    scale: factor on the motion [-]
-    """
+    """'constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; ...', or ''. scale: factor [-]"""
     texts = max((list(_texts(samples, scale)) for samples in _pieces(motion)), key=len, default=[])
     return f"constant part of {', '.join(texts)}; {REMEDY}" if texts else ""
 

@@ -45,11 +45,7 @@ def sniff(lines):
 
 
 def parse(path, lines, units=None, stated=False):
-    """Channels of one file. Raises RecordError.
-
-    units   unit where the file does not state one
-    stated  True: the caller states the directions, those in the file are ignored
-    """
+    """Channels of a file. units: where it states none; stated: the caller states the directions. Raises RecordError."""
     kind = sniff(lines)
     if kind is None:
         raise RecordError(
@@ -80,12 +76,12 @@ def _at2_header(path, lines):
     """(number of samples and time step as text, index of the first line of data, file:line of both)."""
     head = list(enumerate(lines[:AT2_HEADER_LINES], 1))
     for number, line in head:
-        if found := _count_and_step(line):
-            return *found, number, f"{path}:{number}"
+        if pair := _count_and_step(line):
+            return *pair, number, f"{path}:{number}"
     for number, line in head:
-        if found := _peknold_count_and_step(line):
+        if pair := _peknold_count_and_step(line):
             first = next((i for i, row in enumerate(lines) if _is_numeric(row)), len(lines))
-            return *found, first, f"{path}:{number}"
+            return *pair, first, f"{path}:{number}"
     number = next((number for number, line in head if {"npts", "dt"} <= set(_words(line, ",=:"))), None)
     absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
     problem = absent if number is None else "with NPTS and DT in another form"
@@ -113,8 +109,8 @@ def _count_and_step(line):
 
 def _peknold_count_and_step(line):
     """(n, dt) as text from 'n points at equal spacing of s sec', else None."""
-    before, found, after = line.lower().partition(_PEKNOLD)
-    return (before.split()[-1], after.split()[0]) if found and before.strip() and after.strip() else None
+    before, phrase, after = line.lower().partition(_PEKNOLD)
+    return (before.split()[-1], after.split()[0]) if phrase and before.strip() and after.strip() else None
 
 
 def _is_numeric(line):
@@ -144,12 +140,12 @@ def _refuse_other_quantity(path, header):
 
 def _stated_unit(path, in_file, stated):
     """m/s2 per unit, from the units in the file and the caller's; refuses none and contradiction."""
-    given = list(in_file) + ([stated] if stated is not None else [])
-    if not given:
+    units = list(in_file) + ([stated] if stated is not None else [])
+    if not units:
         raise RecordError(f"{path}: no unit stated; state it in the file or as units= (gal, m/s2 or g)")
-    factors = {unit_factor(unit, path) for unit in given}
+    factors = {unit_factor(unit, path) for unit in units}
     if len(factors) > 1:
-        raise RecordError(f"{path}: units contradict each other ({', '.join(given)}); state one")
+        raise RecordError(f"{path}: units contradict each other ({', '.join(units)}); state one")
     return factors.pop()
 
 
@@ -187,9 +183,7 @@ def _jma(path, lines, units):
 
 
 def _jma_header(path, lines):
-    """({key: (value, file:line: key)}, [column names], index of the first row); a value is all that follows the key in
-    its line.
-    """
+    """({key: (value, file:line: key)}, [column names], index of the first row); a value is the rest of its line."""
     keys = {}
     for index, line in enumerate(lines[:JMA_HEADER_LINES]):
         names = [column_name(cell)[0] for cell in line.split(",") if cell.strip()]
@@ -226,8 +220,7 @@ def _plain_csv(path, lines, units):
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit stated with it or None}, delimiter), or None if there is no such
-    row.
+    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row.
 
     It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
     """
@@ -243,8 +236,8 @@ def _named_columns(index, line):
     delimiter = next((d for d in (",", ";", "\t") if d in line), ",")
     cells = [column_name(cell) for cell in line.rstrip(FILLING).split(delimiter)]
     names = [name for name, _ in cells]
-    known = set(names) <= {*DIRECTIONS, "time"} and len(set(names)) == len(names)
-    return (index, names, dict(cells), delimiter) if known and not set(names) <= {"time"} else None
+    admissible = set(names) <= {*DIRECTIONS, "time"} and len(set(names)) == len(names)
+    return (index, names, dict(cells), delimiter) if admissible and not set(names) <= {"time"} else None
 
 
 def _times(path, values, unit):

@@ -29,10 +29,7 @@ KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
 DELAY = timedelta(seconds=15)
 """Record Time of an ASCII file is this much after its first sample (NIED, on the loggers' trigger delay)."""
 MAX_TOLERANCE = 0.02
-"""Relative difference from the header's Max. Acc. above which a warning is given.
-
-Headers print 3 to 6 digits; a damaged sample moves the peak by far more.
-"""
+"""Relative difference from the header's Max. Acc., of 3 to 6 digits, above which a warning is given."""
 
 # --- ASCII --------------------------------------------------------------------------------------
 
@@ -159,9 +156,7 @@ def _labelled(path, header):
 
 
 def _surface_columns(columns):
-    """{'ns', 'ew', 'ud': number of the column}: of two of one direction that of the surface, the second where the names
-    do not say.
-    """
+    """{'ns', 'ew', 'ud': number of the column}, of the surface sensor where there are two: marked so, or second."""
     chosen = {}
     for k, column in enumerate(columns):
         match = _COLUMN.match(column)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Numbers that describe a ground motion: peaks, JMA instrumental intensity, response spectra, Arias intensity.
-
-Motions carry m/s2; results are in the customary gal, cm/s and cm.
-"""
+"""Peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s and cm."""
 
 from __future__ import annotations
 
@@ -13,7 +10,7 @@ import numpy as np
 import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import PADDING, highpass_with_ends
-from .record import GAL, STANDARD_GRAVITY, RecordError
+from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 
 CM = 0.01
 """One centimetre in metres."""
@@ -39,9 +36,7 @@ STEPS_PER_PERIOD = 20
 def peak(values, component="any"):
     """Largest absolute value of (n, 3) columns ew, ns, ud.
 
-    component  'ew', 'ns', 'ud'; 'h' = length of the horizontal vector; 'v3' = length of the vector; 'level' = larger
-    one
-               of the two horizontal components; 'any' = largest of the three components
+    component: 'ew', 'ns', 'ud'; 'h', 'v3': of the horizontal or whole vector; 'level': larger horizontal one; 'any'
     """
     if component in ("level", "any"):
         return float(np.abs(values[:, : 2 if component == "level" else 3]).max())
@@ -89,11 +84,9 @@ def displacement(motion, corner=VELOCITY_CORNER):
 
 
 def _integral(motion, corner, times):
-    """Acceleration integrated once or twice, from rest before the high-pass's transients; starting later would add a
-    drift.
+    """Acceleration integrated once or twice, from rest before the transients of the high-pass, against a drift.
 
-    Of a motion with more than MOST_SAMPLES every second, third ... sample is integrated, with straight lines between
-    the results.
+    Of more than MOST_SAMPLES every second, third ... one is integrated, with straight lines between the results.
     """
     transients = 0.0 if corner is None else 2 * PADDING / corner / motion.dt
     stride = math.ceil((len(motion) + transients) / MOST_SAMPLES)
@@ -104,8 +97,7 @@ def _integral(motion, corner, times):
     for _ in range(times):
         values = scipy.integrate.cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
     values = values[pad : len(values) - pad]
-    return (values if stride == 1
-            else np.column_stack([np.interp(np.arange(len(motion)), kept, column) for column in values.T]))
+    return values if stride == 1 else interpolated(np.arange(len(motion)), kept, values)
 
 
 # --- JMA instrumental intensity -----------------------------------------------------------------
@@ -246,26 +238,16 @@ def _oscillator_peaks(columns, dt, period, damping):
     """Largest length of (displacement [m], absolute acceleration [m/s2]) of (n, k) ground acceleration."""
     parts = int(np.ceil(STEPS_PER_PERIOD * dt / period))
     tail = int(np.ceil(0.5 * period / dt))
-    ground = _subdivided(np.pad(columns, ((0, tail), (0, 0))), parts)
+    ground = subdivided(np.pad(columns, ((0, tail), (0, 0))), parts)
     responses = oscillator(ground, dt / parts, period, damping)
     return [float(np.linalg.norm(response, axis=1).max()) for response in responses]
-
-
-def _subdivided(columns, parts):
-    """Each step of (n, k) samples cut into `parts` equal ones along straight lines."""
-    if parts == 1:
-        return columns
-    fine = np.arange((len(columns) - 1) * parts + 1) / parts
-    return np.column_stack([np.interp(fine, np.arange(len(columns)), column) for column in columns.T])
 
 
 # --- energy and duration ------------------------------------------------------------------------
 
 
 def arias(motion):
-    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud'} and their sum 'total'.
-    [m/s]
-    """
+    """Arias intensity pi / (2 g) x integral of the squared acceleration: {'ew', 'ns', 'ud', 'total': sum}. [m/s]"""
     each = np.pi / (2.0 * STANDARD_GRAVITY) * _energy(motion)[-1]
     return {"ew": float(each[0]), "ns": float(each[1]), "ud": float(each[2]), "total": float(each.sum())}
 
@@ -281,9 +263,7 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 
 def onset(motion, share=0.05):
-    """Onset of strong shaking: time at which the Arias intensity reaches `share` of its final value. [s]; None without
-    shaking.
-    """
+    """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

@@ -13,7 +13,7 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
-from .record import GAL, RecordError, peaks_gal
+from .record import GAL, RecordError, interpolated, peaks_gal
 
 PAD_SECONDS = 5.0
 """Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
@@ -23,9 +23,7 @@ LARGEST_RATIO = 100_000
 
 
 def turned(motion, angle):
-    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90, north shakes along
-    +x.
-    """
+    """The motion in axes in which its north has the azimuth `angle` [degrees, clockwise]: with 90 along +x."""
     if not np.isfinite(angle):
         raise RecordError(f"{motion.name}: angle {angle}; it must be a finite number of degrees")
     if angle == 0.0:
@@ -117,15 +115,11 @@ def resample(motion, dt, method="bandlimited"):
     if not (np.isfinite(dt) and dt > 0.0):
         raise RecordError(f"{motion.name}: time step {dt} s; it must be > 0")
     exact, kept = _fourier(motion, dt)
-    chosen = kept if method == "bandlimited" else _linear(motion, dt, len(kept))
+    chosen = kept if method == "bandlimited" else interpolated(
+        np.arange(len(kept)) * dt, motion.time, motion.acceleration)
     peak = np.abs(motion.acceleration).max()
     error = float(np.abs(chosen - exact).max() / peak) if peak > 0.0 else 0.0
     return _changed(motion, chosen, f"resampled to {dt:g} s ({method})", dt=dt), error
-
-
-def _linear(motion, dt, count):
-    times = np.arange(count) * dt
-    return np.column_stack([np.interp(times, motion.time, column) for column in motion.acceleration.T])
 
 
 def _fourier(motion, dt):
@@ -154,10 +148,7 @@ def interpolation_error(motion):
 
 
 def shaking_window(motion, threshold=0.5):
-    """Times of the first and the last sample above `threshold` [gal] in any component: (first, last) [s].
-
-    Raises RecordError if no sample exceeds the threshold.
-    """
+    """(first, last) time with more than `threshold` [gal] in any component [s]. Raises RecordError without one."""
     above = np.flatnonzero(np.abs(motion.acceleration).max(axis=1) > threshold * GAL)
     if not above.size:
         raise RecordError(f"{motion.name}: nothing above {threshold:g} gal; its peak is {pga(motion, 'any'):g} gal")
@@ -165,9 +156,7 @@ def shaking_window(motion, threshold=0.5):
 
 
 def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
-    """The motion with other samples. change: for its source; dt: their step [s]; factor: on the accelerations [-];
-    start: of the part that is kept [s]
-    """
+    """The motion with other samples. change: for its source; dt [s]; factor [-]; start: of the kept part [s]"""
     dt = motion.dt if dt is None else dt
     source = f"{motion.source}; {change}".lstrip("; ")
     return replace(motion, dt=dt, acceleration=acceleration, source=source,

@@ -132,10 +132,10 @@ def _find_by_prefix(prefix):
     rests = {name[len(start) :]: folder / name for name in names if name.startswith(start)}
     partial = []
     for _, pattern, _ in SUFFIXES:
-        found = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
-        if len(found) == 3:
-            return found
-        partial += [path.name for path in found]
+        files = [path for rest, path in rests.items() if re.fullmatch(pattern, rest, re.I)]
+        if len(files) == 3:
+            return files
+        partial += [path.name for path in files]
     forms = " or ".join(form for _, _, form in SUFFIXES)
     seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
     raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")
@@ -223,12 +223,8 @@ def _provenance(channels, directions):
     """One line: the files, the direction of each component, a note on missing components."""
     by_file = {}
     for channel, direction in zip(channels, directions):
-        by_file.setdefault(channel.path.name, []).append(_direction_name(direction))
+        name = f"{direction:g} deg" if isinstance(direction, float) else direction
+        by_file.setdefault(channel.path.name, []).append({0.0: "ns", 90.0: "ew"}.get(direction, name))
     files = ", ".join(f"{file} ({', '.join(names)})" for file, names in by_file.items())
     note = "" if len(channels) == 3 else "; the other components are zero"
     return files + note
-
-
-def _direction_name(direction):
-    """'ns', 'ew', 'up', 'down' or an azimuth like '30 deg'."""
-    return {0.0: "ns", 90.0: "ew"}.get(direction, f"{direction:g} deg" if isinstance(direction, float) else direction)

@@ -114,6 +114,18 @@ class GroundMotion:
         return peaks_gal(self.acceleration)
 
 
+def interpolated(times, places, columns):
+    """(m, k) values at `times` on straight lines between columns (n, k) at `places`."""
+    return np.column_stack([np.interp(times, places, column) for column in columns.T])
+
+
+def subdivided(columns, parts):
+    """Each step of (n, k) samples cut into `parts` equal ones along straight lines."""
+    if parts == 1:
+        return columns
+    return interpolated(np.arange((len(columns) - 1) * parts + 1) / parts, np.arange(len(columns)), columns)
+
+
 def peaks_gal(acceleration):
     """Largest absolute values of (n, 3) accelerations east, north, up [m/s2]: {'ns', 'ew', 'ud'}. [gal]"""
     peak = np.abs(acceleration).max(axis=0) / GAL

@@ -16,10 +16,7 @@ from .synthetic import DEFAULT_SEED, synthetic_motion
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """Source and processing of a ground motion; None: not requested. Processing follows the order of the fields.
-
-    `scale` is applied by the run, which records it beside the motion.
-    """
+    """Source and processing of a ground motion, in the order of the fields; None: none. The run applies `scale`."""
 
     record: str = option(str, "recorded motion: file, prefix, or files with commas", "FILE", group="main")
     seed: int = option(int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0,
@@ -80,11 +77,9 @@ class MotionRequest:
         if self.end is not None and self.end <= (self.start or 0.0):
             raise self.error(f"{name('end')} {self.end:g}: must be > {self.start or 0:g} s, where the motion starts")
 
-    def motion(self, dt, given=None):
-        """The requested GroundMotion, before `scale`. dt [s]: time step for `resample`; given: GroundMotion in place of
-        a record. Raises RecordError.
-        """
-        first = self._processed(self._source() if given is None else turned(given, self.azimuth or 0.0), dt)
+    def motion(self, dt, measured=None):
+        """GroundMotion before `scale`. dt [s]: for `resample`; measured: instead of a record. Raises RecordError."""
+        first = self._processed(self._source() if measured is None else turned(measured, self.azimuth or 0.0), dt)
         if self.then is None:
             return first
         records, factors = zip(*following(self.then, "--then"))

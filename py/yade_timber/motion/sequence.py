@@ -10,7 +10,7 @@ from math import gcd, lcm
 import numpy as np
 
 from .filters import require_size
-from .record import GroundMotion, RecordError
+from .record import GroundMotion, RecordError, subdivided
 
 DEFAULT_GAP = 5.0
 """Quiet between two motions of a sequence. [s]"""
@@ -20,9 +20,7 @@ DENOMINATOR = 100_000
 
 @dataclass(frozen=True)
 class Part:
-    """One motion of a sequence. source: file or generator; start and duration [s]; scale: its own factor [-]; pga_gal:
-    {'ns', 'ew', 'ud'} after it.
-    """
+    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it."""
 
     source: str
     start: float
@@ -32,17 +30,15 @@ class Part:
 
 
 def joined(motions, scales, gap=DEFAULT_GAP):
-    """One GroundMotion of several: each times its own factor, `gap` seconds of quiet between them, in `parts` the data
-    of each.
+    """One GroundMotion of several, times their factors, with `gap` seconds of quiet between; `parts` has their data.
 
-    The time step is the largest that divides all steps, so that straight lines between the samples stay as they are.
-    Raises RecordError for motions whose steps have no such common part.
+    The step is the largest that divides all steps, which keeps the straight lines. RecordError where there is none.
     """
     step = common_step([motion.dt for motion in motions], " and ".join(motion.name for motion in motions))
     quiet = np.zeros((round(gap / step), 3))
     pieces, parts, start = [], [], 0.0
     for motion, scale in zip(motions, scales):
-        samples = scale * refined(motion, round(motion.dt / step))
+        samples = scale * subdivided(motion.acceleration, round(motion.dt / step))
         if pieces:
             pieces.append(quiet)
             start += len(quiet) * step
@@ -71,16 +67,6 @@ def common_step(steps, where):
     return float(common)
 
 
-def refined(motion, factor):
-    """(n, 3) accelerations of a motion [m/s2] on a step `factor` times smaller, straight lines between the samples;
-    ends in the last sample.
-    """
-    if factor == 1:
-        return motion.acceleration
-    times = np.arange((len(motion) - 1) * factor + 1) / factor
-    return np.column_stack([np.interp(times, np.arange(len(motion)), column) for column in motion.acceleration.T])
-
-
 def with_factor(entry):
     """'B@0.8' -> ('B', 0.8); 'B', 'me@host/B' -> (the same, 1.0). A factor that is no number is returned as -1."""
     record, sign, factor = entry.strip().rpartition("@")
@@ -93,10 +79,8 @@ def with_factor(entry):
 
 
 def following(text, name):
-    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records of a sequence with their own factors. name: of the option, for
-    messages.
-    """
-    found = []
+    """'B@0.8; C' -> [('B', 0.8), ('C', 1.0)]: records with their own factors. name: of the option"""
+    records = []
     for entry in text.split(";"):
         record, value = with_factor(entry)
         if not record or not 0 < value <= 1e6:
@@ -104,16 +88,16 @@ def following(text, name):
                 f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are"
                 " separated by ;"
             )
-        found.append((record, value))
-    return found
+        records.append((record, value))
+    return records
 
 
 def with_then(arguments):
     """Arguments of a command line with '--record A then B then C' written as '--record A --then B;C'."""
-    found, records, words = [], [], iter(arguments)
+    rest, records, words = [], [], iter(arguments)
     for word in words:
-        if word == "then" and found:
+        if word == "then" and rest:
             records.append(next(words, ""))
         else:
-            found.append(word)
-    return [*found, "--then", ";".join(records)] if records else found
+            rest.append(word)
+    return [*rest, "--then", ";".join(records)] if records else rest

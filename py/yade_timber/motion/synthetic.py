@@ -31,9 +31,7 @@ GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 
 DEFAULT_SEED = 3
-"""Seed of the motion that the package ships. With this seed an unbraced house falls N-S, as in the paper; other seeds
-differ, see research/claims.
-"""
+"""Of the shipped motion, under which an unbraced house falls N-S, as in the paper; others: research/claims."""
 
 DT = 0.01
 """Time step. [s]"""
@@ -70,10 +68,7 @@ class _Parameters:
 
 
 def synthetic_motion(seed=DEFAULT_SEED):
-    """The synthetic motion of a seed (a whole number >= 0) -> GroundMotion, 40 s at 100 Hz.
-
-    The same seed gives the same motion, bit for bit with the same numpy. Raises RecordError for another kind of seed.
-    """
+    """GroundMotion of a seed (whole, >= 0), 40 s of 100 Hz; equal bits with the same numpy. Raises RecordError."""
     if not isinstance(seed, (int, np.integer)) or seed < 0:
         raise RecordError(f"seed {seed}: it must be a whole number >= 0")
     for attempt in range(ATTEMPTS):
@@ -91,9 +86,7 @@ def achieved(motion):
 
 
 def _pgv_h(motion):
-    """Peak of the horizontal velocity [cm/s], from rest at the first sample: version 1 of the generator. `measures.pgv`
-    differs by 0.1 %.
-    """
+    """Peak horizontal velocity [cm/s] from rest: of generator version 1; `measures.pgv` differs by 0.1 %."""
     acceleration = zero_phase_highpass(motion.acceleration, DT, VELOCITY_CORNER, 2)
     return peak(scipy.integrate.cumulative_trapezoid(acceleration, dx=DT, axis=0, initial=0.0), "h") / CM
 
@@ -155,8 +148,9 @@ def _noise(random):
     envelope = np.column_stack([_envelope(t, p_level) for p_level in (0.10, 0.10, 0.22)])
     colours = ((2.6, 0.5, 0.9), (3.0, 0.5, 0.9), (6.0, 0.6, 1.6))
     coloured = np.column_stack([_coloured(white[:, k] * envelope[:, k], *colours[k]) for k in range(3)])
+    ending = np.sin(0.5 * np.pi * np.clip((DURATION - DT - t) / 2.0, 0.0, 1.0)) ** 2  # to zero in the last two seconds
     strong = (t > S_ARRIVAL + 0.5) & (t < S_ARRIVAL + 5.0)
-    return coloured / np.sqrt((coloured[strong] ** 2).mean(axis=0)) * _ending(t)[:, None]
+    return coloured / np.sqrt((coloured[strong] ** 2).mean(axis=0)) * ending[:, None]
 
 
 def _envelope(t, p_level):
@@ -165,11 +159,6 @@ def _envelope(t, p_level):
     rise = np.clip((t - S_ARRIVAL) / 0.7, 0.0, 1.0) ** 2
     decay = np.exp(-np.clip(t - S_ARRIVAL - 4.5, 0.0, None) / 3.2)
     return np.where(t > P_ARRIVAL, np.maximum(p, rise), 0.0) * np.maximum(decay, 0.004)
-
-
-def _ending(t):
-    """Smooth fall to zero over the last two seconds."""
-    return np.sin(0.5 * np.pi * np.clip((DURATION - DT - t) / 2.0, 0.0, 1.0)) ** 2
 
 
 def _coloured(white, soil_frequency, soil_damping, low_cut):
@@ -203,14 +192,12 @@ class _Pulses:
 
     def acceleration(self, parameters):
         """EW and NS accelerations of the pulses. (n, 2) [m/s2]"""
-        main, second, slow = (_pulse(*self._shape(k), parameters.cycles if k == 0 else 2.2) for k in range(3))
+        shapes = zip(self.times, self.periods, self.phases, (parameters.cycles, 2.2, 2.2))
+        main, second, slow = (_pulse(*shape) for shape in shapes)
         ew = main + 0.35 * second + 0.30 * slow
         delayed = _pulse(self.times[0] + 0.16, self.periods[0], self.phases[0], parameters.cycles)
         ns = self.signs[0] * parameters.share * delayed + self.signs[1] * 0.65 * second + self.signs[2] * 0.35 * slow
         return parameters.pulse * np.column_stack([ew, ns])
-
-    def _shape(self, k):
-        return self.times[k], self.periods[k], self.phases[k]
 
 
 def _pulse(centre, period, phase, cycles):
@@ -226,10 +213,7 @@ def _pulse(centre, period, phase, cycles):
 
 
 def _at_rest(acceleration):
-    """Remove the final velocity and displacement by two smooth corrections over the shaking. (n, 3) [m/s2]
-
-    They last 24 s: the correction is below 0.1 Hz and, as observed for seed 0, 0.05 gal.
-    """
+    """Remove the final velocity and displacement by two smooth corrections of 24 s, some 0.05 gal. (n, 3) [m/s2]"""
     t = _times()
     phase = np.clip((t - P_ARRIVAL - 0.5) / (DURATION - P_ARRIVAL - 1.0), 0.0, 1.0)
     corrections = np.column_stack([np.sin(np.pi * phase) ** 2, np.sin(np.pi * phase) ** 2 * np.cos(np.pi * phase)])
@@ -246,10 +230,7 @@ def _final_state(acceleration):
 
 
 def _fit_horizontal_peaks(ew, ns):
-    """Bring the peaks of EW, NS and of their vector to the targets, in place, by adding Ricker wavelets. (n,) [m/s2]
-
-    EW's peak carries the vector's peak (NS makes up the rest there); NS has its own peak elsewhere.
-    """
+    """Bring the peaks of EW, NS and of their vector, which lies at EW's, to the targets by Ricker wavelets in place."""
     top_ew, top_ns, top = (TARGETS[k] * GAL for k in ("pga_ew", "pga_ns", "pga_h"))
     beside_ew = np.sqrt(top**2 - top_ew**2)
     beside_ns = 0.9 * np.sqrt(top**2 - top_ns**2)
@@ -285,10 +266,7 @@ def _cheapest(cost, elsewhere):
 
 
 def _raise(component, index, size):
-    """Make |component[index]| equal to `size` [m/s2], keeping its sign, with one 5 Hz Ricker wavelet, in place.
-
-    The wavelet is a second derivative of a Gaussian: it leaves no velocity and no displacement.
-    """
+    """Make |component[index]| equal to `size` [m/s2] by a 5 Hz Ricker wavelet without velocity, in place."""
     argument = (np.pi * 5.0 * (np.arange(len(component)) - index) * DT) ** 2
     wavelet = (1.0 - 2.0 * argument) * np.exp(-argument)
     sign = 1.0 if component[index] >= 0.0 else -1.0

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Text of record files: lines, numbers, tables of numbers, dates; and one channel of a record.
+"""Text of record files: lines, numbers, tables, dates; a channel. `where` opens messages: file, line, member.
 
 String methods instead of regular expressions keep the time of a line proportional to its length.
-`where` opens the message of an error: file, line, member.
 """
 
 from __future__ import annotations
@@ -57,9 +56,7 @@ class Channel:
 
 
 def read_lines(path):
-    """Lines of a text file, UTF-8 or CP932. Raises RecordError for another file, one that is too large or has too long
-    a line.
-    """
+    """Lines of a text file, UTF-8 or CP932. Raises RecordError for another, too large file or too long a line."""
     try:
         raw = read_bytes(path, MAX_FILE_SIZE)
     except OSError as error:
@@ -116,10 +113,7 @@ def whole(text, where):
 
 
 def numbers(path, lines, first):
-    """All blank-separated numbers of `lines`; `first` is the number (from 1) of the first of them.
-
-    Returns (n,). Raises RecordError with file and line for a value that is not a finite number.
-    """
+    """All blank-separated numbers of `lines`, numbered from `first`. (n,) Raises RecordError with file and line."""
     tokens = []
     for number, line in enumerate(lines, first):
         tokens += _with_e(line).split()
@@ -137,11 +131,9 @@ def numbers(path, lines, first):
 
 
 def table(path, lines, first, columns, delimiter, texts=()):
-    """Rows of `columns` separated numbers -> (n, columns); blank lines are skipped.
+    """Rows of `columns` separated numbers, blank lines left out. (n, columns) texts: columns of other content: 0
 
-    texts: numbers of columns of other content, read as 0
-
-    Raises RecordError with file and line for a row of another length or a value that is not a finite number.
+    Raises RecordError for a row of another length or a value that is not a finite number.
     """
     rows = []
     for number, line in enumerate(lines, first):
@@ -190,10 +182,7 @@ CENTURY_TURN = 69
 
 
 def clock(text, where):
-    """Date and time from 'year month day hour minute [second]', separated by any other characters.
-
-    None, with a warning, for any other text: a record needs no date.
-    """
+    """Date and time from 'year month day hour minute [second]' with any separators; None, with a warning, else."""
     match = _CLOCK.match(text)
     try:
         year, month, day, hour, minute = map(int, match.groups()[:5])
@@ -212,10 +201,7 @@ def clock(text, where):
 
 
 def direction_of(name):
-    """Direction from a component's name ('090', 'N-S', 'UP', ...) or None.
-
-    Compass names: towards north, east and up. An azimuth is a whole number of degrees from 0 to 360.
-    """
+    """Direction from a component's name ('090', 'N-S', 'UP', ...: towards north, east, up), or None."""
     key = "".join(c for c in name.lower() if c.isascii() and c.isalnum())
     if key in ("ns", "n", "north", "northsouth", "y"):
         return 0.0

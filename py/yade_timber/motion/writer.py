@@ -13,11 +13,7 @@ DECIMALS = 2
 
 
 def write_csv(motion, path, comments=()):
-    """Write `motion` in gal with named columns; `comments` are lines for the header, each without its '#'.
-
-    The file is written under a temporary name and then renamed, so that no incomplete file appears.
-    Raises RecordError when the file cannot be written.
-    """
+    """Write `motion` in gal with named columns, whole or not at all. comments: of the header. Raises RecordError."""
     path = Path(path)
     header = [*comments, "units: gal", f"dt: {motion.dt:.10g}", f"samples: {len(motion)}"]
     lines = [f"# {line}" for line in header] + ["ns,ew,ud"]

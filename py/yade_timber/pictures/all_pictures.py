@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All pictures of a run and its player, from the files in its folder. Needs no YADE."""
+"""All pictures of a run and its player, from the files in its folder."""
 from functools import partial
 
 from ..recording import ensemble, frames
@@ -14,9 +14,8 @@ NAMES = [f"{END}.png",
 
 
 def write(folder, results=None, pdf=False):
-    """Write the pictures of a run into a folder; returns their paths.
+    """Write the pictures of a run into a folder; returns their paths. results: folder of the frames; pdf: PDFs, too.
 
-    results: folder with the run's frames, by default the same; pdf: whether sheets and curves are PDF files, too.
     Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
     """
     from . import figures
@@ -30,24 +29,24 @@ def write(folder, results=None, pdf=False):
 
 
 def _sheets(folder, recorded, path, endings):
-    """Draw the house by OpenGL and write the player, in a copy of the process where that is possible; yields lists of
-    paths. path: of the frames
-    """
-    from . import player, sheets, views
+    """Draw by OpenGL and write the player, in a copy of the process if possible; yields paths. path: of the frames"""
+    from . import figures, player, sheets, views
 
     for view in views.VIEWS:
-        yield sheets.write_sheet(folder / view.name, recorded, view, endings)
-    yield sheets.write_end(folder / END, recorded)
+        yield figures.save(sheets.sheet(recorded, view, sheets.PRINT), folder / view.name, endings)
+    yield figures.save(sheets.both_views(recorded, -1, sheets.END_DPI), folder / END)
     yield [player.make([(path, recorded)], folder / PLAYER)]
 
 
 def _pages(folder, recorded, path, endings):
     """Draw the curves, meanwhile in this process; yields lists of paths. path: of the frames"""
-    from . import bands, curves, quantities
+    from . import bands, curves, figures, quantities
 
     if recorded.history and recorded.history.samples:
-        yield curves.write(folder / CURVES, recorded, endings)
+        yield figures.save(curves.page(recorded, curves.DPI), folder / CURVES, endings)
         if isinstance(recorded.summary, Summary) and (path.parent / quantities.JOINTS).exists():
-            yield quantities.write(folder / QUANTITIES, quantities.read(path.parent), endings)
+            page = quantities.page(quantities.read(path.parent), quantities.DPI)
+            yield figures.save(page, folder / QUANTITIES, endings)
         if ensemble.has_runs(path.parent):
-            yield bands.write(folder / BANDS, recorded, path.parent, endings)
+            page = bands.page(recorded, ensemble.histories(path.parent), bands.DPI)
+            yield figures.save(page, folder / BANDS, endings)

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page about an ensemble: storey drifts over time as bands, with the run that is shown as a line. Needs no YADE."""
+"""One page about an ensemble: storey drifts over time as bands, with the run that is shown as a line."""
 import numpy as np
 
 from ..base import colors
-from ..recording import ensemble
-from ..text.english import DRIFT_LINES, direction_name
-from .curves import DRIFT_RANGE, draw_events, draw_levels, label
-from .figures import A4, footer, heading, heading_height, new_figure, save
+from ..text.english import direction_name
+from .curves import draw_events, draw_levels, label
+from .figures import A4, footer, heading, heading_height, new_figure
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
@@ -16,13 +15,6 @@ DPI = 200
 QUANTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 LEGEND_HEIGHT = 0.42
 """Of the legend and of the labels of events above the axes. [inch]"""
-
-
-def write(stem, frames, folder, endings):
-    """Write `stem` of the ensemble with each ending in a folder; returns the paths. frames: of the run that is shown.
-    Raises OSError, RunError.
-    """
-    return save(page(frames, ensemble.histories(folder), DPI), stem, endings)
 
 
 @default_style()
@@ -67,8 +59,6 @@ def draw_band(axis, time, values):
     axis.fill_between(time, low, high, color=colors.SKY_BLUE, alpha=0.35, lw=0, label="range")
     axis.fill_between(time, quarter, three_quarters, color=colors.BLUE, alpha=0.45, lw=0, label="middle half")
     axis.plot(time, middle, color=colors.ORANGE, lw=0.7, label="median")
-    reach = min(DRIFT_RANGE, max(1.2 * np.abs(values).max(), 1.25 * DRIFT_LINES[0][0]))
-    axis.set_ylim(-reach, reach)
-    draw_levels(axis, [(level, text) for level, text in DRIFT_LINES if level < reach], reach)
+    draw_levels(axis, np.abs(values).max())
     axis.grid(alpha=0.25)
     axis.tick_params(labelsize=8)

@@ -18,9 +18,7 @@ CAMERAS = {"front": (0.0, 5.0), "side": (90.0, 5.0), "space": (38.0, 20.0)}
 
 @dataclass(frozen=True)
 class Camera:
-    """eye, target (3,) [m]; matrix (4, 4): from the world to OpenGL's clip space; scale: pixels per metre at distance 1
-    m, by the picture's height.
-    """
+    """eye, target (3,) [m]; matrix (4, 4): world to clip space; scale: pixels per metre at 1 m, by the height."""
 
     eye: np.ndarray
     target: np.ndarray
@@ -67,16 +65,14 @@ def _matrix(eye, right, up, toward, tangent, aspect, depths):
 
 
 def sun(points):
-    """((4, 4) matrix of the light's view, (3,) unit vector to the light): from the south-east, parallel, around all
-    points (P, 3).
-    """
+    """((4, 4) matrix of the light's view, (3,) direction to it): from the south-east around points (P, 3)."""
     middle, size = (points.min(0) + points.max(0)) / 2, np.ptp(points, axis=0)
     light = np.array([13.0, -5.0, 17.0]) / np.linalg.norm([13.0, -5.0, 17.0])
     right = np.cross([0, 0, 1.0], light)
     right /= np.linalg.norm(right)
     axes = np.array([right, np.cross(light, right), -light])
     half = max(size[:2].max() / 2 + SHADED, size[2])
-    made = np.eye(4)
-    made[:3, :3] = axes / half
-    made[:3, 3] = -made[:3, :3] @ middle
-    return made, light
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes / half
+    matrix[:3, 3] = -matrix[:3, :3] @ middle
+    return matrix, light

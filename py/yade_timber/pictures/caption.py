@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Texts of films: the house and its state on each picture; time, ground acceleration and origin of the run in a strip
-below. Needs no YADE.
-"""
+"""Texts of films: house and state on each picture; time, ground acceleration and origin in a strip below."""
 import numpy as np
+from matplotlib.colors import to_rgb
 from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
@@ -12,7 +11,7 @@ from ..text.english import DRIFT_LINES, broken_of, ratio
 from . import fonts
 from .figures import drawable
 from .key_times import first_shown
-from .stage import frame_before, rgb
+from .stage import frame_before
 
 NORMAL = 720
 """Height of a picture for which the sizes below hold. [pixel]"""
@@ -36,9 +35,7 @@ class Pen:
         return Image.new("RGBA", (self.width, max(1, round(height * self.scale))), PAPER + (opacity,))
 
     def write(self, sheet, top, text, size, ink=INK, bold=False):
-        """Write a line, smaller where it is too wide, and cut where it would be smaller than SMALLEST. top: of the line
-        [scaled pixel]
-        """
+        """Write a line, made smaller to fit, and cut at SMALLEST. top: of the line [scaled pixel]"""
         wide = self._font(size, text, bold).getlength(text)
         font = self._font(size * min(1.0, self._room / max(wide, 1)), text, bold)
         while font.getlength(text) > self._room and len(text) > 2:
@@ -60,9 +57,7 @@ class Pen:
 
 
 class Caption:
-    """A line above with the title of a run (Frames), and one below with its state, on pictures of (width, height)
-    pixels.
-    """
+    """A line above with the title of a run (Frames), one below with its state. size: (width, height) [pixel]"""
 
     def __init__(self, run, size):
         self.run = run
@@ -80,9 +75,7 @@ class Caption:
             image.paste(line, (0, top), line)
 
     def state(self, time):
-        """'storey drift 1/85', or '42 of 90 columns fallen, 49 of 206 joints broken'; a drift only while every column
-        stands.
-        """
+        """'storey drift 1/85', or '42 of 90 columns fallen, 49 of 206 joints broken' once a column has fallen."""
         run, shown = self.run, min(time, self.run.time[-1])
         frame = frame_before(run, shown)
         fallen = self.survey.fallen_columns(
@@ -105,9 +98,7 @@ class Caption:
 
 
 class Strip:
-    """Time, ground acceleration and origin (provenance.parts) of a run (Frames) below pictures of (width, height)
-    pixels.
-    """
+    """Time, ground acceleration and origin (provenance.parts) of a run (Frames) below pictures of (width, height)."""
 
     def __init__(self, run, origin, size):
         self.run, self.pen = run, Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
@@ -142,4 +133,4 @@ class Strip:
             values = np.interp(np.linspace(*self.span, count), motion.time, motion.acceleration[:, column], 0, 0)
             points = np.column_stack([self.left + np.arange(count) / 2, height * (0.5 - 0.48 * values / most)])
             pen.line([tuple(point) for point in points],
-                     tuple(round(255 * part) for part in rgb(colors.DIRECTIONS[key])) + (255,), 1)
+                     tuple(round(255 * part) for part in to_rgb(colors.DIRECTIONS[key])) + (255,), 1)

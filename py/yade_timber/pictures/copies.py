@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Copies of this process (fork), which draw while it does something else. What it has loaded, they have: frames need
-not be sent. Needs no YADE.
-"""
+"""Copies of this process (fork), which draw at the same time; what it has loaded need not be sent."""
 import ctypes
 import gc
 import multiprocessing
@@ -20,9 +18,7 @@ WAITING = "IPythonHistorySavingThread"
 
 
 def possible():
-    """Whether copies are of use and safe: there is more than one processor, no other thread at work (a live session has
-    some), and no OpenGL.
-    """
+    """Whether copies are of use and safe: several processors, no other thread at work, no OpenGL."""
     from . import renderer  # here: a run without pictures needs none
 
     at_work = [thread for thread in threading.enumerate() if thread.name != WAITING]
@@ -31,11 +27,10 @@ def possible():
 
 @contextmanager
 def ahead(make):
-    """Context with an iterator over the items of `make()`, a generator; a copy of this process makes the next item
-    while this one uses the last.
+    """Context with an iterator over `make()`; a copy of this process makes the next item while this one uses the last.
 
-    The iterator raises RunError when the copy is killed, and any exception of the generator. Where copies are not
-    possible it makes the items itself.
+    The iterator raises RunError when the copy is killed, and any exception of the generator. Without copies it makes
+    the items itself.
     """
     if not possible():
         yield make()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance. Needs no YADE."""
+"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance."""
 from itertools import cycle
 
 import numpy as np
@@ -8,7 +8,7 @@ from ..base import colors
 from ..base.energy_terms import DISSIPATED, ELASTIC
 from ..recording.walls import of_walls, sheet_states
 from ..text.english import DRIFT_LINES
-from .figures import A4, drawable, footer, heading, heading_height, new_figure, save
+from .figures import A4, drawable, footer, heading, heading_height, new_figure
 from .key_times import first_shown
 from .provenance import provenance
 from .sheets import result
@@ -24,11 +24,6 @@ LABEL_PLACE = -0.108
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
 JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE,
                "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
-
-
-def write(stem, frames, endings):
-    """Write the page of an ended run as `stem` with each ending; returns the paths. Raises OSError."""
-    return save(page(frames, DPI), stem, endings)
 
 
 @default_style()
@@ -91,20 +86,18 @@ def draw_drifts(axis, history, direction, name):
     curves = [history.drift(storey, direction) for storey in history.storeys]
     for storey, curve, (color, dashes) in zip(history.storeys, curves, cycle(STOREYS)):
         axis.plot(history.time, curve, color=color, ls=dashes, lw=0.9, label=f"storey {storey}")
-    reach = min(DRIFT_RANGE, max(1.2 * np.nanmax(np.abs(curves)), 1.25 * DRIFT_LINES[0][0]))
-    axis.set_ylim(-reach, reach)
-    draw_levels(axis, [(level, text) for level, text in DRIFT_LINES if level < reach], reach)
+    draw_levels(axis, np.nanmax(np.abs(curves)))
     label(axis, f"storey drift {name} [-]")
     axis.legend(loc="lower left", bbox_to_anchor=(1.01, -0.02), frameon=False, fontsize=8, borderaxespad=0)
 
 
-def draw_levels(axis, levels, reach):
-    """Dotted lines at drift levels [(drift, text)] and their labels, moved apart where they would overlap. reach: upper
-    end of the axis [-]
-    """
+def draw_levels(axis, largest):
+    """Limits for drifts up to the largest one [-], dotted lines at the drift levels, their labels moved apart."""
+    reach = min(DRIFT_RANGE, max(1.2 * largest, 1.25 * DRIFT_LINES[0][0]))
+    axis.set_ylim(-reach, reach)
     points = axis.get_position().height * axis.figure.get_size_inches()[1] * 72 / (2 * reach)  # [pt] per drift
     lowest = -np.inf
-    for level, text in levels:
+    for level, text in (line for line in DRIFT_LINES if line[0] < reach):
         for sign in (-1, 1):
             axis.axhline(sign * level, color="black", lw=0.7, ls=":")
         lowest = max(lowest + LABEL_GAP, level * points)

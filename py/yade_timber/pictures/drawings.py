@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey. Needs no
-YADE.
-"""
+"""Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey."""
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
@@ -13,6 +11,7 @@ from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save
 from .panels import panels_as_built
 from .raster import Window, even_density, front_of, shade
+from .report_pictures import THICK, wedge
 from .style import default_style
 from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
 
@@ -33,8 +32,6 @@ WALL, WALL_WIDTH = "#8c6d46", 0.16
 """Of sheathed bays in the plan: colour, width [m]."""
 LABEL_GAP = 0.12
 """Between the baselines of two labels of heights. [inch]"""
-THICK = 0.11
-"""Columns at least this thick are black in the plan. [m]"""
 
 
 def write(stem, model):
@@ -67,14 +64,14 @@ def solid(element):
 
 def describe(model):
     """Description, counts and weight of a house, in three lines."""
-    found = model.counts()
-    snow = f", snow {found['mass_snow'] / 1000:.1f} t" if found["mass_snow"] else ""
+    counts = model.counts()
+    snow = f", snow {counts['mass_snow'] / 1000:.1f} t" if counts["mass_snow"] else ""
     columns = " and ".join(f"{count} columns of {100 * size:g} cm"
-                           for size, count in sorted(found["columns_by_section"].items(), reverse=True))
-    walls = f", {found['walls']} bays with walls" if found["walls"] else ""
+                           for size, count in sorted(counts["columns_by_section"].items(), reverse=True))
+    walls = f", {counts['walls']} bays with walls" if counts["walls"] else ""
     description = " ".join(model.description.split())
     return (
-        f"{description}\n{columns}, {found['braces']} braces{walls},"
+        f"{description}\n{columns}, {counts['braces']} braces{walls},"
         f" {model.joints_text}{snow}\n{sentence(weigh(model))}"
     )
 
@@ -145,7 +142,7 @@ def draw_plan(ax, model):
                      lw=0.8, zorder=3)
     for element in model.of_kind("brace"):
         if element.storey == 1:
-            draw_brace(ax, element)
+            ax.add_patch(wedge(element.vertices))
     for joint in model.joints:
         if joint.kind == WALL_COLUMN and joint.storey == 1:
             draw_wall(ax, model, joint)
@@ -158,9 +155,7 @@ def draw_plan(ax, model):
 
 
 def number_nodes(ax, grid, main):
-    """Numbers of a structure's grid nodes along the two sides that do not face the main structure. grid, main: {'x',
-    'y'}: positions [m].
-    """
+    """Numbers of grid nodes along the sides away from the main structure. grid, main: {'x', 'y'}: positions [m]"""
     before = {axis: grid[axis].mean() <= main[axis].mean() + 1e-9 for axis in "xy"}
     gap = NODE_GAP if grid is main else 1.6 * NODE_GAP  # numbers of neighbouring structures in two rows
     edge = {axis: grid[axis][0] - gap if before[axis] else grid[axis][-1] + gap for axis in "xy"}
@@ -185,18 +180,6 @@ def draw_wall(ax, model, joint):
     ax.add_patch(
         Polygon([start + aside, end + aside, end - aside, start - aside], closed=True,
                 facecolor="white" if has_opening else WALL, edgecolor=WALL, lw=0.8, zorder=1 if has_opening else 1.5)
-    )
-
-
-def draw_brace(ax, element):
-    """A brace seen from above: a wedge, thick at the upper end."""
-    z = element.vertices[:, 2]
-    middle = (z.min() + z.max()) / 2
-    foot, head = element.vertices[z < middle, :2].mean(0), element.vertices[z > middle, :2].mean(0)
-    along = (head - foot) / np.linalg.norm(head - foot)
-    aside = 0.11 * np.array([-along[1], along[0]])
-    ax.add_patch(
-        Polygon([foot, head + aside, head - aside], closed=True, facecolor=colors.BLUE, edgecolor="none", zorder=2)
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures without pyplot: page, text from data, heading, PNG and PDF files. Needs no YADE."""
+"""Figures without pyplot: page, text from data, heading, PNG and PDF files."""
 import re
 from textwrap import fill
 from unicodedata import east_asian_width
@@ -39,9 +39,7 @@ METADATA = {"CreationDate": None}
 
 
 class Pixels(Artist):
-    """A picture (rows, columns, 3) uint8, the first row at the top, from the lower left corner of axes on. It is drawn
-    pixel by pixel, in a PDF as well:
-    `imshow` resamples, which takes twenty times as long."""
+    """A picture (rows, columns, 3) uint8 in the lower left corner, drawn by pixels: `imshow` resamples slowly."""
 
     zorder = 0
 
@@ -71,8 +69,7 @@ def add_panel(figure, corner, size, dpi):
 
 
 def drawable(text, most=LONGEST_TEXT):
-    """A text from data that matplotlib draws literally: one line, no mathtext, only letters of the font, at most `most`
-    letters.
+    """A text from data that matplotlib draws literally: one line, no mathtext, known letters, at most `most`.
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
@@ -133,8 +130,7 @@ def save(figure, stem, endings=("png",)):
             if path.suffix == ".png":
                 image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
             else:
-                with fonts.without_layout():
-                    figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
+                figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
 
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow. Needs no YADE.
+"""Films of a recorded run, or of two runs side by side: MP4 by ffmpeg, or animated WebP by Pillow.
 
 Positions are interpolated between recorded frames, the ground moves as recorded, the camera stands still.
 The pictures come from the renderer of the sheets. Recorded from the player in headless Chromium, which draws on the
 processor (SwiftShader), a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
 """
-import shutil
 import subprocess
 import threading
 from dataclasses import dataclass, replace
@@ -39,9 +38,7 @@ LONGEST = 36000
 
 @dataclass(frozen=True)
 class Format:
-    """width, height [pixel]; rate: pictures per second; speed: simulated time by time of the film, None: 1, and SLOW
-    around the first fall;
-    quality: of WebP, 0 to 100."""
+    """width, height [pixel]; rate [1/s]; speed, None: 1, and SLOW around the first fall; quality: of WebP, 0 to 100."""
 
     width: int = 1920
     height: int = 1080
@@ -51,17 +48,17 @@ class Format:
 
 
 def write(path, runs, view="space", form=Format(), begin=None, end=None):
-    """Write a film; returns the number of its pictures. The ending of the path, .mp4 or .webp, decides about the
-    format.
+    """Write a film, .mp4 or .webp; returns the number of its pictures.
 
     runs: one or two Frames; view: a key of camera.CAMERAS; begin, end [s]: by default from shortly before the shaking
-    (from the start, if `end` is earlier) until no picture differs visibly from the last one.
-    Raises RunError when it cannot be made, OSError when it cannot be written.
+    (or the start) until no picture differs visibly from the last one. Raises RunError, OSError.
     """
     if not all(len(run.time) for run in runs):
         raise RunError("a run without frames")
     end = max(map(last_change, runs)) if end is None else min(end, max(run.time[-1] for run in runs))
-    begin = _default_begin(runs, end) if begin is None else begin
+    if begin is None:
+        begin = min(first_shown(run) for run in runs)
+        begin = begin if begin < end else min(run.time[0] for run in runs)
     if not begin < end:
         raise RunError(f"a film from {begin:g} s to {end:g} s has no pictures")
     form = replace(form, width=form.width // len(runs) * len(runs))
@@ -93,21 +90,8 @@ def images(runs, view, form, times):
     yield from map(Pictures(runs, view, form).at, times)
 
 
-def _default_begin(runs, end):
-    """Shortly before the shaking, or the start of the runs for a film that ends before. [s]"""
-    shaking = min(first_shown(run) for run in runs)
-    return shaking if shaking < end else min(run.time[0] for run in runs)
-
-
-def default_name():
-    """Name of a film without --out: MP4 where ffmpeg is installed."""
-    return "film.mp4" if shutil.which("ffmpeg") else "film.webp"
-
-
 class Pictures:
-    """Draws the runs side by side with one camera, a caption on each, and the strip below: one for both runs of the
-    same origin.
-    """
+    """Draws the runs side by side with one camera, a caption on each, and one strip below for a common origin."""
 
     def __init__(self, runs, view, form):
         self.picture = Image.new("RGB", (form.width, form.height))
@@ -136,8 +120,8 @@ class Pictures:
 
 def corners(run, frame=None):
     """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
-    found = run.all_corners(frame)
-    return np.concatenate([found[k] for k in run.shown])
+    bodies = run.all_corners(frame)
+    return np.concatenate([bodies[k] for k in run.shown])
 
 
 def _write_mp4(path, make, form, _count):
@@ -196,9 +180,7 @@ class Reel(Image.Image):
         self.seek(0)
 
     def seek(self, frame):
-        """Take the next image. Pillow asks for each of them once, in their order, and for the first one again at the
-        end.
-        """
+        """Take the next image. Pillow asks for each once, in order, and for the first one again at the end."""
         if frame > self.number:
             image = next(self.images)
             self.__dict__.update(

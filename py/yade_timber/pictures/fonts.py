@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed. Needs no
-YADE.
-"""
+"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed."""
 import sys
-from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
@@ -19,8 +16,6 @@ EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGo
 """Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have.
 """
 PACKAGE = "fonts-ipafont-gothic"
-LAYOUT = ["GDEF", "GPOS", "GSUB", "kern"]
-"""Tables of a font for the layout of text. A PDF file has the places of all letters."""
 FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
 """How their files' names begin."""
 _missed, _used = set(), set()
@@ -69,20 +64,6 @@ def best_file(text, bold=False):
     """Path of the font file for a text that is drawn without matplotlib."""
     own = all(letter.isspace() or ord(letter) in letters(OWN) for letter in text)
     return file(OWN if own else east_asian() or OWN, bold)
-
-
-@contextmanager
-def without_layout():
-    """Embed fonts in PDF files without their tables LAYOUT: to reduce these takes a third of the time of a file."""
-    from fontTools import subset  # here: pictures without PDF need none
-
-    dropped = getattr(subset.Options, "_drop_tables_default", [])
-    before = dropped[:]
-    dropped += LAYOUT
-    try:
-        yield
-    finally:
-        dropped[:] = before
 
 
 def apply(figure):

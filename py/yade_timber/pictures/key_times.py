@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The times of a run that are worth a picture. Needs no YADE."""
+"""The times of a run that are worth a picture."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -110,9 +110,7 @@ def largest_drift(frames):
 
 
 def first_shown(frames):
-    """Time at which curves and films begin: shortly before the shaking when the house is at rest until then, else 0.
-    [s]
-    """
+    """Time at which curves and films begin: shortly before the shaking if the house rests until then, else 0. [s]"""
     if frames.motion is None or not frames.history:
         return 0.0
     start = min(onset(frames.motion), frames.time[-1]) - LEAD

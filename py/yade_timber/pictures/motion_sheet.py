@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra. Needs
-no YADE.
-"""
+"""One page about a ground motion (paper, Fig. 9): accelerations, velocities, displacements and response spectra."""
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Compressed arrays of numbers for the player (read by player/src/run.js). Needs no YADE.
+"""Compressed arrays of numbers for the player (read by player/src/run.js).
 
 Layout: zlib( length of the JSON, 4 bytes little-endian; the JSON; the arrays, in the order of its "arrays" ), as base64
 text. Numbers are rounded to multiples of their array's step. Each column is stored as differences from row to row, the
@@ -22,9 +22,7 @@ TIME_STEP = 1e-6
 
 
 def pack(info, arrays):
-    """Base64 text. info: JSON content; arrays: {name: (values (rows, ...), step)}. Raises ValueError for values that do
-    not fit.
-    """
+    """Base64 text. info: JSON content; arrays: {name: (values (rows, ...), step)}. Raises ValueError."""
     header = {
         **info,
         "arrays": [{"name": name, "shape": np.shape(values), "step": step} for name, (values, step) in arrays.items()],

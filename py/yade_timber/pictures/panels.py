@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheathed walls in the front and side views: whole, partly broken, broken. Needs no YADE."""
+"""Sheathed walls in the front and side views: whole, partly broken, broken."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,9 +24,7 @@ NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken
 
 @dataclass
 class Panel:
-    """The wall of a bay. corners (4, 3) world [m], around the bay; storey: from 1; sides: of the house, as 'north';
-    state: a key of STYLES.
-    """
+    """The wall of a bay. corners (4, 3) world [m]; storey: from 1; sides: as 'north'; state: a key of STYLES."""
 
     corners: np.ndarray
     storey: int
@@ -47,9 +45,7 @@ class Panel:
 
 @dataclass
 class Sheet:
-    """One sheet of a wall. ends: ((3,) foot, (3,) head) of the axes of both columns [m]; name: of its joint; broken:
-    bool of its joints.
-    """
+    """One sheet. ends: ((3,) foot, (3,) head) of both columns' axes [m]; name: of its joint; broken: of its joints."""
 
     bay: tuple
     ends: list
@@ -93,16 +89,16 @@ def of_sheets(sheets):
     bays = {}
     for sheet in sheets:
         bays.setdefault(sheet.bay, []).append(sheet)
-    found = []
+    walls = []
     for layers in bays.values():
         (foot, head), (other_foot, other_head) = layers[0].ends
         broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        found.append(
+        walls.append(
             Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken),
                   opening)
         )
-    return found
+    return walls
 
 
 def axis_ends(start, corners):

@@ -15,6 +15,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import to_hex
 
 from ..base import colors
 from ..base.atomic_write import write_text
@@ -40,8 +41,7 @@ LONGEST_TEXT = 400
 
 
 def make(runs, path):
-    """Write the page and return its path. runs: one or two (file, Frames); the file is for messages, and the tables
-    beside it give peaks.
+    """Write the page; returns its path. runs: one or two (file, Frames); the tables beside the file give peaks.
 
     Raises RunError when a run cannot be shown, OSError when the page cannot be written.
     """
@@ -81,14 +81,10 @@ def packed(source, run):
     if not len(run.time):
         raise RunError(f"{source}: it has no frames")
     try:
-        return pack(info(run, peaks_of(source, run)), arrays(run))
+        own = run.summary and Path(source).name == frames.NAME  # then the tables of the run are beside it
+        return pack(info(run, peaks.read(Path(source).parent) if own else peaks.Peaks()), arrays(run))
     except ValueError as problem:
         raise RunError(f"{source}: {problem}") from None
-
-
-def peaks_of(source, run):
-    """Peaks of an ended run from the tables in its folder; empty when `source` is not the frames of such a folder."""
-    return peaks.read(Path(source).parent) if run.summary and Path(source).name == frames.NAME else peaks.Peaks()
 
 
 # --- texts ------------------------------------------------------------------------------------------------------------
@@ -145,9 +141,7 @@ def uplift(largest, element):
 
 
 def feet(run):
-    """Numbers of the joints at the feet of columns: their first element is a column, whose centroid is above them at
-    the start.
-    """
+    """Numbers of the joints at the feet of columns: the first element is a column, with its centroid above."""
     e, j = run.elements, run.joints
     below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
     return [k for k, kind in enumerate(j.kind)
@@ -155,9 +149,7 @@ def feet(run):
 
 
 def breaks(run):
-    """[{joint, time [s], cause, force [N], springs}] of each joint that lost springs: the first break, and the number
-    of all.
-    """
+    """[{joint, time [s], cause, force [N], springs}] of each broken joint: the first break, and the number of all."""
     firsts, table = {}, run.breaks or {"joint": []}
     for number, joint in enumerate(map(int, table["joint"])):
         if 0 <= joint < len(run.joints.name):
@@ -168,25 +160,18 @@ def breaks(run):
 
 
 def main_event(run):
-    """Time around which the page plays slowly [s]: collapse, drift of 1/10, fall of a structure or of snow, largest
-    drift; else None.
-    """
-    known = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
+    """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
+    times_of_fall = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
     falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
              if event.kind == kind]
     largest = [float(largest_drift(run))] if drifts(run) else []
-    return next((time for time in (*known, *falls, *largest) if time is not None), None)
+    return next((time for time in (*times_of_fall, *falls, *largest) if time is not None), None)
 
 
 def kinds(present):
     """[{kind, color}] of the kinds of elements that occur, from the roof downwards."""
-    known = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
-    return [{"kind": kind, "color": css(colors.KINDS.get(kind, colors.OTHER))} for kind in known]
-
-
-def css(color):
-    """RGB in 0..1 -> '#rrggbb'."""
-    return "#" + "".join(f"{round(255 * part):02x}" for part in color)
+    ordered = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
+    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
 
 
 def recorded(run):
@@ -236,10 +221,10 @@ def shapes(elements):
             "face_start": (frames.starts(faces), 1), "element_start": (frames.starts(elements.faces), 1)}
 
 
-def joints(found):
-    return {"a": (found.a, 1), "b": (found.b, 1),
-            "strength": (np.where(np.isfinite(found.strength), np.minimum(found.strength, 1e9), 0), 1),
-            "anchor": (found.anchor, 1e-4), "springs": (found.springs, 1), "damaged": (found.damaged, 1)}
+def joints(table):
+    return {"a": (table.a, 1), "b": (table.b, 1),
+            "strength": (np.where(np.isfinite(table.strength), np.minimum(table.strength, 1e9), 0), 1),
+            "anchor": (table.anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
 
 
 def series(run):
@@ -262,9 +247,9 @@ def drifts(run):
 
 
 def curves(run):
-    found = drifts(run)
-    time = run.history.time if found else np.empty(0)
-    values = np.transpose([values for _, _, values in found]) if found else np.empty((0, 0))
+    storey_drifts = drifts(run)
+    time = run.history.time if storey_drifts else np.empty(0)
+    values = np.transpose([values for _, _, values in storey_drifts]) if storey_drifts else np.empty((0, 0))
     motion = ({"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
               if run.motion else {})
     return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Origin of a run in one line, shown by every picture of it: record, factor, PGA, intensity, place in an ensemble, time
-step, versions.
-"""
+"""Origin of a run in one line: record, factor, PGA, intensity, place in an ensemble, time step, versions."""
 from ..motion import GroundMotion, jma_intensity, pga
 from ..text import english
 
@@ -10,21 +8,19 @@ SHORTEST = 1.0
 
 
 def provenance(frames, language=english):
-    """'Record ojiya_like.csv x 1, PGA 1308 gal, JMA intensity 6.7; time step 0.00025 s; yade-timber 1.0, YADE
-    2023.02a'. language: module of text/
-    """
+    """'Record ojiya_like.csv x 1, PGA 1308 gal, ...; time step 0.00025 s; ...'. language: module of text/"""
     return "; ".join(parts(frames, language))
 
 
 def parts(frames, language=english):
     """The parts of `provenance`, the most important first."""
     summary, words = frames.summary, language.ORIGIN
-    known, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
+    texts, programs = [shaking(frames, words)], f"yade-timber {frames.version}".strip()
     if summary:
         place = language.place_in_ensemble(summary.ensemble) if summary.ensemble else ""
-        known += [place, f"{words['step']} {summary.dt:g} s"]
+        texts += [place, f"{words['step']} {summary.dt:g} s"]
         programs += f", YADE {summary.versions.yade}"
-    return [*filter(None, (*known, programs))]
+    return [*filter(None, (*texts, programs))]
 
 
 def shaking(frames, words):

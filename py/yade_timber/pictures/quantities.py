@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of engineering quantities of a run, from the files in its folder: storey shears, accelerations, modes,
-joints, uplift, energy.
-"""
+"""One page of engineering quantities of a run: storey shears, accelerations, modes, joints, uplift, energy."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,7 +15,7 @@ from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
 from ..text.english import direction_name, period_text, sentence
-from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure, save
+from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
 from .style import default_style
 
 DPI = 150
@@ -49,11 +47,6 @@ def read(folder):
     folder = Path(folder)
     tables = (rows(folder / name) for name in (JOINTS, COLUMNS))
     return Results(Summary.read(folder), History.read(folder / HISTORY), Storeys.read(folder / STOREYS), *tables)
-
-
-def write(stem, results, endings):
-    """Write `stem` with each ending; returns the paths. Raises OSError."""
-    return save(page(results, DPI), stem, endings)
 
 
 @default_style()
@@ -146,9 +139,7 @@ def draw_joints(axis, results):
 
 
 def draw_uplift(axis, results):
-    """Plan of the columns of the first storey with the largest uplift of their feet [mm]; grey: fallen or loose at the
-    end.
-    """
+    """Plan of the first storey's columns with the largest uplift of their feet [mm]; grey: lost at the end."""
     rows = [row for row in results.columns if row["storey"] == "1"]
     places = np.array([[float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]")] for row in rows]).reshape(
         -1, 3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Orthographic pictures of convex bodies with hidden surfaces removed; bodies may overlap. Needs no YADE."""
+"""Orthographic pictures of convex bodies with hidden surfaces removed; bodies may overlap."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,9 +19,7 @@ SKY = np.array([0.76, 0.85, 0.93], np.float32)
 
 @dataclass(frozen=True)
 class Window:
-    """Part of a picture plane. view: .right, .toward and .up, unit vectors; box (left, right, bottom, top) [m];
-    density: pixels per metre.
-    """
+    """Part of a picture plane. view: a View; box (left, right, bottom, top) [m]; density: pixels per metre."""
 
     view: object
     box: tuple
@@ -34,15 +32,13 @@ class Window:
         return round((right - left) * self.density), round((top - bottom) * self.density)
 
     def matrix(self, near, far):
-        """(4, 4) from the world to OpenGL's clip space. near, far: coordinates towards the viewer of the nearest and
-        farthest point drawn [m]
-        """
+        """(4, 4) from the world to OpenGL's clip space. near, far: ends of what is drawn towards the viewer [m]"""
         left, right, bottom, top = self.box
         rows = [(self.view.right, left, right), (self.view.up, bottom, top), (self.view.toward, near, far)]
-        made = np.eye(4)
+        matrix = np.eye(4)
         for k, (axis, low, high) in enumerate(rows):
-            made[k] = *(2 * np.array(axis, float) / (high - low)), -(low + high) / (high - low)
-        return made
+            matrix[k] = *(2 * np.array(axis, float) / (high - low)), -(low + high) / (high - low)
+        return matrix
 
 
 def even_density(density):

@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of convex bodies by OpenGL without a window. Needs no YADE.
+"""Pictures of convex bodies by OpenGL, moderngl on EGL: no window, no display, at worst Mesa on the processor.
 
-moderngl draws on an EGL context: on a graphics card where there is one, else by Mesa's renderer on the processor. Needs
-no display.
 Soft lines along all edges smooth the outlines of faces. World frame: x east, y north, z up [m].
 """
 import threading
-from functools import wraps
+from functools import cache, wraps
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from ..base.errors import RunError
-from . import shaders
 
 PACKAGES = "python3-moderngl libegl1 libegl-mesa0 libgl1-mesa-dri"
+SHADERS = Path(__file__).resolve().parents[1] / "data" / "shaders.glsl"
 LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
 
@@ -24,13 +23,13 @@ def once_per_thread(make):
     own = threading.local()
 
     @wraps(make)
-    def found(*arguments):
-        known = vars(own)
-        if arguments not in known:
-            known[arguments] = make(*arguments)
-        return known[arguments]
+    def kept(*arguments):
+        results = vars(own)
+        if arguments not in results:
+            results[arguments] = make(*arguments)
+        return results[arguments]
 
-    return found
+    return kept
 
 
 _started = []
@@ -56,27 +55,31 @@ def context():
         ) from None
 
 
+@cache
+def sections():
+    """{NAME_STAGE: code} of SHADERS; the first line of a section has its names."""
+    parts = (part.partition("\n") for part in SHADERS.read_text(encoding="utf-8").split("\n//// ")[1:])
+    return {name: code for names, _, code in parts for name in names.split()}
+
+
 @once_per_thread
 def program(name):
-    """The compiled program of the shaders NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT."""
-    stages = {f"{stage}_shader": getattr(shaders, f"{name}_{stage.upper()}", None)
-              for stage in ("vertex", "geometry", "fragment")}
-    return context().program(**stages)
+    """The compiled program of the sections NAME_VERTEX, NAME_GEOMETRY and NAME_FRAGMENT, with NAME defined."""
+    codes = {stage: sections().get(f"{name}_{stage.upper()}") for stage in ("vertex", "geometry", "fragment")}
+    return context().program(**{f"{stage}_shader": code and f"#version 330\n#define {name}\n{code}"
+                                for stage, code in codes.items()})
 
 
-def put(made, **values):
+def put(shader, **values):
     """Set those uniforms of a program that it uses; matrices (4, 4) by rows."""
     for name, value in values.items():
-        if name in made:
+        if name in shader:
             value = np.asarray(value, "f4")
-            made[name].write((value.T if value.shape == (4, 4) else value).tobytes())
+            shader[name].write((value.T if value.shape == (4, 4) else value).tobytes())
 
 
 class Topology:
-    """Convex faces of bodies as fans of triangles from the faces' first vertices.
-
-    faces: for each body its faces, lists of vertex numbers within the body; counts: number of vertices of each body
-    """
+    """Convex faces as fans of triangles. faces: of each body, lists of vertex numbers; counts: of its vertices"""
 
     def __init__(self, faces, counts):
         sizes = np.array([len(face) for body in faces for face in body], int)
@@ -104,27 +107,25 @@ class Topology:
         area = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
         normal = np.add.reduceat(area, np.cumsum(self.fan) - self.fan)
         normal /= np.maximum(np.sqrt((normal * normal).sum(1, keepdims=True)), 1e-30)
-        made = np.empty((len(places), 3, 6), "f4")
-        made[:, :, :3] = places
-        made[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
-        return made
+        corners = np.empty((len(places), 3, 6), "f4")
+        corners[:, :, :3] = places
+        corners[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
+        return corners
 
 
 class Bodies:
-    """Bodies on the graphics card. colors: (N, 3) RGB of the bodies; surface: program of their faces, SOLID, or PLAIN
-    without shadows
-    """
+    """Bodies on the graphics card. colors: (N, 3) RGB; surface: program of the faces, SOLID, or PLAIN (no shadows)"""
 
     def __init__(self, topology, colors, surface="SOLID"):
         self.topology = topology
         self.content = np.zeros((len(topology.corners), 3, 9), "f4")
         self.content[:, :, 6:] = np.asarray(colors, "f4").reshape(-1, 3)[topology.body][:, None]
-        made = context()
-        self.corners = made.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
-        self.ends = made.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
-        self.faces = made.vertex_array(program(surface), [(self.corners, *LAYOUT)])
-        self.shadow = made.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
-        self.edges = made.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
+        gl = context()
+        self.corners = gl.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
+        self.ends = gl.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
+        self.faces = gl.vertex_array(program(surface), [(self.corners, *LAYOUT)])
+        self.shadow = gl.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
+        self.edges = gl.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
 
     def put(self, vertices):
         """Take over the vertices (V, 3) [m]."""
@@ -154,10 +155,10 @@ class Canvas:
     """A picture of (width, height) pixels in the making."""
 
     def __init__(self, width, height):
-        made = context()
+        gl = context()
         self.size = int(width), int(height)
-        self.made = Image.new("RGB", self.size)
-        self.frame = made.framebuffer([made.renderbuffer(self.size, 4)], made.depth_renderbuffer(self.size))
+        self.whole = Image.new("RGB", self.size)
+        self.frame = gl.framebuffer([gl.renderbuffer(self.size, 4)], gl.depth_renderbuffer(self.size))
 
     def begin(self, color):
         """Make it empty and draw on it from now on."""
@@ -171,8 +172,8 @@ class Canvas:
 
     def image(self):
         """RGB image of Pillow."""
-        self.made.frombytes(self.frame.read(components=4), "raw", ("RGBX", 0, -1))
-        return self.made
+        self.whole.frombytes(self.frame.read(components=4), "raw", ("RGBX", 0, -1))
+        return self.whole
 
     def depths(self):
         """(height, width) float32, 0 near to 1 far, the first row at the top."""

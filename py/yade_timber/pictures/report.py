@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed. Needs no
-YADE.
-"""
+"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
 import base64
 import html
 import io
@@ -73,11 +71,7 @@ small { font-size: 6.4pt; }
 
 
 def write(folder):
-    """Write report.html, and report.pdf where a browser is installed, into the folder of a finished run; returns the
-    paths.
-
-    Raises RunError for a folder without complete results, OSError when a file cannot be written.
-    """
+    """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
     folder = Path(folder)
     results = quantities.read(folder)
     frames = recording.load(folder / recording.NAME,
@@ -90,20 +84,20 @@ def write(folder):
 
 def page(frames, results):
     """Text of the page. results: quantities.Results"""
-    found = results.summary
-    failures = first_failures(frames) if found.collapsed else []
+    summary = results.summary
+    failures = first_failures(frames) if summary.collapsed else []
     table = failed_joints(frames, results, failures) if failures else joints(results)
     parts = [
         f"<h1>{text(frames.title)}</h1>",
-        f'<div class="verdict" style="background:{COLORS[found.verdict]}">{text(sentence(found))}</div>',
+        f'<div class="verdict" style="background:{COLORS[summary.verdict]}">{text(sentence(summary))}</div>',
         (
-            f'<div class="row"><section>{house(frames, found, failures)}</section><section'
-            f' class="wide">{motion(frames, found)}{storeys(found)}</section></div>'
+            f'<div class="row"><section>{house(frames, summary, failures)}</section><section'
+            f' class="wide">{motion(frames, summary)}{storeys(summary)}</section></div>'
         ),
         f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
-        f'<div class="row"><section>{events(found)}</section><section class="wide">{table}</section></div>{limits()}',
-        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(found))}</ul>",
-        repeat(found),
+        f'<div class="row"><section>{events(summary)}</section><section class="wide">{table}</section></div>{limits()}',
+        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(summary))}</ul>",
+        repeat(summary),
     ]
     title = text(f"Report: {frames.title}")
     head = (
@@ -133,15 +127,15 @@ def picture(figure, part=None, name="", about=""):
 # --- parts of the page ------------------------------------------------------------------------------------------------
 
 
-def house(frames, found, failures):
+def house(frames, summary, failures):
     """Plans with the first failures, numbers of members, weight, natural periods."""
     kinds = frames.elements.kind
     counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {
         "walled bay": len(panels(frames, 0))
     }
     periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
-                        if (mode := found.main_mode("before", axis)))
-    (_, counts["joint"]), (_, counts["wall sheet"]) = found.joints_and_sheets
+                        if (mode := summary.main_mode("before", axis)))
+    (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     marks = "; blue: braces (thin end: foot)" * bool(
         counts["brace"]
@@ -152,18 +146,18 @@ def house(frames, found, failures):
     return (
         f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}<p>Plans, north"
         f" up{marks}. {numbers}."
-        f" {weight(found.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(found)}</p>"
+        f" {weight(summary.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(summary)}</p>"
     )
 
 
-def storeys(found):
+def storeys(summary):
     """Table of the storeys: weight above and shear."""
-    known = found.quantities
-    until = "" if known.until_s is None else f", before {known.until_s:.2f} s"
+    quantities = summary.quantities
+    until = "" if quantities.until_s is None else f", before {quantities.until_s:.2f} s"
     rows = "".join(
         f"<tr><td>{text(storey_name(name))}</td><td class=number>{weight_of(storey.mass_above_kg):.0f} kN</td>"
         f"<td class=number>{coefficients(storey)}</td></tr>"
-        for name, storey in known.storeys.items()
+        for name, storey in quantities.storeys.items()
     )
     return (
         "<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S,"
@@ -176,20 +170,20 @@ def coefficients(storey):
     return ", ".join("-" if value is None else f"{value:.2f}" for value in storey.shear_coefficient.values())
 
 
-def weight(known):
+def weight(weights):
     """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of a Weight."""
-    per_area = ("" if known.per_floor_area_kn_m2 is None
-                else f", {known.per_floor_area_kn_m2:.2f} kN per m² of {known.floor_area_m2:.0f} m² of floor")
-    snow = f"; snow {known.snow_kn:.0f} kN" if known.snow_kn else ""
-    return f"Weight {known.total_kn:.0f} kN{per_area}{snow}."
+    per_area = ("" if weights.per_floor_area_kn_m2 is None
+                else f", {weights.per_floor_area_kn_m2:.2f} kN per m² of {weights.floor_area_m2:.0f} m² of floor")
+    snow = f"; snow {weights.snow_kn:.0f} kN" if weights.snow_kn else ""
+    return f"Weight {weights.total_kn:.0f} kN{per_area}{snow}."
 
 
-def diagnosis(found):
+def diagnosis(summary):
     """The seismic index beside the run, and why they disagree."""
-    return text(f" By the diagnosis of engineers: {found.diagnosis.sentence}. {found.diagnosis.disagreement}")
+    return text(f" By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}")
 
 
-def motion(frames, found):
+def motion(frames, summary):
     """The ground motion: record, PGA, intensity, spectrum."""
     if frames.motion is None:
         return "<h2>The motion</h2><p>No earthquake.</p>"
@@ -199,20 +193,21 @@ def motion(frames, found):
                       for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
     values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None
                                                                 else f", JMA intensity {intensity:.1f}")
-    scale = f", times {found.record.scale:g}" if found.record.scale != 1 else ""
-    about = f"<p>{text(found.record.source)}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
+    scale = f", times {summary.record.scale:g}" if summary.record.scale != 1 else ""
+    source = text(summary.record.source)
+    about = f"<p>{source}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
     return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
 
 
-def events(found):
+def events(summary):
     """The result in ten lines."""
-    return f"<h2>Result</h2><ol>{''.join(f'<li>{text(line)}</li>' for line in lines(found))}</ol>"
+    return f"<h2>Result</h2><ol>{''.join(f'<li>{text(line)}</li>' for line in lines(summary))}</ol>"
 
 
 def limits():
     """Limits of drift with their sources."""
-    known = "; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS)
-    return f"<p><small>Limits of drift: {text(known)}.</small></p>"
+    texts = "; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS)
+    return f"<p><small>Limits of drift: {text(texts)}.</small></p>"
 
 
 def joints(results):
@@ -233,8 +228,8 @@ def joints(results):
 def failed_joints(frames, results, failures):
     """Table of the first failures of a house that has collapsed, and how far its other joints were when its fall began.
     """
-    known = {row["joint"]: row for row in results.joints}
-    rows = "".join(failed_joint(number, failure, frames, known) for number, failure in enumerate(failures, 1))
+    by_name = {row["joint"]: row for row in results.joints}
+    rows = "".join(failed_joint(number, failure, frames, by_name) for number, failure in enumerate(failures, 1))
     heads = ("drift of its storey", "pull kN", "shear kN", "strength kN")
     head = (
         "<tr><th></th><th class=number>time"
@@ -243,9 +238,9 @@ def failed_joints(frames, results, failures):
     return f"<h2>First failures</h2><table>{head}{rows}</table><p>{text(others(frames, results))}</p>"
 
 
-def failed_joint(number, failure, frames, known):
-    """Row of a Failure. known: {joint: row of joints.csv}"""
-    joint, row = frames.joints, known[frames.joints.name[failure.joint]]
+def failed_joint(number, failure, frames, by_name):
+    """Row of a Failure. by_name: {joint: row of joints.csv}"""
+    joint, row = frames.joints, by_name[frames.joints.name[failure.joint]]
     storey = joint.storey[failure.joint]
     place = (
         f"{joint.kind[failure.joint].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
@@ -268,8 +263,8 @@ def others(frames, results):
     rows = [row for row in results.joints if np.isfinite(float(row["strength [N]"])) and row["state"] != "before"]
     loads = np.array([float(row["utilisation [-]"]) for row in rows if row["joint"] not in names])
     failed = len(rows) - len(loads)
-    known = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
-    about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {known}"
+    losses = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
+    about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {losses}"
     used = (
         f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}"
         if len(loads) else "none is left"
@@ -278,9 +273,7 @@ def others(frames, results):
 
 
 def joint_name(name):
-    """'main.column1.x0y0 | beam1.EW.y0': the structure of the second element is left out where it is that of the first.
-    A wall's joint has one name.
-    """
+    """'main.column1.x0y0 | beam1.EW.y0': without the second structure if it is the first. Walls have one name."""
     first, _, second = name.partition("|")
     if not second:
         return text(first)
@@ -288,9 +281,9 @@ def joint_name(name):
     return f"{text(first)} | {text(second)}"
 
 
-def caveats(found):
+def caveats(summary):
     """Limits of the model that matter for this run."""
-    per_area = found.weight.per_floor_area_kn_m2
+    per_area = summary.weight.per_floor_area_kn_m2
     light = (
         f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load"
         " weigh 2.5 to 3 kN per m²."
@@ -298,15 +291,15 @@ def caveats(found):
     return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
-def repeat(found):
+def repeat(summary):
     """Versions, and the command that repeats the run; none for the house of a town and for a motion from Python."""
-    versions, made = found.versions, found.made_from
+    versions, origin = summary.versions, summary.made_from
     about = (
-        f"yade-timber {versions.package}, YADE {versions.yade}, package {made['package']}, files {made['files']}; time"
-        f" step {found.dt:g} s."
+        f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files {origin['files']};"
+        f" time step {summary.dt:g} s."
     )
-    options = {name: value for name, value in made["options"].items() if name != "name"}
-    name = made["options"].get("name")
+    options = {name: value for name, value in origin["options"].items() if name != "name"}
+    name = origin["options"].get("name")
     command = shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(options, name is not None)])
     code = f" <code>{text(command)}</code>" if options.keys().isdisjoint(("town", "ground_motion")) else ""
     return f"<h2>How to repeat it</h2><p>{text(about)}{code}</p>"

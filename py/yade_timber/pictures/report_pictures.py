@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of the report: plans of the house, the motion with its spectrum, key times of the run. Needs no YADE."""
+"""Pictures of the report: plans of the house, the motion with its spectrum, key times of the run."""
 import numpy as np
 from matplotlib.patches import Polygon
 from matplotlib.transforms import Bbox
@@ -26,9 +26,7 @@ THICK = 0.11
 
 @default_style()
 def plans(frames, failures=()):
-    """Figure with a plan of each storey at the start, on one scale: columns, braces, walls, joints broken from the
-    start, numbered failures.
-    """
+    """Figure with a plan of each storey at the start: columns, braces, walls, broken joints, numbered failures."""
     e = frames.elements
     columns = [k for k, kind in enumerate(e.kind) if kind == "column"]
     storeys = sorted({int(e.storey[k]) for k in columns})
@@ -103,9 +101,7 @@ def ground_motion(frames):
 
 @default_style()
 def motion(frames):
-    """Figure with the horizontal accelerations, and the 5 % pseudo-acceleration spectra with lines at the house's
-    natural periods.
-    """
+    """Figure with the horizontal accelerations, and the 5 % spectra with lines at the natural periods."""
     figure = new_figure(3.9, 1.85, DPI)
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))
     figure.subplots_adjust(left=0.11, right=0.985, top=0.9, bottom=0.2, wspace=0.34)
@@ -141,9 +137,7 @@ def style(axis, title, x):
 
 
 def shots(frames):
-    """(figure with up to six key times, in the view in which the house tilts or moves most; its part without the
-    heading, a Bbox [inch]).
-    """
+    """(figure with up to six key times in the view of the largest motion; its part without the heading [inch])."""
     direction = frames.summary.tilt_direction or frames.summary.largest_drift()[2]
     figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
     width, height = figure.get_size_inches()

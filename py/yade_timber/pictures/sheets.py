@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views. Needs no
-YADE.
-"""
+"""Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
 
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
-                      new_figure, save)
+                      new_figure)
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .snapshot import snapshot, solids
@@ -17,9 +15,7 @@ from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend,
 
 @dataclass(frozen=True)
 class Format:
-    """Of a sheet: largest width and height [inch], resolution of the shaded parts [1/inch], number of panels. Text and
-    lines in PDF files are vectors.
-    """
+    """Of a sheet: largest width and height [inch], resolution of shaded parts [1/inch], number of panels."""
 
     width: float
     height: float
@@ -47,9 +43,7 @@ END_WIDTH, END_AXES = 12.5, FOOT + 0.25
 
 @dataclass(frozen=True)
 class Layout:
-    """Panels in rows on a sheet cropped to them. panel: (width, height) of each; head: height of the heading. [inch]
-    density: pixels per metre
-    """
+    """Panels in rows on a sheet. panel: (width, height); head: of the heading [inch]; density: pixels per metre"""
 
     count: int
     columns: int
@@ -73,26 +67,19 @@ class Layout:
 
 
 def layout(form, count, box, result):
-    """The Layout that draws `count` panels of a box [m] largest, with as few places empty as that allows. result:
-    subtitle of the sheet
-    """
+    """The Layout that draws `count` panels of a box [m] largest, with few places empty. result: subtitle"""
     width, height = box[1] - box[0], box[3] - box[2]
-    found = []
+    choices = []
     for columns in range(1, min(3, count) + 1):
         rows = -(-count // columns)
         across = (form.width - 2 * MARGIN - (columns - 1) * GAP) / columns / width
         up = ((form.height - heading_height(form.width, result) - FOOT) / rows - CAPTION - GAP) / height
-        found.append((min(across, up), columns - rows * columns, columns))
-    scale, _, columns = max(found)
+        choices.append((min(across, up), columns - rows * columns, columns))
+    scale, _, columns = max(choices)
     density = even_density(scale * form.dpi)
     panel = width * density / form.dpi, height * density / form.dpi
     sheet_width = max(columns * (panel[0] + GAP) - GAP + 2 * MARGIN, NARROWEST * form.width)
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
-
-
-def write_sheet(stem, frames, view, endings):
-    """Write `stem` with each ending: the key times in one view. Returns the paths. Raises OSError."""
-    return save(sheet(frames, view, PRINT), stem, endings)
 
 
 @default_style()
@@ -132,11 +119,6 @@ def fitted_title(ax, time, reason, width):
 def result(frames):
     """Result of a run that has ended, in one sentence; else an empty text."""
     return sentence(frames.summary) if frames.summary else ""
-
-
-def write_end(stem, frames):
-    """Write `stem`.png: both views of the last frame. Returns the path in a list. Raises OSError."""
-    return save(both_views(frames, -1, END_DPI), stem)
 
 
 @default_style()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""From recorded frames to plain data for pictures. Needs no YADE."""
+"""From recorded frames to plain data for pictures."""
 from ..base import colors
 from ..base.joint_kinds import WALL_KINDS
 from .panels import panels
@@ -19,9 +19,7 @@ def solids(frames, frame=None):
 
 
 def marks(frames, frame):
-    """Mark of every joint that is broken or partly broken in a frame, without those of walls, which are drawn as
-    panels.
-    """
+    """Mark of every broken or partly broken joint in a frame, without those of walls, which are panels."""
     positions, kinds = frames.joint_places(frame), frames.joints.kind
     return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame))
             if state != "whole" and kinds[j] not in WALL_KINDS]

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints: the pictures of a film.
-Needs no YADE.
-"""
+"""A recorded run in 3D at any time, with shadows, ground, sky and the marks of damaged joints, for films."""
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from ..base import colors
 from ..recording.frames import rotated
@@ -35,7 +34,8 @@ class Stage:
     def __init__(self, frames, size, camera, light):
         self.frames, self.camera, (self.sun, self.light) = frames, camera, light
         e = frames.elements
-        self.numbers = nearest_first(frames, camera.eye)
+        distance = np.linalg.norm(e.position[frames.shown] - camera.eye, axis=1)
+        self.numbers = np.asarray(frames.shown)[np.argsort(distance, kind="stable")]  # hidden faces cost no shading
         places = e.position[self.numbers, :2]
         self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(
             1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE
@@ -45,16 +45,16 @@ class Stage:
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
         self.bodies = Bodies(topology, [colors.KINDS.get(e.kind[k], colors.OTHER) for k in self.numbers])
         self.canvas = Canvas(*size)
-        made = context()
-        self.depth = made.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
+        gl = context()
+        self.depth = gl.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
         self.depth.compare_func = "<="
         self.depth.repeat_x = self.depth.repeat_y = False
-        self.shadow = made.framebuffer(depth_attachment=self.depth)
+        self.shadow = gl.framebuffer(depth_attachment=self.depth)
         flat = {"GROUND": SQUARE, "SHADE": SQUARE, "SKY": UPPER_HALF}
-        self.ground, self.shade, self.sky = (made.vertex_array(program(name), [(made.buffer(form), "2f", "corner")])
+        self.ground, self.shade, self.sky = (gl.vertex_array(program(name), [(gl.buffer(form), "2f", "corner")])
                                              for name, form in flat.items())
-        self.marks = made.buffer(reserve=max(16 * len(frames.joints.name), 16), dynamic=True)
-        self.points = made.vertex_array(program("MARK"), [(self.marks, "3f 1f", "place", "state")])
+        self.marks = gl.buffer(reserve=max(16 * len(frames.joints.name), 16), dynamic=True)
+        self.points = gl.vertex_array(program("MARK"), [(self.marks, "3f 1f", "place", "state")])
 
     def picture(self, time):
         """Image (of Pillow) at a time [s]; positions are interpolated between frames, the ground moves as recorded."""
@@ -73,13 +73,13 @@ class Stage:
 
     def _draw_background(self):
         """Sky, ground and the shadows on it, where no face is: their shading takes a third of the time of a picture."""
-        made = context()
-        made.enable_only(made.DEPTH_TEST)
+        gl = context()
+        gl.enable_only(gl.DEPTH_TEST)
         self.canvas.frame.depth_mask = False
-        self.sky.render(mode=made.TRIANGLE_STRIP)
-        made.enable(made.BLEND)
-        self.ground.render(mode=made.TRIANGLE_STRIP)
-        self.shade.render(mode=made.TRIANGLE_STRIP)
+        self.sky.render(mode=gl.TRIANGLE_STRIP)
+        gl.enable(gl.BLEND)
+        self.ground.render(mode=gl.TRIANGLE_STRIP)
+        self.shade.render(mode=gl.TRIANGLE_STRIP)
         self.canvas.frame.depth_mask = True
 
     def _draw_shadow(self):
@@ -90,16 +90,12 @@ class Stage:
         self.depth.use(0)
 
     def _shadow_bounds(self, vertices):
-        """(4,) west, south, east and north end of the shadows on the ground [m]: they fill a small part of the picture.
-        vertices: (V, 3) of all bodies
-        """
+        """(4,) west, south, east and north end of the shadows on the ground [m]. vertices: (V, 3) of all bodies"""
         places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])
         return np.concatenate([places.min(0), places.max(0)])
 
     def _prepare(self, moved, shadows):
-        """Set the shaders for a displacement of the ground (3,) [m], to which all positions are relative. shadows: from
-        `_shadow_bounds`
-        """
+        """Set the shaders for a displacement of the ground (3,) [m]. shadows: from `_shadow_bounds`"""
         view, shift = self.camera, np.eye(4)
         shift[:3, 3] = moved
         ahead = view.target - view.eye
@@ -116,41 +112,28 @@ class Stage:
         put(program("SHADE"), **shared, bounds=shadows)
         put(program("SKY"), horizon=HORIZON, zenith=ZENITH)
         put(program("MARK"), **shared, size=MARK_SIZE * view.scale * height, sizes=MARK_PIXELS,
-            partly=rgb(colors.AMBER), broken=rgb(colors.ORANGE))
+            partly=to_rgb(colors.AMBER), broken=to_rgb(colors.ORANGE))
 
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
-        j, made = self.frames.joints, context()
+        j, gl = self.frames.joints, context()
         states = self.frames.joint_states(frame_before(self.frames, time))
         numbers = np.flatnonzero(states != "whole")
         places = position[j.a[numbers]] + rotated(orientation[j.a[numbers]], j.anchor[numbers])
-        found = (np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers)
+        points = (np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers)
                  else np.zeros((0, 4)))
-        found = found[np.isfinite(found).all(1)].astype("f4")
-        if not len(found):
+        points = points[np.isfinite(points).all(1)].astype("f4")
+        if not len(points):
             return
-        self.marks.write(found)
-        made.enable_only(made.DEPTH_TEST | made.BLEND | made.PROGRAM_POINT_SIZE)
+        self.marks.write(points)
+        gl.enable_only(gl.DEPTH_TEST | gl.BLEND | gl.PROGRAM_POINT_SIZE)
         self.canvas.frame.depth_mask = False
         for test, opacity in ((">", HIDDEN), ("<=", 1.0)):
-            made.depth_func = test
+            gl.depth_func = test
             program("MARK")["opacity"].value = opacity
-            self.points.render(mode=made.POINTS, vertices=len(found))
-        made.depth_func = "<"
+            self.points.render(mode=gl.POINTS, vertices=len(points))
+        gl.depth_func = "<"
         self.canvas.frame.depth_mask = True
-
-
-def nearest_first(frames, eye):
-    """Numbers of the elements shown, those nearest to an eye (3,) [m] at the start first: hidden faces drawn later cost
-    no shading.
-    """
-    distance = np.linalg.norm(frames.elements.position[frames.shown] - eye, axis=1)
-    return np.asarray(frames.shown)[np.argsort(distance, kind="stable")]
-
-
-def rgb(color):
-    """'#rrggbb' -> RGB in 0..1."""
-    return tuple(int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
 
 
 def frame_before(frames, time):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Settings of matplotlib for our pictures: its own defaults, whatever a user's matplotlibrc or session says. Needs no
-YADE.
-"""
+"""Settings of matplotlib for our pictures: its own defaults, whatever a user's matplotlibrc or session says."""
 from contextlib import contextmanager
 
 import matplotlib

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed.
-Needs no YADE.
-"""
+"""One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed."""
 import math
 from dataclasses import dataclass, field
 
@@ -20,9 +18,7 @@ from .raster import Window, covered, shade
 
 @dataclass
 class Solid:
-    """A convex body. vertices (n, 3) world [m]; faces: vertex indices, counter-clockwise from outside; color RGB in
-    0..1.
-    """
+    """A convex body. vertices (n, 3) world [m]; faces: vertex indices, counter-clockwise from outside; color RGB."""
 
     kind: str
     vertices: np.ndarray
@@ -40,9 +36,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class View:
-    """A direction of projection. right, toward, up (3,): unit vectors to the right of the picture, towards the viewer,
-    upwards in the picture.
-    """
+    """A direction of projection. right, toward (the viewer), up (3,): unit vectors."""
 
     name: str
     title: str
@@ -102,9 +96,7 @@ LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "col
 
 
 def box_of(view, starts, later):
-    """(left, right, bottom, top) in the picture plane around the solids at the start and lists of solids at later
-    times. [m]
-    """
+    """(left, right, bottom, top) around the solids at the start and lists of solids at later times. [m]"""
     start = np.vstack([s.vertices for s in starts if s.kind != "ground"])
     points = np.vstack([start, *(s.vertices for solids in later for s in solids if s.kind != "ground")])
     across, original = points @ view.right, start @ view.right
@@ -126,14 +118,12 @@ def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
 
 
 def silhouette(start, view):
-    """Outer outlines of the house, snow and ground left out: list of (n, 2) closed lines in the picture plane [m].
-    start: solids before the first step
-    """
+    """Outlines of the house without snow: list of (n, 2) closed lines [m]. start: solids before the first step"""
     box = box_of(view, start, [])
     window = Window(view, box, OUTLINE_PIXELS)
     mask = np.pad(covered([s for s in start if s.kind not in ("ground", "snow")], window), 1)[::-1].astype(float)
-    found = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
-    outers = [points[: ends[1]] for points, ends in zip(*found)]
+    contours = contour_generator(z=mask, fill_type=FillType.OuterOffset).filled(0.5, np.inf)
+    outers = [points[: ends[1]] for points, ends in zip(*contours)]
     outers = [line for line in outers
               if not any(Path(other).contains_point(line[0]) for other in outers if other is not line)]
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
@@ -187,16 +177,14 @@ def scale_bar(ax, box, size):
 
 def kind_entries(solids):
     """Legend entries of the kinds of elements that occur."""
-    found = {s.kind: s.color for s in reversed(solids)}
-    names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in found else {})
-    return [Patch(facecolor=found[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items()
-            if kind in found]
+    colours = {s.kind: s.color for s in reversed(solids)}
+    names = LEGEND_KINDS | ({"beam": "beam, sill"} if "sill" in colours else {})
+    return [Patch(facecolor=colours[kind], edgecolor=INK, linewidth=0.6, label=name) for kind, name in names.items()
+            if kind in colours]
 
 
 def legend(figure, solids, states, size):
-    """Legend of the colours and marks that occur, at the bottom. states: of the marks in the figure; size: of the text,
-    reduced to fit [pt]
-    """
+    """Legend of colours and marks, at the bottom. states: of the marks; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
     entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]

@@ -29,17 +29,14 @@ STATES = {"whole": 0, "partly": 1, "broken": 2, "before": 3}
 
 
 def export(folder, frames, every=1):
-    """Write the three time series into a folder: every `every`-th frame and the last one; contacts as recorded.
-
-    Returns the paths of the .pvd files. Raises OSError.
-    """
+    """Write the time series: every `every`-th frame and the last one, all contacts. Returns the .pvd files. OSError."""
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = sorted({*range(0, last + 1, every), last})
     series = {"elements": (Elements(frames), [(frames.time[k], k) for k in chosen]),
               "joints": (Joints(frames), [(frames.time[k], k) for k in chosen]),
               "contacts": (Contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
-    return [write_series(folder, name, made, numbers) for name, (made, numbers) in series.items()]
+    return [write_series(folder, name, make, numbers) for name, (make, numbers) in series.items()]
 
 
 def write_series(folder, name, make, numbers):
@@ -151,23 +148,23 @@ def polydata(points, of_points):
 def array(name, values):
     values = np.asarray(values)
     kind = np.float32 if values.dtype.kind == "f" else np.int32
-    made = numpy_to_vtk(np.ascontiguousarray(values, kind), deep=True)
-    made.SetName(name)
-    return made
+    data = numpy_to_vtk(np.ascontiguousarray(values, kind), deep=True)
+    data.SetName(name)
+    return data
 
 
 def cells(lists):
     """vtkCellArray of lists of point numbers."""
-    made = vtkCellArray()
+    data = vtkCellArray()
     starts, flat = np.cumsum([0, *map(len, lists)]), np.concatenate([np.empty(0, int), *lists])
-    made.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
+    data.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
                  numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True))
-    return made
+    return data
 
 
 def strings(name, values):
-    made = vtkStringArray()
-    made.SetName(name)
+    data = vtkStringArray()
+    data.SetName(name)
     for value in values:
-        made.InsertNextValue(value)
-    return made
+        data.InsertNextValue(value)
+    return data

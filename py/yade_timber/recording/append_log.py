@@ -27,9 +27,7 @@ class AppendLog:
         self.path, self.run, self.pending = path, run, []
 
     def add(self, kind, time, *arrays):
-        """Add a record with the arrays' bytes, one after the other. kind: one byte; time [s], not before that of the
-        last record.
-        """
+        """Add a record of the arrays' bytes. kind: one byte; time [s], not before that of the last record."""
         self.pending.append((kind, time, b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)))
 
     def records(self):
@@ -38,9 +36,7 @@ class AppendLog:
         yield from self.pending
 
     def flush(self):
-        """Append the pending records to the file; returns its size. Raises OSError, and RunError for what is no regular
-        file.
-        """
+        """Append the pending records; returns the file's size. Raises OSError, RunError for what is no regular file."""
         if os.path.lexists(self.path):
             require_regular(self.path)
         with open(self.path, "ab") as file:
@@ -71,9 +67,7 @@ def _packed(kind, time, content):
 
 
 def read(path, run):
-    """(kind, time, content) of each complete record of a file, none without the file. Raises RunError for a file of
-    another run.
-    """
+    """(kind, time, content) of each complete record, none without the file. Raises RunError for another run's file."""
     return (record for record in _all(path, run) if record[0] != RUN) if os.path.lexists(path) else iter(())
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow. Needs no
-YADE.
+"""Damage of a house in one state: broken joints, lost columns, fallen and leaning structures, fallen snow.
 
 A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are
 counted apart, never as broken.
@@ -23,18 +22,14 @@ SIDES = ("north", "south", "east", "west", "inside")
 FALLEN_ANGLE = math.radians(45)
 """Inclination beyond which a column has fallen. [rad]"""
 SNOW_DROP = 1.0
-"""Snow has fallen when its centre is lower by this than its place on the roof, and it has left the roof's outline or
-touches the ground. [m]
-"""
+"""Snow has fallen when its centre is lower by this, and it is beyond the roof or touches the ground. [m]"""
 TOUCH = 0.05
 """Height of the lowest corner of snow that touches the ground. [m]"""
 
 
 @dataclass(frozen=True)
 class Level:
-    """Top of a storey. structure: name; marks: numbers of the elements that lie at this level; height of the storey
-    [m].
-    """
+    """Top of a storey. structure: name; marks: numbers of the elements at this level; height of the storey [m]."""
 
     structure: str
     marks: list
@@ -43,9 +38,7 @@ class Level:
 
 @dataclass(frozen=True)
 class State:
-    """position (N, 3) [m] and orientation (N, 4) w, x, y, z of the elements, NaN for a removed one; broken (J,): broken
-    springs of each joint.
-    """
+    """position (N, 3) [m], orientation (N, 4) w, x, y, z, NaN for a removed element; broken (J,): broken springs."""
 
     position: np.ndarray
     orientation: np.ndarray
@@ -84,9 +77,7 @@ class DamageSurvey:
         return broken, ~damaged & ~broken & (state.broken > 0)
 
     def count_broken(self, state, springs):
-        """The part `broken` of the summary. springs: number of springs that broke. A joint of two sides of the house
-        counts for both.
-        """
+        """The part `broken`. springs: number that broke. A joint of two sides counts for both."""
         damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
         broken, partly = self._broken_joints(state)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
@@ -107,9 +98,7 @@ class DamageSurvey:
 
     @cached_property
     def _structure_of_joints(self):
-        """(J,) name of each joint's structure. The storeys of the main structure are numbered, other structures are not
-        divided.
-        """
+        """(J,) name of each joint's structure: storeys of the main one are numbered, others are not divided."""
         return np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
 
     # --- columns ------------------------------------------------------------------------------------------------------
@@ -157,9 +146,7 @@ class DamageSurvey:
         return list(dict.fromkeys(level.structure for level in self.levels))
 
     def _moves(self, state, structure):
-        """[((3,) mean displacement of a level since the start [m], height of its storey [m])] from below; levels
-        without elements are skipped.
-        """
+        """[((3,) mean displacement of a level since the start, height of its storey [m])] from below."""
         moves = []
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
@@ -201,15 +188,15 @@ class DamageSurvey:
     def _snow(self):
         """[(snow element, roof element below it, (3,) centre of the snow in the roof's body frame at the start [m])]"""
         e = self.elements
-        found = []
+        layers = []
         for k in (k for k, kind in enumerate(e.kind) if kind == "snow"):
             roofs = [j for j, kind in enumerate(e.kind) if kind == "roof" and e.group[j] == e.group[k]]
             if roofs:
                 roof = min(roofs, key=lambda j: np.linalg.norm(e.position[j] - e.position[k]))
-                found.append(
+                layers.append(
                     (k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof]))
                 )
-        return found
+        return layers
 
     def fallen_snow(self, state):
         """Numbers of the roof elements that have lost their snow (SNOW_DROP, `_has_left`)."""
@@ -221,9 +208,7 @@ class DamageSurvey:
         return [roof for snow, roof in lower if self._has_left(state, snow)]
 
     def _has_left(self, state, snow):
-        """Whether snow touches the ground, or has no corner above the rectangle in plan around the roofs of its
-        structure.
-        """
+        """Whether snow touches the ground, or has no corner above the rectangle around its structure's roofs."""
         e = self.elements
         of_roofs = [k for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]]
         slab, *roofs = (placed(e.vertices[k], state.position[k], state.orientation[k]) for k in (snow, *of_roofs))

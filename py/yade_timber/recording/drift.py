@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Drifts of a run from its History: the residual drift, the amplitude of the motion that is left, the time when a lean
-begins. Needs no YADE.
-"""
+"""Drifts of a run: the residual drift, the amplitude of the motion that is left, the start of a lean."""
 import numpy as np
 
 from .history import DIRECTIONS
@@ -9,15 +7,11 @@ from .history import DIRECTIONS
 SHORT_WINDOW = 1.0
 """Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
 SLOW_WINDOW = 5.0
-"""Last part of such a run that gives the amplitude: about the period of a swinging wreck, of which a shorter part looks
-like rest. [s]
-"""
+"""Last part of such a run that gives the amplitude, about the period of a swinging wreck. [s]"""
 WINDOWS = (2.0, 4.0, 8.0, 16.0)
 """Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
 AVERAGED = 2.0
-"""As many of the last whole periods are averaged as make up this time, at least one: slow swings decay, and earlier
-ones are larger. [s]
-"""
+"""The last whole periods that make up this time, at least one, are averaged: slow swings decay. [s]"""
 HYSTERESIS = 0.25
 """A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
 RECENT = 1.2
@@ -66,9 +60,7 @@ def start_of(time, window):
 
 
 def upward_crossings(values):
-    """Indices of the samples at which the values pass their mean upwards, after an excursion below it by HYSTERESIS of
-    half their range.
-    """
+    """Samples that pass the mean upwards, after an excursion below it by HYSTERESIS of half the range."""
     centred = values - values.mean()
     threshold = HYSTERESIS * np.ptp(values) / 2
     crossings, last, below = [], None, False
@@ -91,19 +83,14 @@ def still_moving(amplitudes):
 
 
 def by_storey(values):
-    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ew2, ...]; at least two storeys, None where there is no
-    value.
-    """
+    """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ...]; at least two storeys, None without a value."""
     values = [float(value) if np.isfinite(value) else None for value in values]
     pairs = list(zip(values[::2], values[1::2])) + [(None, None)] * (2 - len(values) // 2)
     return {f"storey{k}": dict(zip(DIRECTIONS, pair)) for k, pair in enumerate(pairs, 1)}
 
 
 def lean_start(history, tilt_time, direction):
-    """Start of the lean that passed 1/10 at `tilt_time` [s] in `direction`, None without a tilt. [s]
-
-    It is the last earlier sample at which that drift had another sign, or 0.
-    """
+    """Start of the lean that passed 1/10 at `tilt_time` [s]: last sample of another sign, or 0; None without. [s]"""
     if tilt_time is None:
         return None
     last = int(np.searchsorted(history.time, tilt_time, side="right"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m. Needs no YADE.
+"""Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m.
 
 The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for
 each run: runs/001, runs/002, ...
@@ -33,8 +33,8 @@ def read(folder):
     path = folder / NAME
     require_regular(path)
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return {**found, "finished": list(map(int, found["finished"])), "shown": int(found["shown"])}
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return {**content, "finished": list(map(int, content["finished"])), "shown": int(content["shown"])}
     except (OSError, ValueError, LookupError, TypeError) as problem:
         raise RunError(f"{path}: cannot be read as the results of an ensemble: {problem}") from None
 

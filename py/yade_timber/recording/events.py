@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Events of a run: time, kind, facts. Their phrases: text/. Needs no YADE.
+"""Events of a run: time, kind, facts. Their phrases: text/.
 
 FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they
 happen;
@@ -54,9 +54,7 @@ class Event:
 
 
 class EventLog:
-    """Events of a run so far. survey: damage.DamageSurvey of its house; events: those known already, as `encoded` gives
-    them.
-    """
+    """Events of a run so far. survey: DamageSurvey of its house; events: those known already, as `encoded`."""
 
     def __init__(self, survey, events=()):
         self.survey = survey
@@ -89,12 +87,10 @@ class EventLog:
         self._observe_columns(time, state)
 
     def _observe_columns(self, time, state):
-        """An event for the first lost column, and each time the number has doubled: a collapse gives a few events, not
-        ninety.
-        """
+        """An event for the first lost column, and each time the number has doubled: a collapse gives few events."""
         total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
-        known = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
-        if lost >= max(1, 2 * known):
+        reported = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
+        if lost >= max(1, 2 * reported):
             self.add(time, ColumnsLost(lost, total))
 
     def _fallen_snow(self, roof):

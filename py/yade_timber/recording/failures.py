@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The first failures of a run: which joint, when, why, at which storey drift. Needs no YADE."""
+"""The first failures of a run: which joint, when, why, at which storey drift."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +12,7 @@ MOST = 8
 
 @dataclass(frozen=True)
 class Failure:
-    """Break of the first spring of a joint. joint: its number; drift: of its storey then, the larger direction, None in
-    another structure [-]
-    """
+    """Break of a joint's first spring. joint: its number; drift: of its storey then, None in another structure [-]"""
 
     time: float
     joint: int
@@ -36,9 +34,7 @@ def first_failures(frames: Frames, most=MOST):
 
 
 def cause_of(frames, joint, cause):
-    """'tension', 'compression' or 'shear'; of a wall, where tension and compression are directions of its drift,
-    'shear'.
-    """
+    """'tension', 'compression' or 'shear'; of a wall always 'shear': its signs are directions of its drift."""
     return "shear" if frames.joints.kind[joint].startswith("wall") else cause
 
 

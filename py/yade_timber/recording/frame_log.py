@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Frames of an unfinished run in an AppendLog beside frames.h5: a record for each frame and for each time of contacts.
-Needs no YADE.
-"""
+"""Frames and contacts of an unfinished run in an AppendLog beside frames.h5, a record for each time."""
 import numpy as np
 
 NAME = "frames.log"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The recorded frames of a run, frames.h5: the source of pictures, player and exports. Needs no YADE.
+"""The recorded frames of a run, frames.h5: the source of pictures, player and exports.
 
 Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
 
@@ -60,9 +60,7 @@ ATTRIBUTES = ("title", "scenario", "model", "version", "run")
 
 
 def steps_between(dt):
-    """Number of steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest,
-    too.
-    """
+    """Steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
     stride = rest_stride(dt)
     return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
 
@@ -134,11 +132,9 @@ class Motion(_ShortRepr):
 
 @dataclass(repr=False)
 class Frames:
-    """The file's content. time, position, orientation, load, broken: arrays, or lists with an entry per frame during a
-    run.
+    """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
-    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists. All three are None before
-    the end of the run.
+    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists; None before the run's end.
     """
 
     title: str
@@ -189,9 +185,7 @@ class Frames:
         return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
 
     def joint_states(self, frame):
-        """'whole', 'partly' (some springs broken), 'broken' or 'before' (broken from the start), for each joint; frame:
-        a number, or a slice of frames.
-        """
+        """'whole', 'partly', 'broken' or 'before' (the start), for each joint. frame: a number, or a slice"""
         j = self.joints
         state = np.where(np.asarray(self.broken[frame]) == 0, "whole",
                          np.where(self.broken[frame] >= j.springs, "broken", "partly"))
@@ -242,11 +236,11 @@ def save(path, frames):
 
 
 def _save_attributes(file, frames):
-    known = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
+    attributes = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
              "ended": frames.summary is not None}
     if frames.summary is not None:
-        known["summary"] = json.dumps(encode(frames.summary))
-    file.attrs.update(known)
+        attributes["summary"] = json.dumps(encode(frames.summary))
+    file.attrs.update(attributes)
 
 
 def _save_group(group, values):
@@ -256,9 +250,7 @@ def _save_group(group, values):
 
 
 def _series(frames):
-    """The frames as arrays of the file's types; without frames, too, their shapes hold the numbers of elements and
-    joints.
-    """
+    """The frames as arrays of the file's types; without frames their shapes hold the numbers of elements and joints."""
     types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
     return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
             for name, kind in types.items()}
@@ -292,9 +284,7 @@ def _save_contacts(group, contacts):
 
 
 def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
-    """Frames of a file. Raises RunError when it cannot be read or holds something else. missing: remedy in the message
-    when there is no file.
-    """
+    """Frames of a file. Raises RunError when it cannot be read. missing: remedy when there is no file"""
     require_regular(path, missing)
     try:
         with h5py.File(path, "r") as file:
@@ -316,9 +306,7 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
 
 
 def _check_size(file, path):
-    """Refuse tables that declare more data than the file holds (ours are not compressed), before memory is taken for
-    them.
-    """
+    """Refuse tables that declare more data than the file holds (ours are not compressed)."""
     declared = []
     file.visititems(lambda _, item: declared.append(item.nbytes) if isinstance(item, h5py.Dataset) else None)
     if sum(declared) > Path(path).stat().st_size:
@@ -352,9 +340,7 @@ def _check_shapes(frames):
 
 
 def _check_finite(frames):
-    """Raise ValueError for placements and times that are not finite. A removed element is NaN in all its numbers of a
-    frame.
-    """
+    """Raise ValueError for numbers that are not finite. A removed element is NaN in all its numbers of a frame."""
     parts = np.asarray(frames.position), np.asarray(frames.orientation)
     finite = np.all([np.isfinite(part).all(2) for part in parts], axis=0)
     removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)

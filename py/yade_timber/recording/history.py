@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The time history of a run: storey drifts, broken joints and energies at each sample. Needs no YADE.
+"""The time history of a run: storey drifts, broken joints and energies at each sample.
 
 `History` is the one place that knows the columns of history.csv:
 

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damage of a house by its own weight and snow, before the shaking begins. Needs no YADE."""
+"""Damage of a house by its own weight and snow, before the shaking begins."""
 import numpy as np
 
 HARMFUL = 0.5
-"""Ground acceleration below which no sound house is damaged: half of the design earthquake that it must bear without
-damage. [m/s2]
-"""
+"""Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
 
 
 def start_of_shaking(motion):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run. Needs no
-YADE.
-"""
+"""Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run."""
 import csv
 import math
 from dataclasses import dataclass, field
@@ -15,11 +13,7 @@ JOINTS, COLUMNS = "joints.csv", "columns.csv"
 
 @dataclass(frozen=True)
 class Peaks:
-    """Largest values of a run.
-
-    forces  {name of a joint: (pull, shear) [N]}, without joints that were broken before the start
-    uplift  {name of a column: uplift of its foot [m]}, of columns that stand at the end
-    """
+    """forces: {joint: (pull, shear) [N]}, but of joints broken at the start; uplift: {standing column: [m]}"""
 
     forces: dict = field(default_factory=dict)
     uplift: dict = field(default_factory=dict)
@@ -36,9 +30,7 @@ def rows(path):
 
 
 def read(folder):
-    """Peaks of a run's folder; empty where a table or a column is missing, as in older runs. Raises RunError for a
-    table with other content.
-    """
+    """Peaks of a run's folder; empty without a table or column, as in older runs. Raises RunError."""
     forces = _values(Path(folder) / JOINTS, "joint", ("pull [N]", "shear [N]"), lambda row: row["state"] != "before")
     uplift = _values(Path(folder) / COLUMNS, "column", ("uplift [m]",), lambda row: row["state"] == "standing")
     return Peaks(forces, {name: value for name, (value,) in uplift.items()})

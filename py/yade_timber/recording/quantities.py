@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Storey shears and floor accelerations of a run, from the momenta of parts of its main structure. Needs no YADE.
+"""Storey shears and floor accelerations of a run, from the momenta of parts of its main structure.
 
 Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills that are not fixed. Part 2k - 1: columns,
 braces and walls of storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute
@@ -16,14 +16,10 @@ NAME = "storeys.csv"
 SUSTAINED = 0.1
 """Time over which a sustained shear is averaged. [s]"""
 BAND = (0.0, 10.0)
-"""Of accelerations [Hz]: up to the high-cut of JMA's seismic intensity, as of the accelerographs SMAC. At its end the
-amplitude is 1/sqrt(2).
-"""
+"""Of accelerations [Hz]: up to the high-cut of JMA's intensity, where the amplitude is 1/sqrt(2)."""
 BAND_TEXT = f"{BAND[0]:g} to {BAND[1]:g} Hz"
 ORDER, STEP, PADDING = 3, 0.01, 1.0
-"""Of the low-pass (amplitude of Butterworth's, without phase); time step at which it acts, ends held on each side for
-its transients. [s]
-"""
+"""Of the low-pass (Butterworth's amplitude, no phase), its time step, ends held for its transients. [s]"""
 AXES = {"ew": 0, "ns": 1, "ud": 2}
 """Component of a vector (east, north, up)."""
 
@@ -52,9 +48,7 @@ class Storeys(Series):
         return float(np.nan_to_num(np.abs(self.column(name))).max(initial=0.0))
 
     def sustained(self, name):
-        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of members last a few ms and
-        hardly count.
-        """
+        """Largest absolute mean of a column over SUSTAINED; 0.0 for a shorter run. Impacts of a few ms hardly count."""
         values, time = np.nan_to_num(self.column(name)), self.time
         total, end = np.concatenate([[0.0], np.cumsum(values)]), np.searchsorted(time, time + SUSTAINED)
         whole = np.flatnonzero(end < len(time))
@@ -62,11 +56,9 @@ class Storeys(Series):
 
 
 def storeys(samples, masses, motion=None):
-    """Storeys of a run.
+    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg].
 
-    samples  (F + 1, 1 + 3 P): time [s], momenta of the P parts relative to the ground, east, north, up [kg m/s]
-    masses   (P,) [kg]
-    motion   frames.Motion of the ground as applied, or None
+    samples (F + 1, 1 + 3 P): time [s], momenta of the parts relative to the ground, east, north, up [kg m/s]
     """
     samples, masses = np.asarray(samples, float), np.asarray(masses, float)
     time, steps = samples[:, 0], np.diff(samples[:, 0])
@@ -91,21 +83,19 @@ def storeys(samples, masses, motion=None):
 
 def band_limited(time, values):
     """(F,) values at times (F,) [s] without what lies beyond BAND; gaps (NaN) stay."""
-    known = np.isfinite(values)
-    if known.sum() < 2:
+    finite = np.isfinite(values)
+    if finite.sum() < 2:
         return values
     grid = np.arange(time[0], time[-1] + STEP / 2, STEP)
     ends = round(PADDING / STEP)
-    padded = np.pad(np.interp(grid, time[known], values[known]), ends, "edge")
+    padded = np.pad(np.interp(grid, time[finite], values[finite]), ends, "edge")
     gain = 1 / np.sqrt(1 + (np.fft.rfftfreq(len(padded), STEP) / BAND[1]) ** (2 * ORDER))
     filtered = np.fft.irfft(gain * np.fft.rfft(padded), len(padded))[ends:-ends]
-    return np.where(known, np.interp(time, grid, filtered), values)
+    return np.where(finite, np.interp(time, grid, filtered), values)
 
 
 def ground_velocity(motion, time):
-    """(F, 3) velocity of the ground at times (F,) [m/s], by exact integration of the piecewise linear acceleration;
-    zero without a motion.
-    """
+    """(F, 3) velocity of the ground at times (F,) [m/s]: exact integral of the linear acceleration, or zero."""
     if motion is None:
         return np.zeros((len(time), 3))
     a, dt = motion.acceleration, motion.dt

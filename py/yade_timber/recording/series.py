@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of numbers over time: CSV files whose columns have names with units. Needs no YADE."""
+"""Tables of numbers over time: CSV files whose columns have names with units."""
 import csv
 from collections import namedtuple
 

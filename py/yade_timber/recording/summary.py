@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md. Needs
-no YADE.
-"""
+"""Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md."""
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -69,9 +67,7 @@ Values = table(
 TownSummary = table("TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool,
                     collapse_time_s=float | None, tilt_time_s=float | None, dt=float, record=Record | None,
                     versions=Versions, events=list[Event], ensemble=optional(Ensemble))
-"""Of a town, for sentences and pictures. Times are those of the first house that tilts or collapses; events have their
-lots.
-"""
+"""Of a town, for sentences and pictures. Times: of the first house that tilts or collapses; events have lots."""
 
 
 class Summary(Values):
@@ -99,19 +95,16 @@ class Summary(Values):
 
     @classmethod
     def sample(cls, **changes):
-        """For tests: House A, of which nothing is known but the changes. Verdicts follow from them, the main structure
-        is that of the totals.
-        """
-        found = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
+        """For tests: House A with these changes. Verdicts follow from them, the main structure from the totals."""
+        summary = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
             **{"model": "A", **changes, "structures": {}}
         )
-        lost, main = found.columns.fallen + found.columns.loose, {"broken": found.broken.total,
-                                                                  "partly_broken": found.broken.partly_broken}
-        drifts = {"peak_drift": found.largest_drift()[0], "residual_drift": found.largest_drift("residual_drift")[0]}
-        structures = {"main": {**main, **drifts, "columns_lost": lost, "collapsed": found.collapsed},
-                      **changes.get("structures", {})}
-        found = found.changed(structures=structures)
-        return found.changed(verdict=changes.get("verdict", found.main.verdict))
+        main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
+        main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
+                 "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}
+        structures = {"main": main, **changes.get("structures", {})}
+        summary = summary.changed(structures=structures)
+        return summary.changed(verdict=changes.get("verdict", summary.main.verdict))
 
     @property
     def main(self):
@@ -124,17 +117,15 @@ class Summary(Values):
         return list(self.structures.items())[1:]
 
     def largest_drift(self, key="peak_drift"):
-        """(drift, storey, 'ns' | 'ew') of the largest drift; zero where none is known. key: 'peak_drift',
-        'residual_drift' or 'final_amplitude'
-        """
+        """(drift, storey, 'ns' | 'ew') of the largest drift, zero without any. key: an entry with Drifts"""
         drifts = ((value, storey, direction) for storey, pair in getattr(self, key).items()
                   for direction, value in pair.items() if value is not None)
         return max(drifts, default=(0.0, "storey1", "ns"))
 
     def main_mode(self, when, direction):
         """The Mode 'before' or 'after' the run that moves most of the mass in a direction, None without one."""
-        found = getattr(self.quantities.modes, when)
-        modes = [mode for mode in found.modes if mode.direction == direction] if found else ()
+        state = getattr(self.quantities.modes, when)
+        modes = [mode for mode in state.modes if mode.direction == direction] if state else ()
         return max(modes, key=lambda mode: mode.mass_share[direction], default=None)
 
     def first_time(self, kind):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames of the lots of a town -> frames of the town, for its pictures and its player. Needs no YADE."""
+"""Recorded frames of the lots of a town -> frames of the town, for its pictures and its player."""
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +9,7 @@ from .history import History
 from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
-"""Elements times frames of a town: of larger ones every second, third ... frame is kept. [-] A player of that size has
-some 30 MB.
-"""
+"""Elements times frames of a town, above which frames are left out. [-] A player of that size has 30 MB."""
 
 SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
@@ -31,10 +29,7 @@ def summary(name, summaries):
 
 
 def town_frames(name, lots):
-    """Frames of a town, without the grounds and contacts of its lots.
-
-    lots: list of (name, (3, 3) axes of the house as columns, (3,) place [m], Frames of an ended run)
-    """
+    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames)"""
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)
@@ -44,17 +39,17 @@ def town_frames(name, lots):
         [0, *np.cumsum(sizes)]
         for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed])
     )
-    made = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
-    made.time = [longest.time[k] for k in numbers]
+    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
-            getattr(made, key).append(values)
-    made.motion = _motion(placed)
-    made.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
-    made.history = History(("time [s]",), np.empty((0, 1)))
-    made.breaks = _breaks(placed, first_joints)
-    return made
+            getattr(town, key).append(values)
+    town.motion = _motion(placed)
+    town.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
+    town.history = History(("time [s]",), np.empty((0, 1)))
+    town.breaks = _breaks(placed, first_joints)
+    return town
 
 
 class _Lot:
@@ -116,8 +111,9 @@ def _motion(lots):
     first = min((lot for lot in lots if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
     if first is None:
         return None
-    given = first.run.motion
-    return frames.Motion(given.dt, given.start, given.acceleration @ first.axes.T, given.displacement @ first.axes.T)
+    motion = first.run.motion
+    axes = first.axes.T
+    return frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
 
 
 def _breaks(lots, first_joints):

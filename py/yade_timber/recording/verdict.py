@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Verdict on each structure of a run: undamaged, repairable, unsafe or collapsed. Needs no YADE.
+"""Verdict on each structure of a run: undamaged, repairable, unsafe or collapsed.
 
 collapsed   a level has come down by half its storey
 unsafe      a storey drift reached the safety limit, or a column has fallen or lost its last joint
@@ -43,9 +43,7 @@ LIMITS = (DAMAGE, SAFETY, TILT)
 
 @dataclass(frozen=True, kw_only=True)
 class Structure:
-    """Facts on a structure, and the verdict that follows. Drifts [-]; numbers of joints, and of columns fallen or
-    loose, since the start.
-    """
+    """Facts on a structure, and its verdict. Drifts [-]; numbers of joints and lost columns since the start."""
 
     verdict: str = field(init=False)
     leans: bool = field(init=False)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wall sheets among the joints of a house. A sheet is two joints of one spring each: broken when both are, partly
-broken when one is. Needs no YADE.
-"""
+"""Wall sheets among the joints: two joints of one spring each, broken when both are, partly when one is."""
 import numpy as np
 
 from ..base.joint_kinds import WALL_KINDS
@@ -13,9 +11,7 @@ def of_walls(joints):
 
 
 def wall_sheets(joints):
-    """[[numbers of the joints of a wall sheet]] for each sheet; their names differ in the last part only. joints:
-    frames.Joints
-    """
+    """[[numbers of the joints]] of each wall sheet; their names differ in the last part. joints: frames.Joints"""
     sheets = {}
     for k in np.flatnonzero(of_walls(joints)):
         sheets.setdefault(joints.name[k].rpartition(".")[0], []).append(int(k))
@@ -23,9 +19,7 @@ def wall_sheets(joints):
 
 
 def state(broken):
-    """'broken' when all joints of a sheet, or of the sheets of a bay, are broken, 'partly' when some are, else 'whole'.
-    broken: their bool
-    """
+    """'broken' when all joints of a sheet or bay are, 'partly' when some are, else 'whole'. broken: bool of each"""
     return "broken" if all(broken) else "partly" if any(broken) else "whole"
 
 
@@ -35,8 +29,6 @@ def sheet_states(joints, broken):
 
 
 def count_apart(joints, broken):
-    """((broken, all) of the joints without those of walls, (broken, all) of the wall sheets). joints: frames.Joints;
-    broken: (J,) bool
-    """
+    """((broken, all) of the joints without walls, (broken, all) of the wall sheets). broken: (J,) bool"""
     sheets, other = sheet_states(joints, broken), ~of_walls(joints)
     return (int((broken & other).sum()), int(other.sum())), (sheets.count("broken"), len(sheets))

@@ -30,10 +30,7 @@ O = yw.Omega()
 
 
 def save(path, identity, progress):
-    """Save the scene in YADE. identity: see identity.py; progress: dictionary that `load` returns. Raises OSError.
-
-    A kill at any moment leaves a complete file, the earlier or the new one.
-    """
+    """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
     with written_from_memory(path) as memory:
         O.save(str(memory), quiet=True)
         seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
@@ -42,12 +39,11 @@ def save(path, identity, progress):
 
 
 def load(path, identity):
-    """Load the saved scene into YADE; returns `progress` as saved. Raises RunError when the file is damaged or has
-    another identity.
-    """
+    """Load the saved scene; returns `progress` as saved. Raises RunError for damage or another identity."""
     path = Path(path)
     require_regular(path)
-    _require_own(path)
+    if path.stat().st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
+        raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
     try:
         body, _, line = path.read_bytes().rpartition(b"\n")
         seal = json.loads(line)
@@ -65,12 +61,6 @@ def load(path, identity):
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
     return seal["progress"]
-
-
-def _require_own(path):
-    """Raise RunError for a file of another user: YADE's loader is not safe against every forged file."""
-    if path.stat().st_uid != os.geteuid():
-        raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
 
 
 def _load(content):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script's name. Needs
-no YADE.
-"""
+"""Command line of the run scripts -> RunOptions. YADE's own options (-n, -x, -j2) stand before the script."""
 import argparse
 import re
 from pathlib import Path
@@ -35,31 +33,27 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(script, file=None, loads=""):
-    """ArgumentParser of the run script of that name. file: kind of its input file, house or town; None: the script
-    gives house and loads; loads: sentence that states them
-    """
+    """ArgumentParser of a run script. file: kind of its input file, None: the script gives house and `loads`"""
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
     about = (
         f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"
         " --out."
     )
-    made = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
-    made._negative_number_matcher = NUMBER
+    reader = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
+    reader._negative_number_matcher = NUMBER
     offered = {each: field for each, field in options(RunOptions).items()
                if each != "house" and (file or each not in BY_SCRIPT)}
     if file:
-        made.add_argument(file, metavar=file.upper(),
+        reader.add_argument(file, metavar=file.upper(),
                           help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"])
     for group in ("main", *GROUPS):
-        place = made if group == "main" else made.add_argument_group(GROUPS[group])
+        place = reader if group == "main" else reader.add_argument_group(GROUPS[group])
         add_options(place, [field for field in offered.values() if field.metadata["group"] == group])
-    return made
+    return reader
 
 
 def read(house, earthquake, snow, argv):
-    """RunOptions of a script that gives house and loads. argv: command line (as sys.argv). Raises RunError,
-    RecordError.
-    """
+    """RunOptions of a script that gives house and loads. argv: as sys.argv. Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     loads = f"House {house}: {english.loads(earthquake, SNOW_DEPTH if snow else 0)}. "
     return _checked(scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)))
@@ -72,13 +66,13 @@ def read_house(argv):
 
 def read_town(argv):
     """RunOptions of scripts/town.py, which runs a town. Raises RunError, RecordError."""
-    given = _checked(RunOptions(**parser("town", "town").parse(argv)))
+    request = _checked(RunOptions(**parser("town", "town").parse(argv)))
     for name in ("export", "ensemble", "disturb", "report"):
-        if getattr(given, name):
+        if getattr(request, name):
             raise RunError(f"{command_option(name)}: not for towns; run a house with scripts/house.py")
-    return given
+    return request
 
 
-def _checked(given):
-    given.check()
-    return given
+def _checked(request):
+    request.check()
+    return request

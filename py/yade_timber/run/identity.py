@@ -59,8 +59,8 @@ def package():
 
 def decisive_files(folder):
     """Files of the package in `folder` that decide results."""
-    found = (path for pattern in ROOMS for path in sorted(folder.glob(pattern)))
-    return [path for path in found if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
+    paths = (path for pattern in ROOMS for path in sorted(folder.glob(pattern)))
+    return [path for path in paths if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
 
 
 # --- fingerprints: 16 hexadecimal digits ------------------------------------------------------------------------------

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run in a live session: it continues in the background while the user has the prompt.
-
-Its results are written at its last step.
-"""
+"""A run in a live session: it continues in the background; its results are written at its last step."""
 import builtins
 import sys
 import threading
@@ -28,11 +25,7 @@ class LiveRun(Run):
     """A run that can be paused, saved, loaded and changed by the user."""
 
     def start(self, folder_lock):
-        """Run in the background, with a view where there is a display. The results follow at the last step, also after
-        pauses.
-
-        folder_lock: ExitStack with the lock of the folder of the results, closed when they are written
-        """
+        """Run in the background, with a view if possible. folder_lock: ExitStack, closed after the results"""
         self._folder_lock = folder_lock
         if O.iter >= self.steps:
             self._end()
@@ -45,9 +38,7 @@ class LiveRun(Run):
         threading.Thread(target=self._watch, daemon=True).start()
 
     def _record_frames(self):
-        """Append an engine that calls `record_frame` in the step that leads to each frame, behind RestSkipper, whose
-        step may lead to one.
-        """
+        """Append an engine that calls `record_frame` in the step to each frame, behind RestSkipper."""
         global live
         live = self
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame

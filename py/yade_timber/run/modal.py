@@ -12,12 +12,9 @@ O = yw.Omega()
 
 
 def modes_now(levels):
-    """ModesAt of the scene as it is now; the period of an unstable mode is None.
-
-    levels: damage.Level of the main structure, from below. shape: mean displacement of each level, largest component 1.
-    """
+    """ModesAt of the scene as it is now; an unstable mode has no period. levels: of the main structure."""
     mass = sum(b.state.mass for b in O.bodies if b is not None and not b.state.blockedDOFs)
-    found = []
+    modes = []
     for mode in natural_modes():
         share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
         shape = np.array([mode.shape[level.marks, :3].mean(0) for level in levels])
@@ -25,5 +22,5 @@ def modes_now(levels):
         shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
                  for k, row in enumerate(shape, 1)}
         period = round(mode.period, 4) if mode.omega2 > 0 else None
-        found.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
-    return ModesAt(time_s=round(O.time, 6), modes=found)
+        modes.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
+    return ModesAt(time_s=round(O.time, 6), modes=modes)

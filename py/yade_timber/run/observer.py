@@ -3,11 +3,13 @@
 
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
 """
+import json
 import math
 
 import numpy as np
 import yade.wrapper as yw
 
+from .. import host
 from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
 from ..plugin import compiled
@@ -24,7 +26,7 @@ SETTLED = 1.0
 """Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
 
 BREAKS = ("time", "joint", "spring", "cause", "force")
-"""Attributes of a JointBreak."""
+"""Attributes of a JointBreak, columns of frames.h5's /breaks."""
 
 O = yw.Omega()
 
@@ -76,10 +78,10 @@ def describe_motion():
     return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
 
 
-def describe_breaks():
-    """Columns of frames.h5's /breaks."""
-    entries = list(find_engine(yw.JointEngine).breaks)
-    return {name: [getattr(entry, name) for entry in entries] for name in BREAKS}
+def versions():
+    """{'yade': version of the running YADE, 'package': version with which the module was built}."""
+    build = json.loads(compiled.build_record()[len(host.RECORD_MARK):])
+    return {"yade": host.host_facts()["yade"], "package": build["package"]}
 
 
 def element_numbers(model):
@@ -122,9 +124,7 @@ def joint_loads():
 
 
 def largest_so_far():
-    """[(load [-], pull [N], shear [N], opening [m])] of the joints: the largest values so far, none before the first
-    sample.
-    """
+    """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
     monitor = find_engine(yw.StructureMonitor)
     return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
 
@@ -137,19 +137,15 @@ def contact_points():
 
 
 class Observer:
-    """Notes the events of the run that is loaded in YADE, the peak drifts of its structures and its first natural
-    modes.
+    """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
-    known: `progress` of a checkpoint
-    """
-
-    def __init__(self, model, known=None):
+    def __init__(self, model, progress=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
-        self.log = EventLog(self.survey, known["events"] if known else ())
-        self.peaks = known["peaks"] if known else dict.fromkeys(self.survey.structures, 0.0)
-        self.modes = decode(ModesAt | None, known["modes"]) if known else None
-        self.upright = known["upright"] if known else (0.0, [])
+        self.log = EventLog(self.survey, progress["events"] if progress else ())
+        self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
+        self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
+        self.upright = progress["upright"] if progress else (0.0, [])
         self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):
@@ -162,17 +158,13 @@ class Observer:
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def fall(self):
-        """Time at which the fall of a house that has collapsed begins: a storey drift passes 1/10, or a floor is down
-        [s]; None for one that stands.
-        """
+        """Start of a collapsed house's fall: a storey drift passes 1/10, or a floor is down [s]; None if it stands."""
         monitor = find_engine(yw.HouseMonitor)
         return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
                 else None)
 
     def joint_peaks(self):
-        """[(load, pull, shear, opening)] of the joints: largest values so far, of a house that has collapsed those
-        before the fall began.
-        """
+        """[(load, pull, shear, opening)] of the joints: largest values so far, or before the fall if there is one."""
         return largest_so_far() if self.fall() is None else self.upright[1]
 
     def state(self):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All options of a run. Command line, `yt.run`, tables of batches, towns and the identity of a run follow from these
-fields. Needs no YADE.
-"""
+"""All options of a run: command line, `yt.run`, batches, towns and the identity of a run follow from them."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
@@ -32,8 +30,8 @@ ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repea
 
 @dataclass(frozen=True)
 class Door:
-    """Where options come from. name: function that names an option in messages; earthquake: remedy for options of an
-    earthquake without one; pictures: function that gives the command for the pictures of a folder
+    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake;
+    pictures: function that gives the command for the pictures of a folder
     """
 
     name: Callable = command_option
@@ -48,8 +46,7 @@ SCRIPT = Door(earthquake="use a script of a run with an earthquake")
 class RunOptions(MotionRequest):
     """Options of a run, those of its ground motion included.
 
-    Besides the options: name of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion:
-    GroundMotion in place of a record; door.
+    name: of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion: in place of a record.
     """
 
     house: str = option(str, f"house file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE", group="main")
@@ -156,8 +153,6 @@ class RunOptions(MotionRequest):
 
 
 def scripted(name, house, earthquake=False, snow=False, **more):
-    """Options of a run script that gives house and loads. name: of the script; earthquake, snow: whether there are;
-    more: further options
-    """
+    """Options of a run script. name: of the script; earthquake, snow: whether there are; more: further options"""
     return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, door=SCRIPT,
                       **more)

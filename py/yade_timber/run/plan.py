@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""RunOptions -> Scenario of a house, or plan of a town: motion, duration and depth of snow that the options leave to
-files.
-"""
+"""RunOptions -> Scenario, or plan of a town: motion, duration and snow depth that options leave to files."""
 from dataclasses import dataclass, replace
 
 from ..base.notes import noted

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Progress of a run: its events and numbers as texts; on standard error a bar, and a line for each event."""
+"""Progress of a run or a town: events and numbers as texts; a bar on standard error."""
 import sys
 
 import numpy as np
@@ -35,26 +35,36 @@ class Status:
     def numbers(self):
         """'drift 1/245, 3/382 joints broken'"""
         joints = find_engine(yw.JointEngine).joints
-        known = self.log.survey.joints
-        broken = np.array([joint.isBroken for joint in joints[:len(known.damaged)]], bool) & ~known.damaged
+        described = self.log.survey.joints
+        broken = np.array([joint.isBroken for joint in joints[:len(described.damaged)]], bool) & ~described.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        return f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(known, broken), of='/')}"
+        return f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(described, broken), of='/')}"
 
 
-class Progress:
-    """Bar and events of one run, a context. log: EventLog; quiet: print nothing."""
+class Bar:
+    """A bar on standard error, a context. total: simulated time [s]; quiet: print nothing"""
 
-    def __init__(self, scenario, log, quiet=False):
-        self.status = Status(log)
+    def __init__(self, name, total, start, quiet):
         refresh = TERMINAL_REFRESH if sys.stderr.isatty() else LOG_REFRESH
-        self.bar = tqdm(total=scenario.duration, initial=O.time, desc=scenario.name, bar_format=BAR,
-                        mininterval=refresh, disable=quiet)
+        self.bar = tqdm(total=total, initial=start, desc=name, bar_format=BAR, mininterval=refresh, disable=quiet)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self.bar.close()
+
+    def advance(self, time):
+        """To a simulated time [s]."""
+        self.bar.update(min(time, self.bar.total) - self.bar.n)
+
+
+class Progress(Bar):
+    """Bar and events of one run. log: EventLog"""
+
+    def __init__(self, scenario, log, quiet=False):
+        super().__init__(scenario.name, scenario.duration, O.time, quiet)
+        self.status = Status(log)
 
     def update(self):
         """Print new events and refresh the bar."""
@@ -63,4 +73,4 @@ class Progress:
         for line in self.status.events():
             self.bar.write(line, file=sys.stderr)
         self.bar.set_postfix_str(self.status.numbers(), refresh=False)
-        self.bar.update(min(O.time, self.bar.total) - self.bar.n)
+        self.advance(O.time)

@@ -123,9 +123,7 @@ def column_feet(observed):
 
 @dataclass(frozen=True)
 class Tables:
-    """Content of the files. storeys: recording.quantities.Storeys; joints, columns: rows in the order of JOINT_HEADER
-    and COLUMN_HEADER.
-    """
+    """Content of the files. storeys: Storeys; joints, columns: rows as JOINT_HEADER and COLUMN_HEADER"""
 
     storeys: quantities.Storeys
     joints: list
@@ -144,18 +142,18 @@ def tables(observed):
     return Tables(storeys(), joint_peaks(observed), column_feet(observed))
 
 
-def summarised(made, observed):
-    """Quantities of the summary. made: Tables of the run; observed: Observer of the run"""
-    standing = [row for row in made.columns if row[-1] == "standing"]
-    breakable = [row for row in made.joints if np.isfinite(row[8])]
+def summarised(tables, observed):
+    """Quantities of the summary. tables: Tables of the run; observed: Observer of the run"""
+    standing = [row for row in tables.columns if row[-1] == "standing"]
+    breakable = [row for row in tables.joints if np.isfinite(row[8])]
     fall = observed.fall()
     collapsed = fall is not None
     return Quantities(
         until_s=fall,
         modes=Modes(before=observed.modes,
                     after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
-        **storey_peaks(made.storeys.until(fall) if collapsed else made.storeys),
-        largest_utilisation=_largest(LargestUtilisation, made.joints, 4, "joint", "value", 4),
+        **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys),
+        largest_utilisation=_largest(LargestUtilisation, tables.joints, 4, "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, 5, "joint", "force"),
         largest_shear=_largest(LargestForce, breakable, 6, "joint", "force"),
         largest_uplift=None if collapsed else _largest(LargestUplift, standing, 5, "column", "uplift_m"),

@@ -10,7 +10,6 @@ from ..recording.append_log import AppendLog
 from ..recording.history import History
 from ..scene.engines import find_engine
 from . import observer
-from .versions import versions
 
 REMEDY = "continue with --no-frames, or run without --resume to start anew"
 O = yw.Omega()
@@ -21,7 +20,7 @@ class Recorder:
 
     def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
-        version = versions()["package"]
+        version = observer.versions()["package"]
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
                                     motion=observer.describe_motion(), run=run)
         self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []
@@ -45,9 +44,7 @@ class Recorder:
         self.times = self.times[:np.searchsorted(self.times, time + O.dt / 2)]
 
     def resume(self):
-        """Take over the recorded frames up to the present time. Raises RunError when they are missing, of another run,
-        or end earlier; OSError.
-        """
+        """Take over the frames up to the present time. Raises RunError when there are none of this run; OSError."""
         earlier = frames.load(self.path, missing=f"the checkpoint is at {O.time:g} s; {REMEDY}")
         if earlier.run != self.frames.run or earlier.position.shape[1:] != (len(self.frames.elements.name), 3):
             raise RunError(f"{self.path}: frames of another run than the checkpoint; {REMEDY}")
@@ -71,12 +68,12 @@ class Recorder:
             frames.save(self.path, self.frames)
             self.described = True
 
-    def finish(self, found):
-        """Write all frames and all that is known at the end into one file. found: the summary. Raises OSError."""
-        monitor = find_engine(yw.HouseMonitor)
-        self.frames.summary = found
+    def finish(self, summary):
+        """Write all frames and all that is known at the end into one file. summary: Summary. Raises OSError."""
+        monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
+        self.frames.summary = summary
         self.frames.history = History(monitor.columns(), monitor.rows)
-        self.frames.breaks = observer.describe_breaks()
+        self.frames.breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
         frame_log.add_frames(self.frames, self.log.records())
         frames.save(self.path, self.frames)
         remove(self.log.path)

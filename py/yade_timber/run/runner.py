@@ -9,7 +9,7 @@ from shlex import quote
 import yade.wrapper as yw
 
 from ..base.atomic_write import remove
-from ..base.errors import RunError
+from ..base.errors import RunError, os_errors
 from ..pictures import REPORT, all_pictures
 from ..recording import ensemble, frame_log, frames
 from ..scene.engines import find_engine
@@ -43,9 +43,7 @@ class PhysicsError(RunError):
 
 
 class Run:
-    """A scenario in YADE, its RunOptions, and its progress. The number of steps is duration / dt; a collapse may end
-    the run earlier.
-    """
+    """A scenario in YADE, its RunOptions, its progress: duration / dt steps, fewer after a collapse."""
 
     def __init__(self, scenario, options):
         self.scenario, self.options = scenario, options
@@ -70,7 +68,9 @@ class Run:
         """Build the scene."""
         self.model = build(self.scenario)
         if self.options.export:
-            self._export()
+            target = f"{self.options.named('export')} {self.options.export}"
+            with os_errors(lambda fault: f"{target}: cannot be written: {fault}"):
+                export_scene(self.options.export)
         if self.only_export:
             return
         clear(self.options, *RECORDED, *STATE)
@@ -82,9 +82,7 @@ class Run:
             self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
-        """Load the checkpoint and the frames; returns whether that was possible. Raises RunError when it was not,
-        unless the run may start anew.
-        """
+        """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
         try:
             self._load()
         except RunError:
@@ -104,31 +102,21 @@ class Run:
             raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
         self._observe(saved)
-        try:
+        with os_errors(lambda fault: f"{self.options.folder}: the run cannot be continued ({fault})"):
             self.samples.resume(saved["samples"], checkpoint.REMEDY)
             if self.recorder:
                 self.recorder.resume()
-        except OSError as problem:
-            raise RunError(f"{self.options.folder}: the run cannot be continued ({problem.strerror})") from None
 
-    def _observe(self, known=None):
-        """Attach observer and recorder to the scene. known: `progress` of a checkpoint."""
+    def _observe(self, progress=None):
+        """Attach observer and recorder to the scene. progress: of a checkpoint."""
         self.identity = identity(self.origin)
-        self.observer = Observer(self.model, known)
+        self.observer = Observer(self.model, progress)
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
         self.report(titled)
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
-
-    def _export(self):
-        try:
-            export_scene(self.options.export)
-        except OSError as problem:
-            raise RunError(
-                f"{self.options.named('export')} {self.options.export}: cannot be written: {problem.strerror}"
-            ) from None
 
     def report(self, text):
         """Print a line, unless the run is quiet."""
@@ -138,10 +126,7 @@ class Run:
     # --- steps --------------------------------------------------------------------------------------------------------
 
     def complete(self):
-        """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal.
-
-        What was computed before the physics failed is written, too, as a run that was cut off.
-        """
+        """All steps, then the results, also of a run that is cut off. Raises RunError, Interrupted after a signal."""
         try:
             if not self.only_export:
                 with self._stop_signals(), Progress(self.scenario, self.observer.log, self.options.quiet) as progress:
@@ -155,9 +140,7 @@ class Run:
 
     @contextmanager
     def _stop_signals(self):
-        """Stop signals end the run after the present chunk; further ones have no effect, so that Ctrl-C may be pressed
-        twice.
-        """
+        """Stop signals end the run after the present chunk; further ones have no effect."""
         before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
         try:
             yield
@@ -175,10 +158,8 @@ class Run:
         self.after_chunk()
 
     def next_stop(self):
-        """Step of the next frame.
-
-        The last checkpoint is one step before the end, and the last step is a chunk of its own: energies and contact
-        points are known only after a step, so a resumed run always has one to make.
+        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
+        known only after a step, so a resumed run has one to make.
         """
         left = self.steps - O.iter
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
@@ -216,9 +197,7 @@ class Run:
             self.recorder.take(time, last)
 
     def advance(self, step):
-        """Advance to that step. Unlike `O.run`, `O.step` raises errors here, reuses the OpenMP threads, and does not
-        wait in slices of 40 ms.
-        """
+        """Advance to that step by `O.step`: unlike `O.run` it raises errors here and does not wait in slices."""
         since = time.perf_counter()
         try:
             while O.iter < step:
@@ -234,32 +213,25 @@ class Run:
         return O.iter // every > self.last_saved // every
 
     def save(self):
-        """Save a checkpoint now, unless checkpoints are switched off. The frames are saved first: frames after a
-        checkpoint can be dropped.
-        """
+        """Save a checkpoint, unless switched off. Frames are saved first: those after a checkpoint can be dropped."""
         if self.options.checkpoint > 0:
-            try:
+            with os_errors(self._unsaved):
                 if self.recorder:
                     self.recorder.save()
                 progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
                 checkpoint.save(self.checkpoint_path, self.identity, progress)
-            except OSError as problem:
-                remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
-                          else "there is no earlier one")
-                fault = (
-                    f"the checkpoint cannot be written ({problem.strerror}); the run stops at {O.time:.2f} s, {remedy}"
-                )
-                raise RunError(f"{self.options.folder}: {fault}") from None
             self.last_saved = O.iter
+
+    def _unsaved(self, fault):
+        remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
+                  else "there is no earlier one")
+        stop = f"the checkpoint cannot be written ({fault}); the run stops at {O.time:.2f} s, {remedy}"
+        return f"{self.options.folder}: {stop}"
 
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self, cut_off=None):
-        """Write results and pictures of the scene as it is now, and print their names. Raises PhysicsError, after
-        writing, for energy from nothing.
-
-        cut_off: reason why the run ends before its duration. The last frame is then that of the last chunk.
-        """
+        """Write results and pictures; print their names. cut_off: reason for an early end. Or PhysicsError."""
         if self.only_export:
             self.report(f"written: {self.options.export}")
             return
@@ -267,45 +239,36 @@ class Run:
             self.take(O.time, last=True)
         self.samples.restore()
         tables = quantities.tables(self.observer)
-        found = self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
-        written = self._results(found, tables)
-        written += self._pictures()
+        self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
+        written = self._results(tables)
+        with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
+                                     " scripts/show/show_run.py makes them"):
+            written += draw(self.options.folder, self.options.views, self.options.report)
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
-        self.report(sentence(found))
+        self.report(sentence(self.summary))
         self.report("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
             self.report(f"next: {command_for_pictures(self.options)}")
-        if cut_off is None and found.cut_off:
-            raise PhysicsError(found.cut_off)
+        if cut_off is None and self.summary.cut_off:
+            raise PhysicsError(self.summary.cut_off)
 
-    def _results(self, found, tables):
+    def _results(self, tables):
         written = []
-        try:
+        with unwritten(self.options):
             if self.recorder:
-                self.recorder.finish(found)
+                self.recorder.finish(self.summary)
                 written.append(self.frames_path)
-            return written + summary.write(self.options.folder, found, tables, self.observer.model)
-        except OSError as problem:
-            raise RunError(
-                f"{self.options.folder}: the results cannot be written ({problem.strerror}); repeat the command with"
-                " --resume"
-            ) from None
+            return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
 
-    def _pictures(self):
-        try:
-            return draw(self.options.folder, self.options.views, self.options.report)
-        except OSError as problem:
-            fault = (
-                f"the results are written, the pictures are not ({problem.strerror}); scripts/show/show_run.py makes"
-                " them"
-            )
-            raise RunError(f"{self.options.folder}: {fault}") from None
+
+def unwritten(options):
+    """Context for writing results. Raises RunError."""
+    folder, remedy = options.folder, "repeat the command with --resume"
+    return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
 
 
 def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run in its folder; returns their paths. Raises
-    RunError, OSError.
-    """
+    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
     written = all_pictures.write(folder) if views else []
     if page:
         from ..pictures import report  # here: matplotlib takes 0.3 s
@@ -321,12 +284,17 @@ def command_for_pictures(options):
 
 
 def clear(options, *more):
-    """Remove results of an earlier run and the files `more`: they must not be taken for results of this run. Raises
-    RunError.
-    """
-    try:
+    """Remove results of an earlier run and the files `more`, which are none of this run. Raises RunError."""
+    with removing(options):
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
             remove(options.folder / name)
+
+
+@contextmanager
+def removing(options):
+    """Context for removing files. Raises RunError."""
+    try:
+        yield
     except OSError as problem:
         raise RunError(
             f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"

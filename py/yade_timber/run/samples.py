@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of the monitors of the run that is loaded in YADE; those before the last checkpoint are in a file beside it and
-not in the scene.
-"""
+"""Rows of the monitors of the loaded run; those before the last checkpoint are in a file beside it."""
 import numpy as np
 import yade.wrapper as yw
 
@@ -31,9 +29,7 @@ class Samples:
         return self.log.flush()
 
     def resume(self, size, remedy):
-        """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, and RunError when rows
-        before it are missing.
-        """
+        """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, RunError."""
         if self.log.cut(O.time + O.dt / 2) != size:
             raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run in this YADE session: computed to its end, or live in the background. One process at a time computes a run in a
-folder.
-"""
+"""A run in this session: computed to its end, or live in the background; one process for each folder."""
 import os
 from contextlib import ExitStack, contextmanager
 
@@ -27,9 +25,7 @@ def complete(scenario, options):
 
 
 def complete_town(plan, options):
-    """Run a town to its end, on all processors unless YADE's -j says otherwise; returns the TownRun. Raises InputError,
-    runner.Interrupted.
-    """
+    """Run a town to its end, on all processors or YADE's -j; returns the TownRun. Raises InputError, Interrupted."""
     if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
         compiled.set_thread_count(len(os.sched_getaffinity(0)))
     with ExitStack() as stack:

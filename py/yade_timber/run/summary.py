@@ -22,7 +22,6 @@ from ..scene import queries
 from ..scene.engines import find_engine
 from ..text.english import sentence
 from . import observer, quantities
-from .versions import versions
 
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
@@ -34,11 +33,9 @@ O = yw.Omega()
 
 
 def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
-    """Summary of the scene as it is now. observed: Observer of the run; tables: quantities.Tables of the run; wall_s:
-    wall time of its steps so far [s];
-    cut_off: reason why the run ends before its duration. Raises RunError for energies that are not finite.
+    """Summary of the scene as it is now. tables: quantities.Tables; wall_s [s]; cut_off: reason for an early end.
 
-    residual_drift, final_amplitude, still_moving: see recording/drift.py; broken, columns: recording/damage.py.
+    Drifts: recording/drift.py; broken, columns: recording/damage.py. Raises RunError for energies that are not finite.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
@@ -65,7 +62,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
         peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
-        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**versions()),
+        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
         made_from=made_from
     )
@@ -73,9 +70,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
 
 
 def judged(draft):
-    """The Summary with verdict and sentences. The main structure has the drifts and the collapse of the HouseMonitor's
-    samples, others those of the frames.
-    """
+    """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
     main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
@@ -83,10 +78,7 @@ def judged(draft):
 
 
 def record(scenario):
-    """The part `record`: the ground motion as applied, or None.
-
-    interpolation_error: of straight lines between the samples, as a share of the PGA; 0 with samples at every step.
-    """
+    """The part `record`, or None. interpolation_error: of straight lines between samples, as a share of the PGA."""
     motion = scenario.motion
     if motion is None:
         return None
@@ -150,9 +142,7 @@ def solver():
 
 
 def created_too_much(energy):
-    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without. energy:
-    Energy
-    """
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without."""
     if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
         return None
     share = energy.created / energy.input if energy.input > 0 else math.inf
@@ -177,10 +167,7 @@ def breaks_text(model):
 
 
 def write(folder, result, tables, model):
-    """Write all files, the summary last: where it is, the others are complete. Returns their paths. Raises OSError.
-
-    result, tables: Summary and quantities.Tables of the run
-    """
+    """Write all files, the summary last: where it is, the others are complete. Returns paths. Raises OSError."""
     paths = tables.write(folder)
     for name, text in ((HISTORY, recorded_history(find_engine(yw.HouseMonitor)).text()), (BREAKS, breaks_text(model))):
         write_text(folder / name, text)

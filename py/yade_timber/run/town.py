@@ -21,8 +21,8 @@ from ..plugin import compiled
 from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
-from .runner import STOP_SIGNALS, Interrupted, Run
-from .town_progress import TownProgress
+from .progress import Bar
+from .runner import STOP_SIGNALS, Interrupted, Run, removing, unwritten
 
 HOUSES = "houses.csv"
 NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
@@ -32,9 +32,7 @@ O = yw.Omega()
 
 
 class TownRun:
-    """Runs of the lots of a town in step, frame by frame. town: Town; plans: list of (Scenario, RunOptions), one a lot;
-    options: of the town
-    """
+    """Runs of a town's lots in step, frame by frame. plans: (Scenario, RunOptions) of each lot; options: the town's"""
 
     def __init__(self, town, plans, options):
         self.town, self.options = town, options
@@ -49,16 +47,11 @@ class TownRun:
         check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
         O.reset()
         self.idle = O._sceneObj
-        try:
+        with removing(options):
             for name in NAMES:
                 remove(options.folder / name)
             for _, lot_options in plans:
                 remove_parts(lot_options.folder)
-        except OSError as problem:
-            raise RunError(
-                f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
-                f" {options.named('out')}"
-            ) from None
 
     @contextmanager
     def _of(self, number):
@@ -75,12 +68,12 @@ class TownRun:
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
         handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        with TownProgress(self.town.name, [run.steps * run.scenario.dt for run in self.runs],
-                          self.options.quiet) as progress:
+        mean_end = sum(run.steps * run.scenario.dt for run in self.runs) / len(self.runs)
+        with Bar(self.town.name, mean_end, 0, self.options.quiet) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
-                progress.update([scene.time for scene in self.scenes])
+                progress.advance(sum(scene.time for scene in self.scenes) / len(self.scenes))
         for number, handler in handlers.items():
             signal.signal(number, handler)
         self.write()
@@ -89,9 +82,7 @@ class TownRun:
         self.signal = number
 
     def _first_steps(self):
-        """The first step of each lot, in which its engines check the scene; returns the numbers of the lots that have
-        more.
-        """
+        """The first step of each lot, which checks the scene; returns the numbers of the lots that have more."""
         active = []
         for number in range(len(self.runs)):
             with self._of(number) as run:
@@ -108,10 +99,10 @@ class TownRun:
             with self._of(number) as run:
                 stops.append(run.next_stop())
         since = time.perf_counter()
-        made = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
+        outcomes = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
         self.wall_s += time.perf_counter() - since
         left = []
-        for number, (seconds, error) in zip(active, made):
+        for number, (seconds, error) in zip(active, outcomes):
             with self._of(number) as run:
                 if error:
                     raise RunError(f"{error}; the run stops at {O.time:.4f} s without results")
@@ -155,7 +146,7 @@ class TownRun:
 
     def _results(self):
         folder = self.options.folder
-        try:
+        with unwritten(self.options):
             written = [folder / HOUSES]
             write_text(written[0], self.table())
             if self.options.no_frames:
@@ -165,23 +156,19 @@ class TownRun:
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
-        except OSError as problem:
-            raise RunError(
-                f"{folder}: the results cannot be written ({problem.strerror}); repeat the command with --resume"
-            ) from None
 
     def table(self):
         """Text of houses.csv."""
         rows = []
         for lot, run in zip(self.town.lots, self.runs):
-            found, scenario = run.summary, run.scenario
-            drift, residual = found.largest_drift()[0], found.largest_drift("residual_drift")[0]
-            place = lot.name, found.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
-            times = ["" if time is None else time for time in (found.tilt_time_s, found.collapse_time_s)]
-            joints, sheets = found.joints_and_sheets
+            summary, scenario = run.summary, run.scenario
+            drift, residual = summary.largest_drift()[0], summary.largest_drift("residual_drift")[0]
+            place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
+            times = ["" if time is None else time for time in (summary.tilt_time_s, summary.collapse_time_s)]
+            joints, sheets = summary.joints_and_sheets
             rows.append(
-                (*place, found.verdict, found.diagnosis.iw, drift, residual, *times, *joints, *sheets,
-                 round(run.wall_s, 3), sentence(found))
+                (*place, summary.verdict, summary.diagnosis.iw, drift, residual, *times, *joints, *sheets,
+                 round(run.wall_s, 3), sentence(summary))
             )
         return csv_text(COLUMNS, rows)
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Checks of what users pass to the package's functions: one line that names the argument, its value and the admissible
-form.
-"""
+"""Checks of what users pass to the package's functions: argument, its value, admissible form in one line."""
 import math
 import numbers
 import reprlib
@@ -95,9 +93,7 @@ def points(name, value, unit="m"):
 
 
 def ids_of(caller, *bodies):
-    """Ids of bodies, each given as Body of the scene or as id, also of an erased one. Raises ValueError: YADE would
-    read beyond its list.
-    """
+    """Ids of bodies, each a Body of the scene or an id, also of an erased one. Raises ValueError."""
     ids, last = [body.id if isinstance(body, yw.Body) else body for body in bodies], len(O.bodies) - 1
     for body, number in zip(bodies, ids):
         if not isinstance(number, (int, np.integer)) or not 0 <= number <= last:

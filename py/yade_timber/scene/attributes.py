@@ -87,9 +87,7 @@ def _require_finite(cls, attributes):
 
 
 def _is_finite(value):
-    """Whether no number of a value, such as a vector or a list of them, is infinite or NaN, nor becomes so when YADE
-    normalises a quaternion.
-    """
+    """Whether no number of a value is infinite or NaN, nor becomes so when YADE normalises a quaternion."""
     if isinstance(value, Quaternion):
         return 0 < value.norm() < math.inf
     if isinstance(value, (float, np.floating)):
@@ -202,14 +200,14 @@ def _check_keyword(cls, name, value):
 
 def _unknown(cls, name):
     """Message about a name that a class does not have."""
-    known = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
-    near = difflib.get_close_matches(name, known, 1, 0.5)
+    attributes = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
+    near = difflib.get_close_matches(name, attributes, 1, 0.5)
     return f"{cls.__name__} has no attribute {name}" + (f"; did you mean {near[0]}?" if near
-                                                        else f"; it has {', '.join(known)}")
+                                                        else f"; it has {', '.join(attributes)}")
 
 
 def _wrong_type(cls, attribute, name, value):
     """Message about a value of a wrong type."""
-    found = REGISTERED.search(attribute.__doc__ or "")
-    kind = found.group(1).strip() if found else "value"
+    match = REGISTERED.search(attribute.__doc__ or "")
+    kind = match.group(1).strip() if match else "value"
     return f"{cls.__name__}.{name} = {shown(value)}: it must be {FORMS.get(kind, f'a {kind}')}"

@@ -110,9 +110,7 @@ def _until_started(run):
 
 
 def _checked(name, part):
-    """Property of a body that is set between two steps; elements in the scene are checked, and keep their part if it is
-    refused.
-    """
+    """Property of a body that is set between two steps; elements keep their part if the new one is refused."""
 
     def set_part(body, value):
         with between_steps():
@@ -130,9 +128,7 @@ def _checked(name, part):
 
 
 def _with_momentum(part):
-    """Property angVel of a state whose angular momentum follows when it is set: the integrator computes velocities from
-    momenta.
-    """
+    """Property angVel of a state whose angular momentum, which the integrator uses, follows when it is set."""
 
     def set_velocity(state, value):
         with between_steps():

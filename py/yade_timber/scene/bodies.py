@@ -69,9 +69,7 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
 
 
 def to_digits(corners):
-    """Corners to 13 digits of their extent: equal elements at different positions of a street get equal numbers and
-    share their geometry. [m]
-    """
+    """Corners to 13 digits of their extent [m]: equal elements at different positions share their geometry."""
     digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
     return np.round(corners / digit) * digit + 0.0  # no negative zeros
 
@@ -124,11 +122,7 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
 
 
 def principal_body(vertices, density, radius, **look):
-    """Body with its shape, and a state whose axes are the principal axes of inertia.
-
-    vertices (n, 3) world frame [m]; density [kg/m3]; radius [m], 0 for the default; look: name, kind, color of the
-    shape
-    """
+    """Body with the principal axes of inertia. vertices (n, 3) world [m]; radius, 0: default; look: of shape"""
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
     raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
     volume, centroid, inertia, axes = raw.massProperties()
@@ -144,13 +138,6 @@ def principal_body(vertices, density, radius, **look):
     body.state.ori = body.state.refOri = axes
     body.aspherical = True
     return body
-
-
-def scale_mass(body, factor):
-    """Multiply mass and inertia of a body by a factor [-], as for a member that carries a load along its whole volume.
-    """
-    body.state.mass *= factor
-    body.state.inertia *= factor
 
 
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):
@@ -206,10 +193,3 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
     angular_velocity = arguments.vector("angular_velocity", angular_velocity, "rad/s")
     with imposed_velocities():
         body.state.vel, body.state.angVel = velocity, angular_velocity
-        body.state.angMom = angular_momentum(body)
-
-
-def angular_momentum(body):
-    """I omega of a body, world frame. [kg m2/s]"""
-    local = body.state.ori.conjugate() * body.state.angVel
-    return body.state.ori * Vector3(*(local[k] * body.state.inertia[k] for k in range(3)))

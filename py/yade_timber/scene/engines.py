@@ -105,11 +105,11 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     return chain
 
 
-def monitors(given):
-    """List of the monitors of a scene. given: as in `engines`"""
-    given = [] if given is None else given if isinstance(given, (list, tuple)) else [given]
+def monitors(stated):
+    """List of the monitors of a scene. stated: as in `engines`"""
+    stated = [] if stated is None else stated if isinstance(stated, (list, tuple)) else [stated]
     kinds, form = (yw.HouseMonitor, yw.StructureMonitor), "a HouseMonitor, a StructureMonitor, a list of them, or None"
-    return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in given]
+    return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in stated]
 
 
 def external_forces(gravity, ground_motion, joints):
@@ -126,9 +126,7 @@ def external_forces(gravity, ground_motion, joints):
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):
-    """GroundMotionEngine for a `yade_timber.motion.GroundMotion`; scale [-], start: simulated time of its first sample
-    [s].
-    """
+    """GroundMotionEngine of a `GroundMotion`; scale [-], start: simulated time of its first sample [s]."""
     if not (hasattr(motion, "dt") and hasattr(motion, "acceleration")):
         arguments.refuse(TypeError, "ground_motion", motion, "a GroundMotion, a GroundMotionEngine or None")
     acceleration = [Vector3(*a) for a in motion.acceleration]

@@ -44,14 +44,15 @@ def export_scene(path):
         if not isinstance(body.shape, yw.RoundedPolyhedron):
             raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
     joint_engine = engines.find_engine(yw.JointEngine)
-    known = {}
-    elements = [describe_element(body, known) for body in O.bodies]
+    materials = {}
+    elements = [describe_element(body, materials) for body in O.bodies]
     content = {
         "format": "yade-timber scene 1",
         "units": "SI; world frame x east, y north, z up",
         "gravity": list(engines.gravity_now()),
-        "materials": known,
-        "friction": [[a, b, min(known[a]["friction"], known[b]["friction"])] for a in known for b in known if a <= b],
+        "materials": materials,
+        "friction": [[a, b, min(materials[a]["friction"], materials[b]["friction"])]
+                     for a in materials for b in materials if a <= b],
         "elements": elements,
         "joints": ([describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine
                    else []),
@@ -67,29 +68,25 @@ def describe_material(material):
     return {"law": "timber", "young": material.young, "poisson": material.poisson, **common}
 
 
-def material_name(material, known):
+def material_name(material, materials):
     """Name of a material; a new one is added to `known`. Bodies share a name when all values are equal."""
     described = describe_material(material)
-    same = next((name for name, other in known.items() if other == described), None)
+    same = next((name for name, other in materials.items() if other == described), None)
     if same is not None:
         return same
     name = material.label or described["law"]
-    while name in known:
+    while name in materials:
         name += "'"
-    known[name] = described
+    materials[name] = described
     return name
 
 
-def world_vertices(body):
-    """(n, 3) sharp corners of a body in its present position [m]."""
-    return [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
-
-
-def describe_element(body, known):
+def describe_element(body, materials):
     """Dictionary of a body."""
-    return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": world_vertices(body),
+    vertices = [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
+    return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": vertices,
             "faces": body.shape.faces(), "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),
-            "radius": body.shape.radius, "fixed": not body.dynamic, "material": material_name(body.material, known)}
+            "radius": body.shape.radius, "fixed": not body.dynamic, "material": material_name(body.material, materials)}
 
 
 def describe_joint(joint):

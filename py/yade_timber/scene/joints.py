@@ -106,9 +106,7 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
 
 
 def require_near(points, *ids):
-    """Raise ValueError for a point that is farther than a body's diagonal from each of the bodies: a slip of units or
-    of frames.
-    """
+    """ValueError for a point farther than a body's diagonal from each body: a slip of units or frames."""
     elements = [b for b in (O.bodies[k] for k in ids) if isinstance(b.shape, yw.RoundedPolyhedron)]
     reach = {b.id: max(v.norm() for v in b.shape.vertices) for b in elements}  # of the corners, from the centre
     for point in points if len(elements) == len(ids) else ():

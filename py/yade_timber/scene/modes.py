@@ -47,9 +47,7 @@ class Springs:
 
 @dataclass(frozen=True)
 class Mode:
-    """omega2: squared angular frequency [1/s2]; shape (N, 6): displacement [-] and rotation [1/m] of each body, zero
-    for fixed ones;
-    mass (3,): effective modal mass east, north, up [kg]."""
+    """omega2 [1/s2]; shape (N, 6): displacement [-], rotation [1/m] of bodies; mass (3,): effective [kg]."""
 
     omega2: float
     shape: np.ndarray
@@ -70,26 +68,25 @@ def springs():
 
 
 def natural_modes(share=0.05):
-    """Modes whose effective mass east or north is at least `share` of the free bodies' mass, the longest period first;
-    unstable ones come first.
+    """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs.
     """
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs]
-    mass, found = sum(b.state.mass for b in free), springs()
-    if not len(found.body) or not free:
+    mass, linearised = sum(b.state.mass for b in free), springs()
+    if not len(linearised.body) or not free:
         return []
-    heavy = [mode for mode in _lowest(found, free) if max(mode.mass[:2]) >= share * mass]
+    heavy = [mode for mode in _lowest(linearised, free) if max(mode.mass[:2]) >= share * mass]
     return sorted(heavy, key=lambda mode: mode.omega2)
 
 
-def _lowest(found, free):
+def _lowest(linearised, free):
     """Modes of the lowest omega^2. free: bodies that are not fixed."""
-    free = _held(found, free)
+    free = _held(linearised, free)
     if not free:
         return []
     rows = {b.id: k for k, b in enumerate(free)}
-    K, M = stiffness_matrix(found, rows, len(free)), mass_matrix(free)
+    K, M = stiffness_matrix(linearised, rows, len(free)), mass_matrix(free)
     omega2, vectors = _vibrations(K, M)
     ground = np.tile(np.eye(6)[:, :3], (len(free), 1))  # unit translations
     modes = []
@@ -102,11 +99,11 @@ def _lowest(found, free):
     return modes
 
 
-def _held(found, free):
+def _held(linearised, free):
     """Those of the free bodies that springs join to a fixed one, directly or through others."""
     rows = {b.id: k for k, b in enumerate(free)}
     ground = len(free)  # stands for all fixed bodies
-    one, two = np.array([[rows.get(body, ground) for body in pair] for pair in found.body.tolist()]).T
+    one, two = np.array([[rows.get(body, ground) for body in pair] for pair in linearised.body.tolist()]).T
     links = sparse.coo_matrix((np.ones(len(one)), (one, two)), shape=(ground + 1, ground + 1))
     _, part = connected_components(links, directed=False)
     return [b for b, of in zip(free, part) if of == part[ground]]
@@ -157,33 +154,29 @@ def mass_matrix(free):
     return sparse.block_diag(blocks, "csc")
 
 
-def stiffness_matrix(found, rows, count):
+def stiffness_matrix(linearised, rows, count):
     """(6 count, 6 count) sparse symmetric matrix of Springs. rows: {body id: number of the free body}"""
-    normal = found.normal[:, :, None] * found.normal[:, None, :]
-    kn, ks = found.stiffness[:, 0, None, None], found.stiffness[:, 1, None, None]
+    normal = linearised.normal[:, :, None] * linearised.normal[:, None, :]
+    kn, ks = linearised.stiffness[:, 0, None, None], linearised.stiffness[:, 1, None, None]
     tangent = kn * normal + ks * (np.eye(3) - normal)
     ends = [
-        np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(found.arm[:, e])], axis=2)
+        np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(linearised.arm[:, e])], axis=2)
         for e in (0, 1)
     ]  # displacement = end @ x
-    number = np.array([[rows.get(body, -1) for body in pair] for pair in found.body.tolist()])
+    number = np.array([[rows.get(body, -1) for body in pair] for pair in linearised.body.tolist()])
     blocks, places = [], []
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
         sign = 1 if i == j else -1
         blocks.append(sign * ends[i].transpose(0, 2, 1) @ tangent @ ends[j])
         places.append(number[:, [i, j]])
     for e, sign in ((0, -1), (1, 1)):
-        blocks.append(_geometric(found.arm[:, e], sign * found.force))
+        blocks.append(_geometric(linearised.arm[:, e], sign * linearised.force))
         places.append(number[:, [e, e]])
     return _assembled(np.concatenate(blocks), np.concatenate(places), count)
 
 
 def _geometric(arm, force):
-    """(P, 6, 6) stiffness of constant forces that act at points of bodies: minus the change of the torque r x f with a
-    rotation of the body.
-
-    Summed over a body in equilibrium it is symmetric; the symmetric part is taken.
-    """
+    """(P, 6, 6) stiffness of constant forces at points of bodies: minus change of r x f with rotation, symmetric."""
     block = np.zeros((len(arm), 6, 6))
     outer, along = arm[:, :, None] * force[:, None, :], np.einsum("pi,pi->p", arm, force)
     block[:, 3:, 3:] = along[:, None, None] * np.eye(3) - (outer + outer.transpose(0, 2, 1)) / 2

@@ -94,7 +94,9 @@ def add_elements(model):
     for element in model.elements:
         body = bodies.polyhedron(element.vertices, materials[element.material], fixed=element.fixed, name=element.name,
                                  kind=element.kind, color=KINDS.get(element.kind))
-        bodies.scale_mass(body, element.density / model.materials[element.material]["density"])
+        loaded = element.density / model.materials[element.material]["density"]  # by what it carries
+        body.state.mass *= loaded
+        body.state.inertia *= loaded
         ids[element.name] = O.bodies.append(body)
     return ids
 
@@ -113,11 +115,7 @@ def add_joints(model, ids):
 
 
 def level_marks(model, structure):
-    """Elements at the levels of a structure: [(element, level)]; level k is the top of storey k.
-
-    The floor where there is one, else the beams under the roof, or the roof; in a structure without floors the roof
-    itself, which moves as one.
-    """
+    """[(element, level)] of a structure; level k is the top of storey k: floor, else beams or roof."""
     kinds = ("floor", "beam", "roof") if model.of_kind("floor", group=structure) else ("roof", "beam")
     marks = []
     for storey in sorted(model.storey_levels[structure]):
@@ -139,9 +137,7 @@ STANDING = ("column", "brace", "wall")
 
 
 def structure_monitor(model, ids):
-    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k
-    (recording/quantities.py).
-    """
+    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k."""
     main, storeys = next(iter(model.storey_levels.items()))
     members = [e for e in model.elements if e.group == main and not e.fixed]
     top = max(storeys)

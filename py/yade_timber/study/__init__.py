@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Studies: many runs of a scenario, of a table, of variants of a house. Needs no YADE."""
+"""Studies: many runs of a scenario, of a table, of variants of a house."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Starts run scripts, each in a YADE process of its own, several at a time. Needs no YADE itself.
+"""Starts run scripts, each in a YADE process of its own, several at a time.
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
 the other tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its
@@ -94,7 +94,7 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
 
 def _run_all(tasks, scripts, jobs, report):
     waiting, running, ended = deque(tasks), [], 0
-    previous = signal.signal(signal.SIGTERM, _interrupt)
+    previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
@@ -107,10 +107,6 @@ def _run_all(tasks, scripts, jobs, report):
     finally:
         _stop(running)
         signal.signal(signal.SIGTERM, previous)
-
-
-def _interrupt(*_):
-    raise KeyboardInterrupt
 
 
 def _stop(processes):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Command lines of studies and benchmarks: one line and exit status 1 for bad input. Needs no YADE."""
+"""Command lines of studies and benchmarks: one line and exit status 1 for bad input."""
 import argparse
 import math
 import sys
@@ -119,26 +119,24 @@ def add_run_options(parser):
 
 def run_options(arguments):
     """{option: value}, checked, of parsed arguments. Raises RunError, RecordError."""
-    given = read_arguments(RunOptions, argparse.Namespace(**{name: getattr(arguments, name) for name in SHARED}))
-    RunOptions(**given, quake=True).check()
-    if "record" in given:
-        record(given["record"])
-    return given
+    values = read_arguments(RunOptions, argparse.Namespace(**{name: getattr(arguments, name) for name in SHARED}))
+    RunOptions(**values, quake=True).check()
+    if "record" in values:
+        record(values["record"])
+    return values
 
 
-def run_of(script, house, earthquake, snow, given):
-    """RunOptions of a run script with options of `run_options`; runs without an earthquake get none of the motion.
-    house, earthquake, snow: of the script
-    """
+def run_of(script, house, earthquake, snow, values):
+    """RunOptions of a run script with options of `run_options`; those of the motion only with an earthquake."""
     motion = () if earthquake else options(MotionRequest)
     return scripted(script, house, earthquake, snow,
-                    **{name: value for name, value in given.items() if name not in motion})
+                    **{name: value for name, value in values.items() if name not in motion})
 
 
-def selected(text, known, option):
+def selected(text, choices, option):
     """Names of a comma-separated list; all known names without a list. Raises RunError for an unknown name."""
-    names = text.split(",") if text else list(known)
-    unknown = [name for name in names if name not in known]
+    names = text.split(",") if text else list(choices)
+    unknown = [name for name in names if name not in choices]
     if unknown:
-        raise RunError(f"{option}: unknown: {', '.join(unknown)}; known: {', '.join(known)}")
+        raise RunError(f"{option}: unknown: {', '.join(unknown)}; known: {', '.join(choices)}")
     return names

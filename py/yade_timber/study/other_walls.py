@@ -9,18 +9,14 @@ from .driver import Task, run_missing
 
 
 def run(script, options):
-    """OtherWalls of the summary; None for a house without rated walls.
-
-    The run is in the folder walls_LEVEL of the results. script: path of the run script; options: RunOptions. Raises
-    HouseError, RunError, and KeyboardInterrupt after a signal.
-    """
+    """OtherWalls of the summary, from a run in the folder walls_LEVEL; None without rated walls. Raises RunError."""
     data = load_house(options.house).data
     if not has_rated_walls(data):
         return None
     (level,) = set(LEVELS) - {options.walls or data["law"]["wall_level"]}
     task = Task(script.stem, options.folder / f"walls_{level}", replace(options, walls=level, no_frames=True))
     report = (lambda _line: None) if options.quiet else lambda line: print(line, flush=True)
-    found = run_missing([task], script.resolve().parent, 1, report)[task]
-    if found is None:
+    summary = run_missing([task], script.resolve().parent, 1, report)[task]
+    if summary is None:
         raise RunError(f"the run with walls of the level {level} has no results: {task.error or task.folder}")
-    return OtherWalls(level=level, verdict=found.verdict, peak_drift=found.peak_drift)
+    return OtherWalls(level=level, verdict=summary.verdict, peak_drift=summary.peak_drift)

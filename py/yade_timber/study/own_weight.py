@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether a house bears its own weight and snow: a short run without a motion, in a YADE process of its own. Needs no
-YADE itself.
-"""
+"""Whether a house bears its own weight and snow: a short run without a motion, in its own YADE process."""
 import subprocess
 import tempfile
 from pathlib import Path
@@ -17,11 +15,7 @@ TIME = 3.0
 
 
 def check_own_weight(house, snow, scripts):
-    """The result of the run as a sentence. house: name or file; snow: depth [m], None: the house's own; scripts: folder
-    of the run scripts.
-
-    Raises RunError without YADE, and when the run fails.
-    """
+    """The result as a sentence. house: name or file; snow: depth [m] or None; scripts: folder. Raises RunError."""
     with tempfile.TemporaryDirectory() as folder:
         options = RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True,
                              out=Path(folder))

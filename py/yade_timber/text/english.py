@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Summaries and events in English. Needs no YADE."""
+"""Summaries and events in English."""
 from ..recording import verdict
 from ..recording.summary import TownSummary
 
@@ -27,11 +27,7 @@ def loads(earthquake, snow_depth):
 
 
 def sentence(summary):
-    """The verdict on a house and its reasons: drifts, other structures, joints, columns, snow. Of an ensemble's run
-    first its outcomes.
-
-    Of a town: the numbers of its houses by verdict.
-    """
+    """The verdict on a house and its reasons, of an ensemble first its outcomes; of a town its houses by verdict."""
     if isinstance(summary, TownSummary):
         return town(summary)
     parts = (outcome, other_walls, weight, residual, structures, joints, columns, snow, record, early, unconverged)
@@ -59,9 +55,7 @@ def unconverged(summary):
 
 
 def weight(summary):
-    """Damage before the shaking, which an event describes; without an earthquake the cause of the damage. Empty for a
-    house without damage.
-    """
+    """Damage before the shaking, which an event describes; without an earthquake the cause. Empty without damage."""
     if summary.earthquake:
         return next((own_weight(event.facts) for event in summary.events if event.kind == "own_weight"), "")
     return f"damaged by {its_weight(summary.snow)}" if summary.main.verdict != verdict.UNDAMAGED else ""
@@ -73,9 +67,7 @@ def its_weight(has_snow):
 
 
 def ensemble(summary):
-    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ' of a run that is shown for
-    an ensemble, else empty.
-    """
+    """'Run 7 of 16 (12 unsafe, 4 collapsed; peak drift 1/14 to 1/8 in those that stand). ', else empty."""
     if not summary.ensemble:
         return ""
     outcomes, drifts = summary.ensemble.outcomes, summary.ensemble.peak_drift_standing
@@ -156,9 +148,7 @@ def joints(summary):
 
 
 def broken_of(joints, sheets, of=" of "):
-    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets only where there are some. of:
-    between two numbers
-    """
+    """'3 of 412 joints and 2 of 16 wall sheets broken' from pairs (broken, all); sheets if there are some"""
     walls = f" and {sheets[0]}{of}{counted(sheets[1], 'wall sheet')}" if sheets[1] else ""
     return f"{joints[0]}{of}{joints[1]} joints{walls} broken"
 

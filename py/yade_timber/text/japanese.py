@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Summaries and events in Japanese, for the player. Numbers and names are the same as in English. Needs no YADE."""
+"""Summaries and events in Japanese, for the player. Numbers and names are the same as in English."""
 from ..recording.verdict import COLLAPSED, DAMAGE, UNDAMAGED, passed
 from .english import SMALL, ratio
 

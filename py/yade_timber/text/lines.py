@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The result of a run in up to ten lines, for the report. Needs no YADE."""
+"""The result of a run in up to ten lines, for the report."""
 from ..base.gravity import weight_of
 from ..recording import verdict
 from ..recording.history import DIRECTIONS
@@ -91,9 +91,9 @@ def periods(summary):
     """Main natural periods before and after the run."""
     texts = []
     for when in ("before", "after"):
-        found = [f"{direction_name(axis)} {period_text(mode)}" for axis in DIRECTIONS
+        parts = [f"{direction_name(axis)} {period_text(mode)}" for axis in DIRECTIONS
                  if (mode := summary.main_mode(when, axis))]
-        texts += [f"{when} the run {', '.join(found)}"] if found else []
+        texts += [f"{when} the run {', '.join(parts)}"] if parts else []
     return f"Natural periods {'; '.join(texts)}." if texts else ""
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Batches: a parameter table with one run per row, and one table of results. Needs no YADE.
+"""Batches: a parameter table with one run per row, and one table of results.
 
     table.py    file -> rows, each with a name that follows from its content
     tasks.py    row -> task of the driver, after all rows have been checked

@@ -38,13 +38,12 @@ RESULTS = {
 
 
 def write_runs(rows, folder):
-    """Write runs.csv with the present state of all runs, in the order of the table; returns its rows, with None for
-    empty cells.
-    """
+    """Write runs.csv with the present state of all runs; returns its rows, with None for empty cells."""
     columns = list(dict.fromkeys(column for row in rows for column in row.cells))
-    found = [_result(row, task_of(row, folder), columns) for row in rows]
-    write_text(folder / RUNS, csv_text(list(found[0]) if found else ["run"], [result.values() for result in found]))
-    return found
+    results = [_result(row, task_of(row, folder), columns) for row in rows]
+    header = list(results[0]) if results else ["run"]
+    write_text(folder / RUNS, csv_text(header, [result.values() for result in results]))
+    return results
 
 
 def _result(row, task, columns):
@@ -61,8 +60,8 @@ def _result(row, task, columns):
     }
 
 
-def _at(found, path):
+def _at(table, path):
     """Value at 'a.b.c' of nested tables, None if there is none."""
     for key in path.split("."):
-        found = found.get(key) if isinstance(found, dict) else None
-    return found
+        table = table.get(key) if isinstance(table, dict) else None
+    return table

@@ -90,33 +90,29 @@ class Row:
     @property
     def house(self):
         """Name of a shipped house, or path of a house file; relative paths are relative to the table."""
-        given = self.cells["house"]
-        beside = self.table.parent / given
-        is_path = "/" in given or given.endswith((".yaml", ".yml"))
-        return str(beside) if is_path or beside.is_file() else given
+        name = self.cells["house"]
+        beside = self.table.parent / name
+        is_path = "/" in name or name.endswith((".yaml", ".yml"))
+        return str(beside) if is_path or beside.is_file() else name
 
     @property
     def record(self):
         """Files or prefix of the record; None: synthetic motion or no earthquake."""
-        given = self.cells.get("record")
-        return None if given in (None, NO_EARTHQUAKE) else self._beside(given)
+        text = self.cells.get("record")
+        return None if text in (None, NO_EARTHQUAKE) else self._beside(text)
 
     @property
     def then(self):
-        """Records that follow the first, with their own factors; relative paths are relative to the table. None: no
-        sequence.
-        """
-        given = self.cells.get("then")
-        return None if given is None else ";".join(self._beside(part.strip()) for part in given.split(";"))
+        """Records that follow the first, with factors; paths relative to the table. None: no sequence."""
+        text = self.cells.get("then")
+        return None if text is None else ";".join(self._beside(part.strip()) for part in text.split(";"))
 
     def _beside(self, record):
         return ",".join(str(self.table.parent / Path(part.strip()).expanduser()) for part in record.split(","))
 
     @property
     def name(self):
-        """Name of the run and its folder. It follows from the content of the row, its house and its record, not from
-        its line.
-        """
+        """Name of the run and its folder: it follows from the content of the row, its house and its record."""
         label = self.description or Path(self.cells["house"]).stem
         content = json.dumps(
             [sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()]
@@ -130,9 +126,7 @@ class Row:
 
 @lru_cache(maxsize=256)
 def _house_text(house):
-    """Content of a house file and the files it extends; None for a house with errors, which the check of the row
-    reports.
-    """
+    """Content of a house file and those it extends; None for a house with errors, reported by the row's check."""
     try:
         return json.dumps(load_house(house).data, sort_keys=True)
     except HouseError:
@@ -170,8 +164,8 @@ def read_table(path):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
                  for head, cell in zip(heads, cells)}
-        given = {head: cell for head, cell in above.items() if cell != "*"}
-        rows.append(Row(path, number, {h: c for h, c in given.items() if h in COLUMNS}, given.get(DESCRIPTION, "")))
+        stated = {head: cell for head, cell in above.items() if cell != "*"}
+        rows.append(Row(path, number, {h: c for h, c in stated.items() if h in COLUMNS}, stated.get(DESCRIPTION, "")))
         if "house" not in rows[-1].cells:
             raise BatchError(f"{rows[-1].where('house')}: every run needs a house")
     _check_repeated(rows)
@@ -201,9 +195,9 @@ def _text_lines(path):
 
 def _without_comment(line):
     """A comment begins with a # at the start of the line or after a blank, outside double quotes."""
-    for found in re.finditer(r'"[^"]*"?|(?<!\S)#', line):
-        if found[0] == "#":
-            return line[: found.start()].rstrip()
+    for part in re.finditer(r'"[^"]*"?|(?<!\S)#', line):
+        if part[0] == "#":
+            return line[: part.start()].rstrip()
     return line
 
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of a table as tasks of the driver: each row is a run of scripts/house.py. All rows are checked before the first
-run.
-"""
+"""Rows of a table as tasks of the driver: runs of scripts/house.py, all checked before the first run."""
 
 from contextlib import contextmanager
 from dataclasses import replace
@@ -21,10 +19,7 @@ HOUSE = "house.yaml"
 
 
 def run_rows(rows, folder, scripts, jobs=None, retry=False):
-    """Run the rows that are not done, after checking each of them; returns {task: summary or None}.
-
-    retry: failed rows run again. Raises BatchError, RunError, KeyboardInterrupt, OSError.
-    """
+    """Run the rows that are not done, all checked first; returns {task: summary or None}. retry: failed ones, too"""
     tasks = [task_of(row, folder) for row in rows]
     missing = [row for row, task in zip(rows, tasks) if task.is_missing(retry)]
     check_rows(missing, folder)
@@ -58,9 +53,7 @@ def write_house(row, folder):
 
 
 def check_rows(rows, folder):
-    """Refuse rows that cannot be run; house files of changed houses are written to their folders. Raises BatchError,
-    OSError.
-    """
+    """Refuse rows that cannot be run; files of changed houses are written. Raises BatchError, OSError."""
     for row in rows:
         with _located(row):
             options = row.options()

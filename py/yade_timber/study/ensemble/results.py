@@ -35,58 +35,50 @@ COLUMNS = "{:<20}{:>13}   {:<30}{}"
 def content(done, errors):
     """Content of ensemble.json. done: {number: summary} of the finished runs; errors: {number: message} of the others.
     """
-    found, count = list(done.values()), len(done)
-    frequency = statistics.outcomes(found)
+    summaries, count = list(done.values()), len(done)
+    frequency = statistics.outcomes(summaries)
     return {"runs": count + len(errors), "finished": list(done), "errors": errors, "disturbance_m": LARGEST,
             "shown": statistics.representative(done),
             "outcomes": {state: statistics.share(number, count) for state, number in frequency.items()},
-            "numbers": statistics.spreads(found), "words": statistics.counts(found)}
+            "numbers": statistics.spreads(summaries), "words": statistics.counts(summaries)}
 
 
-def write(folder, found, done, planned):
-    """Write ensemble.json, ensemble.csv and the results of the run that is shown, its summary last; returns the paths.
-    Raises OSError, RunError.
-
-    found: `content`; planned: tasks of the runs
-    """
-    write_text(folder / NAME, json.dumps(found, indent=1, allow_nan=False) + "\n")
-    write_text(folder / TABLE, table_text(found, done, planned))
-    shown = found["shown"]
+def write(folder, content, done, planned):
+    """Write ensemble.json, ensemble.csv, results of the shown run, summary last. content: `content`; planned: Tasks"""
+    write_text(folder / NAME, json.dumps(content, indent=1, allow_nan=False) + "\n")
+    write_text(folder / TABLE, table_text(content, done, planned))
+    shown = content["shown"]
     return [folder / NAME, folder / TABLE,
-            *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(found, done)))]
+            *show(folder, planned[shown - 1].folder, replace(done[shown], ensemble=draw(content, done)))]
 
 
-def table_text(found, done, planned):
-    """Text of ensemble.csv: one row a run, with all numbers of the summary and the texts that are not the same in all
-    runs.
-    """
-    texts = [place for place, values in found["words"].items() if len(values) > 1 and place != "verdict"]
-    header = ("run", "folder", "verdict", "error", *found["numbers"], *texts)
+def table_text(content, done, planned):
+    """Text of ensemble.csv: a row a run, with all numbers of the summary and the texts that differ."""
+    texts = [place for place, values in content["words"].items() if len(values) > 1 and place != "verdict"]
+    header = ("run", "folder", "verdict", "error", *content["numbers"], *texts)
     rows = []
     for number, task in enumerate(planned, 1):
         summary = done.get(number)
-        known = ({**statistics.words(summary), **statistics.numbers(summary)} if summary
-                 else {"error": found["errors"][number]})
-        known = {place: value for place, value in known.items() if value != statistics.NONE}
+        entries = ({**statistics.words(summary), **statistics.numbers(summary)} if summary
+                 else {"error": content["errors"][number]})
+        entries = {place: value for place, value in entries.items() if value != statistics.NONE}
         place = task.folder.relative_to(task.folder.parents[1])
-        rows.append((number, place, *(known.get(column, "") for column in header[2:])))
+        rows.append((number, place, *(entries.get(column, "") for column in header[2:])))
     return csv_text(header, rows)
 
 
-def draw(found, done):
+def draw(content, done):
     """The entry `ensemble` in the summary of the run that is shown: its number, the outcomes, the ranges over all runs.
     """
     standing = [summary.largest_drift()[0] for summary in done.values() if not summary.collapsed]
-    failed = {"failed": len(found["errors"])} if found["errors"] else {}
-    outcomes = {**{state: known["runs"] for state, known in found["outcomes"].items()}, **failed}
-    return Ensemble(run=found["shown"], runs=found["runs"], outcomes=outcomes,
+    failed = {"failed": len(content["errors"])} if content["errors"] else {}
+    outcomes = {**{state: share["runs"] for state, share in content["outcomes"].items()}, **failed}
+    return Ensemble(run=content["shown"], runs=content["runs"], outcomes=outcomes,
                     peak_drift_standing=[min(standing), max(standing)] if standing else None)
 
 
 def show(folder, run, summary):
-    """Copy the results of a run into the folder of the ensemble, with another summary; returns the paths. Raises
-    OSError, RunError.
-    """
+    """Copy a run's results into the ensemble's folder, with another summary; returns the paths. Raises OSError."""
     written = []
     for table in sorted(run.glob("*.csv")):
         with written_whole(folder / table.name) as part:
@@ -104,15 +96,15 @@ def show(folder, run, summary):
 # --- lines for the terminal -------------------------------------------------------------------------------------------
 
 
-def lines(found, shown):
+def lines(content, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
-    count = len(found["finished"])
-    heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {found['disturbance_m']:g} m",
-             *map(_outcome, found["outcomes"].items())]
-    heads += [f"failed: {counted(len(found['errors']), 'run')}"] if found["errors"] else []
-    rows = [_row(label, found["numbers"][place], text, count) for label, place, text in ROWS
-            if place in found["numbers"]]
-    number = found["shown"]
+    count = len(content["finished"])
+    heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {content['disturbance_m']:g} m",
+             *map(_outcome, content["outcomes"].items())]
+    heads += [f"failed: {counted(len(content['errors']), 'run')}"] if content["errors"] else []
+    rows = [_row(label, content["numbers"][place], text, count) for label, place, text in ROWS
+            if place in content["numbers"]]
+    number = content["shown"]
     reason = (
         f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of"
         f" the {shown.verdict} ones"
@@ -121,12 +113,12 @@ def lines(found, shown):
 
 
 def _outcome(item):
-    state, known = item
-    percent = [f"{100 * known[key]:.0f}" for key in ("share", "low", "high")]
-    return f"{state}: {counted(known['runs'], 'run')}, {percent[0]} % (95 % confidence: {percent[1]} to {percent[2]} %)"
+    state, share = item
+    percent = [f"{100 * share[key]:.0f}" for key in ("share", "low", "high")]
+    return f"{state}: {counted(share['runs'], 'run')}, {percent[0]} % (95 % confidence: {percent[1]} to {percent[2]} %)"
 
 
-def _row(label, known, text, count):
-    part = f"in {counted(known['runs'], 'run')}" if known["runs"] < count else ""
-    return COLUMNS.format(label, text(known["median"]), span(text(known["lowest"]), text(known["highest"])),
+def _row(label, spread, text, count):
+    part = f"in {counted(spread['runs'], 'run')}" if spread["runs"] < count else ""
+    return COLUMNS.format(label, text(spread["median"]), span(text(spread["lowest"]), text(spread["highest"])),
                           part).rstrip()

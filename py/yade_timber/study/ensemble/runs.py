@@ -2,7 +2,7 @@
 """The runs of an ensemble, in processes of their own."""
 from dataclasses import replace
 
-from ...base.errors import RunError
+from ...base.errors import RunError, os_errors
 from ...base.lock import is_locked
 from ...pictures import all_pictures
 from ...recording.ensemble import run_folder
@@ -14,26 +14,22 @@ FEWEST = 2
 
 
 def tasks(script, options):
-    """Tasks of the runs of an ensemble, the first one undisturbed. script: name without .py; options: RunOptions of the
-    ensemble
-    """
+    """Tasks of an ensemble's runs, the first one undisturbed. script: name without .py; options: RunOptions"""
     return [Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
             for k in range(1, options.ensemble + 1)]
 
 
 def complete(script, options):
-    """Run what is missing of an ensemble, and write its results.
+    """Run what is missing of an ensemble and write its results. script: path of the run script.
 
-    script: path of the run script; options: RunOptions.
-    Raises RunError, also when some runs have failed, and KeyboardInterrupt after a signal, when the started runs have
-    saved their checkpoints.
+    Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
     """
     if not script.is_file():
         raise RunError(f"--ensemble: {script}: no such script, which the runs start")
     report = (lambda _line: None) if options.quiet else lambda line: print(line, flush=True)
     planned = tasks(script.stem, options)
-    found = run_missing(planned, script.resolve().parent, options.jobs, report)
-    done = {k: found[task] for k, task in enumerate(planned, 1) if found[task] is not None}
+    summaries = run_missing(planned, script.resolve().parent, options.jobs, report)
+    done = {k: summaries[task] for k, task in enumerate(planned, 1) if summaries[task] is not None}
     errors = {k: task.error or _reason(task) for k, task in enumerate(planned, 1) if k not in done}
     if len(done) >= FEWEST:
         report(_write(options, planned, done, errors))
@@ -53,16 +49,12 @@ def _write(options, planned, done, errors):
     """Write results and pictures; returns the text for the terminal. Raises RunError."""
     from ...pictures import report as report_page  # here: matplotlib takes 0.3 s
 
-    try:
+    with os_errors(lambda fault: f"{options.folder}: the results cannot be written ({fault}); repeat the command"):
         content = results.content(done, errors)
         written = results.write(options.folder, content, done, planned)
         if options.views:
             written += all_pictures.write(options.folder)
         if options.report:
             written += report_page.write(options.folder)
-    except OSError as problem:
-        raise RunError(
-            f"{options.folder}: the results cannot be written ({problem.strerror}); repeat the command"
-        ) from None
     shown = done[content["shown"]]
     return "\n".join([*results.lines(content, shown), "written: " + ", ".join(map(str, written))])

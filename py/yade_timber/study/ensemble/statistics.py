@@ -20,28 +20,24 @@ NONE = "none"
 # --- of one summary ---------------------------------------------------------------------------------------------------
 
 
-def leaves(found, path=""):
-    """(path, value) of all entries of nested tables that are no tables themselves: ('energy.dissipated.friction',
-    98605.2).
-    """
-    for key, value in found.items():
+def leaves(table, path=""):
+    """(path, value) of the entries of nested tables that are no tables: ('energy.dissipated.friction', 98605.2)."""
+    for key, value in table.items():
         place = f"{path}.{key}".lstrip(".")
         yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
 
 
-def numbers(found):
-    """{path: number} of a summary, with the largest of its peak drifts and of its residual drifts. Lists have no
-    numbers.
-    """
-    own = {place: value for place, value in leaves(encode(found))
+def numbers(summary):
+    """{path: number} of a summary, with the largest of its peak and residual drifts. Lists have no numbers."""
+    own = {place: value for place, value in leaves(encode(summary))
            if isinstance(value, Real) and not isinstance(value, bool)}
-    largest = {f"largest_{key}": found.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
+    largest = {f"largest_{key}": summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
     return {**largest, **own}
 
 
-def words(found):
+def words(summary):
     """{path: text} of the flags and texts among the results of a summary, NONE for what has no value."""
-    results = leaves({key: value for key, value in encode(found).items() if key not in FIXED})
+    results = leaves({key: value for key, value in encode(summary).items() if key not in FIXED})
     return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results
             if isinstance(value, (str, bool)) or value is None}
 
@@ -59,8 +55,8 @@ def spread(values):
 def spreads(summaries):
     """{path: spread} of every number that a summary has."""
     columns = {}
-    for found in summaries:
-        for place, value in numbers(found).items():
+    for summary in summaries:
+        for place, value in numbers(summary).items():
             columns.setdefault(place, []).append(value)
     return {place: spread(values) for place, values in columns.items()}
 
@@ -68,16 +64,16 @@ def spreads(summaries):
 def counts(summaries):
     """{path: {text: number of runs}} of the flags and texts."""
     columns = {}
-    for found in summaries:
-        for place, text in words(found).items():
+    for summary in summaries:
+        for place, text in words(summary).items():
             columns.setdefault(place, Counter())[text] += 1
-    return {place: dict(found) for place, found in columns.items() if set(found) != {NONE}}
+    return {place: dict(texts) for place, texts in columns.items() if set(texts) != {NONE}}
 
 
 def outcomes(summaries):
     """{verdict: number of runs} of the verdicts that occur, from the best to the worst."""
-    found = Counter(summary.verdict for summary in summaries)
-    return {state: found[state] for state in STATES if found[state]}
+    frequency = Counter(summary.verdict for summary in summaries)
+    return {state: frequency[state] for state in STATES if frequency[state]}
 
 
 def share(count, runs):
@@ -87,16 +83,13 @@ def share(count, runs):
 
 
 def representative(summaries):
-    """Number of the run that stands for the ensemble. summaries: {number: summary}
-
-    Among the runs of the most frequent outcome, of equally frequent ones the worst: that nearest to their median of the
-    largest drift; of collapsed runs, whose drifts are those of a wreck, of the collapse time. Of equally near ones the
-    first.
+    """Number of the run that stands for the ensemble {number: summary}: of the most frequent, then worst outcome,
+    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones.
     """
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
-    chosen = {number: found for number, found in summaries.items() if found.verdict == outcome}
-    values = {number: found.collapse_time_s if found.collapsed else found.largest_drift()[0]
-              for number, found in chosen.items()}
+    chosen = {number: summary for number, summary in summaries.items() if summary.verdict == outcome}
+    values = {number: summary.collapse_time_s if summary.collapsed else summary.largest_drift()[0]
+              for number, summary in chosen.items()}
     middle = np.median(list(values.values()))
     return min(values, key=lambda number: abs(values[number] - middle))

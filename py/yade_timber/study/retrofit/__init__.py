@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ranking of strengthening measures: candidates, motions, paired tests, successive halving, overview. Needs no YADE."""
+"""Ranking of strengthening measures: candidates, motions, paired tests, successive halving, overview."""

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Strengthening measures of a house: a brace or a wall in a free bay, double fittings in a group of joints, snow
-cleared from the roofs.
-"""
+"""Strengthening measures: a brace or a wall in a free bay, double fittings in a group of joints, snow cleared."""
 import math
 from dataclasses import dataclass
 
@@ -34,22 +32,20 @@ AS_IT_IS = Candidate("as_it_is", "house as it is")
 
 
 def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
-    """Candidates of a house of these kinds whose names contain one of the texts. snow: depth on the roofs [m]; group:
-    of GROUPS. Raises HouseError.
-    """
+    """Candidates of these kinds whose names contain one of the texts. snow [m]; group: of GROUPS. Raises HouseError."""
     description = load_house(house)
     model = build_house(description, check=False)
     measures = in_bays if group == "bay" else in_walls
-    found = []
+    chosen = []
     if "brace" in kinds:
-        found += measures(model, free_bays(description))
+        chosen += measures(model, free_bays(description))
     if "wall" in kinds:
-        found += measures(model, free_wall_bays(description, SHEATHING))
+        chosen += measures(model, free_wall_bays(description, SHEATHING))
     if "fitting" in kinds:
-        found += fittings(description, model)
+        chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
-        found.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
-    return [candidate for candidate in found if any(text in candidate.name for text in texts)]
+        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
+    return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
 
 
 def fittings(description, model):
@@ -74,9 +70,7 @@ def in_bays(model, names):
 
 
 def in_walls(model, names):
-    """A measure for each line of columns in a storey, 'main.brace1.EW.y0': braces or walls in all its free bays at
-    once.
-    """
+    """A measure for each line of columns in a storey, 'main.brace1.EW.y0': all its free bays at once."""
     lines = {}
     for name in names:
         lines.setdefault(bay_line(name), []).append(name)
@@ -91,9 +85,7 @@ def bay_line(name):
 
 
 def bay_text(model, name):
-    """'brace: main, storey 1, south wall, 3.2 m east', the position of the bay's centre along the wall; 'plywood wall:
-    ...'.
-    """
+    """'brace: main, storey 1, south wall, 3.2 m east': place of the bay's centre; 'plywood wall: ...'."""
     xs, ys = bay_ends(model, name)
     along = bay_parts(name)[2]
     return (

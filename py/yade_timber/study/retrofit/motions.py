@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Ground motions of a ranking, as columns of a batch table: synthetic ones of several seeds, or the records of a
-folder, scaled to a target.
-"""
+"""Ground motions of a ranking: synthetic ones of several seeds, or the records of a folder, scaled to a target."""
 import re
 from itertools import groupby
 from pathlib import Path
@@ -17,28 +15,20 @@ from ...motion.text import read_lines
 START, END = 14.0, 34.0
 """Part of a synthetic motion that is run: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]"""
 LEAD, TAIL = 4.0, 10.0
-"""Part of a record that is run: from LEAD before its strong shaking to TAIL after the end of its significant duration.
-[s]
-"""
+"""Part of a record that is run: from LEAD before its strong shaking to TAIL after its significant duration. [s]"""
 ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:ns|ew|ud)\.(?:csv|acc)")
 """Endings of the names of one record's files."""
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
 
 def seeds(count, target=None):
-    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}, None:
-    as they are
-    """
+    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}"""
     window = {"start": f"{START:g}", "end": f"{END:g}"}
     return [(f"seed{seed}", {"seed": str(seed), **window, **_text(target)}) for seed in range(1, count + 1)]
 
 
 def records(folder, target=None, units=None):
-    """[(name, {column: text})] of the records in a folder, each cut to its strong shaking. units: where the files state
-    none.
-
-    Raises RunError, RecordError.
-    """
+    """[(name, {column: text})] of the records in a folder, cut to their strong shaking. units: if files state none"""
     folder = Path(folder).resolve()
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")
@@ -46,10 +36,10 @@ def records(folder, target=None, units=None):
                    if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
     if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
-    found = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
+    named = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
     return [(name, {"record": record, **stated, **window(record, units), **_text(target)})
-            for name, record in found.items()]
+            for name, record in named.items()]
 
 
 def _is_other_table(path):
@@ -71,10 +61,10 @@ def _record(prefix, paths):
     if len(paths) == 1:
         return paths[0].stem, str(paths[0])
     try:
-        known = set(find_files(prefix)) == set(paths)
+        is_prefix = set(find_files(prefix)) == set(paths)
     except RecordError:
-        known = False
-    return prefix.name, str(prefix) if known else ",".join(map(str, paths))
+        is_prefix = False
+    return prefix.name, str(prefix) if is_prefix else ",".join(map(str, paths))
 
 
 def window(record, units=None):

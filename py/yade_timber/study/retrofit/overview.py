@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Overview of a ranking: index.html with a row for each candidate, a dot for each motion, links to the runs;
-retrofit.csv. Needs no YADE.
-"""
+"""Overview of a ranking: index.html with a row for each candidate and a dot for each motion; retrofit.csv."""
 import html
 import math
 
@@ -92,9 +90,7 @@ def _row(rank, result, house):
 
 
 def strip(entry, house):
-    """SVG with a dot for each motion at its ratio, logarithmic from 1 / REACH to REACH; each links to the folder of its
-    run.
-    """
+    """SVG with a dot for each motion at its ratio, logarithmic within REACH; each links to its run's folder."""
     dots = []
     for motion, run in entry.runs.items():
         factor = math.exp(response(run) - response(house.runs[motion]))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Statistics of a ranking: selection of finalists, their tests under motions of their own, Holm's correction. Needs no
-YADE.
+"""Statistics of a ranking: selection of finalists, their tests under motions of their own, Holm's correction.
 
 The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is
 compared with the house as it is under the same motions. The first motions select the finalists, the others test them. A
@@ -68,9 +67,7 @@ def signed_rank(differences):
 
 
 def exact_sign(fewer, more):
-    """Two-sided p of McNemar's exact test: under `fewer` motions only one of two houses collapses, under `more` only
-    the other.
-    """
+    """Two-sided p of McNemar's exact test: motions under which only the one or only the other house collapses."""
     return float(stats.binomtest(fewer, fewer + more).pvalue) if fewer + more else 1.0
 
 
@@ -97,9 +94,7 @@ def holm(values, count):
 
 @dataclass
 class Entry:
-    """A measure in the race. runs: {motion: row of runs.csv}; dropped: number of motions after which it was dropped, or
-    None; failed: error.
-    """
+    """A measure. runs: {motion: row of runs.csv}; dropped: after so many motions, or None; failed: error."""
 
     candidate: object
     runs: dict
@@ -109,9 +104,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A measure and the house as it is under the same motions. differences (M,) of the responses; collapses,
-    house_collapses (M,) bool.
-    """
+    """A measure and the house as it is. differences (M,) of the responses; collapses, house_collapses (M,) bool."""
 
     differences: np.ndarray
     collapses: np.ndarray
@@ -133,9 +126,7 @@ class Comparison:
 
     @property
     def p(self):
-        """Two-sided p of a paired test: McNemar's exact test of the collapses, or Wilcoxon's signed-rank test of the
-        responses.
-        """
+        """Two-sided p of a paired test: McNemar's of the collapses, or Wilcoxon's signed-rank test of the responses."""
         if self.by_collapses:
             return exact_sign(int((self.collapses & ~self.house_collapses).sum()),
                               int((self.house_collapses & ~self.collapses).sum()))
@@ -166,9 +157,7 @@ def select(entries, house, keep):
 
 @dataclass(frozen=True)
 class Result:
-    """Row of the ranking. comparison: of a finalist under the motions of the test, else of the selection; p: corrected,
-    None if dropped.
-    """
+    """Row of the ranking. comparison: of a finalist in the test, else of the selection; p: corrected or None."""
 
     entry: Entry
     comparison: Comparison
@@ -202,9 +191,7 @@ class Result:
 
 
 def ranking(entries, house, tests):
-    """Results, the best first: the finalists, then the dropped measures, the last dropped first. tests: names of the
-    motions of the test
-    """
+    """Results, the best first: finalists, then dropped measures, the last first. tests: names of the test's motions"""
     finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
     compared = {id(entry): compare(entry, house, tests) for entry in finalists}
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a ranking: pilot runs that choose the strength of the motions, rounds of a batch that select finalists, and
-their test.
-
-A stopped ranking continues.
-"""
+"""Runs of a ranking: pilots that choose the strength of the motions, rounds of selection, the finalists' test."""
 import math
 import os
 from dataclasses import dataclass
@@ -29,9 +25,7 @@ FINEST = 1.2
 
 @dataclass
 class Ranking:
-    """A ranking in a folder. motions: [(name, cells)], the first ones for the selection; same: cells of all runs;
-    scripts: folder of the run scripts;
-    jobs: runs at a time."""
+    """A ranking in a folder. motions: [(name, cells)], the first for selection; same: cells of all; scripts: folder"""
 
     folder: Path
     candidates: list
@@ -57,9 +51,7 @@ class Ranking:
         return [name for name, _ in self.motions[selection:]]
 
     def check(self):
-        """Check all rows before the first run: each candidate under the first motion, the house as it is under all.
-        Raises BatchError.
-        """
+        """Check all rows first: each candidate under the first motion, the house under all. Raises BatchError."""
         rows = self._rows(
             [(AS_IT_IS, motion) for motion in self.motions]
             + [(candidate, self.motions[0]) for candidate in self.candidates]
@@ -67,12 +59,7 @@ class Ranking:
         check_rows(rows, self.folder)
 
     def choose_scale(self, report=print):
-        """Scale the motions so that about half of the pilots bring the house as it is down; returns a sentence about
-        it.
-
-        The factor is halved or doubled until the answer lies between two factors, then their geometric mean is tried.
-        report: called with one line after each factor. Raises RunError when a run fails.
-        """
+        """Scale the motions so that half of the pilots bring the house down, by bisection; returns a sentence."""
         pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
         while scale not in shares:
             shares[scale] = self._pilot(pilots, scale) / len(pilots)
@@ -108,10 +95,10 @@ class Ranking:
         for number, (done, count) in enumerate(self.plan, 1):
             racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
             pairs += [(entry, motion) for motion in self.motions[before:done] for entry in (self.house, *racing)]
-            found = self._run(pairs, self.house)
+            runs = self._run(pairs, self.house)
             left = cost(len(self.motions), len(self.candidates)) - len(pairs)
             aim = "test" if number == len(self.plan) else "selection"
-            report(f"{aim}: {len(racing)} measures under {done - before} motions; {progress(found, left, self.jobs)}")
+            report(f"{aim}: {len(racing)} measures under {done - before} motions; {progress(runs, left, self.jobs)}")
             before = done
 
     def _run(self, pairs, house):
@@ -119,8 +106,8 @@ class Ranking:
         Raises RunError after a run that was stopped."""
         rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
         run_rows(rows, self.folder, self.scripts, self.jobs)
-        found = write_runs(rows, self.folder)
-        for (entry, (motion, _)), run in zip(pairs, found):
+        runs = write_runs(rows, self.folder)
+        for (entry, (motion, _)), run in zip(pairs, runs):
             if run["status"] == "unfinished":
                 raise RunError(f"{run['run']} was stopped; the same command continues")
             if run["status"] == "done":
@@ -132,7 +119,7 @@ class Ranking:
                 )
             else:
                 entry.failed = run["error"] or run["status"]
-        return found
+        return runs
 
     def _rows(self, pairs):
         """Rows of a batch table for [(candidate, motion)], written to the folder."""
@@ -149,9 +136,9 @@ class Ranking:
         return task_of(self._rows([(entry.candidate, cells)])[0], self.folder)
 
 
-def progress(found, left, jobs):
+def progress(runs, left, jobs):
     """'24 runs, 31 s each; 36 runs left, about 10 min'. jobs: runs at a time, None: one per core"""
-    walls = [run["wall_s"] for run in found if run["status"] == "done"]
+    walls = [run["wall_s"] for run in runs if run["status"] == "done"]
     each = sum(walls) / max(len(walls), 1)
     rest = f"; {left} runs left, about {each * left / (jobs or os.cpu_count()) / 60:.0f} min" if left > 0 else ""
-    return f"{len(found)} runs, {each:.0f} s each{rest}"
+    return f"{len(runs)} runs, {each:.0f} s each{rest}"

@@ -1,7 +1,7 @@
-# SPDX-License-Identifier: GPL-2.0-or-later
-"""Shaders of the renderer (GLSL 3.3). Positions in metres in the world frame; colours in sRGB, 0..1."""
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Shaders of pictures/renderer.py (GLSL 3.3). Positions in metres in the world frame; colours in sRGB, 0..1.
 
-SOLID_VERTEX = """#version 330
+//// SOLID_VERTEX PLAIN_VERTEX
 uniform mat4 camera;
 uniform mat4 sun;
 uniform vec3 light;        // unit vector to the light
@@ -22,9 +22,9 @@ void main() {
   vFar = haziness.x * (toward.w - dot(toward.xyz, place)) / haziness.y;
   vShade = (sun * vec4(place + 0.03 * normal, 1.0)).xyz * 0.5 + 0.5;  // offset [m] against shadows of a face on itself
   gl_Position = camera * vec4(place, 1.0);
-}"""
+}
 
-SOLID_FRAGMENT = """#version 330
+//// SOLID_FRAGMENT PLAIN_FRAGMENT
 uniform sampler2DShadow shade;
 uniform vec3 haze;  // colour
 uniform vec2 haziness;
@@ -34,14 +34,15 @@ in float vFar;
 in vec3 vShade;
 out vec4 picture;
 void main() {
+#ifdef PLAIN  // without shadows
+  vec3 color = vColor + vLit;
+#else
   vec3 color = vColor + vLit * texture(shade, vShade);
+#endif
   picture = vec4(mix(color, haze, clamp(vFar, 0.0, haziness.x)), 1.0);
-}"""
+}
 
-PLAIN_VERTEX = SOLID_VERTEX
-PLAIN_FRAGMENT = SOLID_FRAGMENT.replace("texture(shade, vShade)", "1.0")  # without shadows
-
-EDGE_VERTEX = """#version 330
+//// EDGE_VERTEX
 uniform mat4 camera;
 uniform vec4 eye;     // position [m] and 1, or direction to it and 0
 uniform vec4 toward;  // as for SOLID
@@ -52,9 +53,9 @@ void main() {
   vec3 near = place + 0.012 * normalize(eye.xyz - eye.w * place);  // [m] in front of the faces that it separates
   vFar = haziness.x * clamp((toward.w - dot(toward.xyz, place)) / haziness.y, 0.0, 1.0);
   gl_Position = camera * vec4(near, 1.0);
-}"""
+}
 
-EDGE_GEOMETRY = """#version 330
+//// EDGE_GEOMETRY
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 uniform vec2 size;    // of the picture [pixel]
@@ -75,9 +76,9 @@ void main() {
     EmitVertex();
   }
   EndPrimitive();
-}"""
+}
 
-EDGE_FRAGMENT = """#version 330
+//// EDGE_FRAGMENT
 uniform vec4 ink;  // colour and opacity
 uniform vec3 haze;
 uniform float width;
@@ -87,17 +88,17 @@ out vec4 picture;
 void main() {
   float soft = clamp(0.5 * width + 0.5 - abs(vAside), 0.0, 1.0);
   picture = vec4(mix(ink.rgb, haze, vHaze), ink.a * soft);
-}"""
+}
 
-SHADOW_VERTEX = """#version 330
+//// SHADOW_VERTEX
 uniform mat4 sun;
 in vec3 place;
-void main() { gl_Position = sun * vec4(place, 1.0); }"""
+void main() { gl_Position = sun * vec4(place, 1.0); }
 
-SHADOW_FRAGMENT = """#version 330
-void main() {}"""
+//// SHADOW_FRAGMENT
+void main() {}
 
-GROUND_VERTEX = """#version 330
+//// GROUND_VERTEX SHADE_VERTEX
 uniform mat4 camera;
 uniform mat4 sun;
 uniform vec4 bounds;  // of the part that is drawn: west, south, east, north [m]
@@ -109,9 +110,9 @@ void main() {
   vec4 world = vec4(place, 0.0, 1.0);
   vShade = (sun * world).xyz * 0.5 + 0.5;
   gl_Position = camera * world;
-}"""
+}
 
-GROUND_FRAGMENT = """#version 330
+//// GROUND_FRAGMENT
 uniform float reach;  // distance up to which the grid is seen [m]
 uniform vec2 middle;  // of the ground [m]
 in vec2 place;
@@ -126,34 +127,33 @@ void main() {
   float grid = max(0.16 * lines(place, width), 0.26 * lines(0.2 * place, 0.2 * width));
   vec3 color = mix(vec3(0.84, 0.83, 0.78), vec3(0.45, 0.46, 0.44), grid);
   picture = vec4(color, 1.0 - smoothstep(0.2 * reach, reach, length(place - middle)));
-}"""
+}
 
-SHADE_VERTEX = GROUND_VERTEX
-SHADE_FRAGMENT = """#version 330
+//// SHADE_FRAGMENT
 uniform sampler2DShadow shade;
 in vec3 vShade;
 out vec4 picture;
 void main() {
   bool inside = all(greaterThan(vShade, vec3(0.0))) && all(lessThan(vShade, vec3(1.0)));
   picture = vec4(0.0, 0.0, 0.0, inside ? 0.34 * (1.0 - texture(shade, vShade)) : 0.0);
-}"""
+}
 
-SKY_VERTEX = """#version 330
+//// SKY_VERTEX
 in vec2 corner;
 out float height;
 void main() {
   height = 0.5 + 0.5 * corner.y;
   gl_Position = vec4(corner, 0.9999, 1.0);
-}"""
+}
 
-SKY_FRAGMENT = """#version 330
+//// SKY_FRAGMENT
 uniform vec3 horizon;
 uniform vec3 zenith;
 in float height;
 out vec4 picture;
-void main() { picture = vec4(mix(horizon, zenith, smoothstep(0.5, 1.0, height)), 1.0); }"""
+void main() { picture = vec4(mix(horizon, zenith, smoothstep(0.5, 1.0, height)), 1.0); }
 
-MARK_VERTEX = """#version 330
+//// MARK_VERTEX
 uniform mat4 camera;
 uniform float size;  // [pixel] at distance 1
 uniform vec2 sizes;  // smallest and largest [pixel]
@@ -165,9 +165,9 @@ void main() {
   gl_Position = camera * vec4(place, 1.0);
   gl_PointSize = clamp(size / gl_Position.w, sizes.x, sizes.y);
   gl_Position.z -= 0.004 * gl_Position.w;  // in front of the members that the joint connects
-}"""
+}
 
-MARK_FRAGMENT = """#version 330
+//// MARK_FRAGMENT
 uniform float opacity;
 uniform vec3 partly;
 uniform vec3 broken;
@@ -188,4 +188,4 @@ void main() {
   float alpha = 1.0 - smoothstep(width - soft, width + soft, inside);
   if (alpha < 0.02) discard;
   picture = vec4(mix(color, rim, smoothstep(-soft, soft, inside)), alpha * opacity);
-}"""
+}
