@@ -257,8 +257,8 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 }
 
-/// Energy that points have returned beyond their accounts (5), over the kinetic energy and the accounts. [-]
-double ContactSolver::returnedTooMuch() const
+/// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the accounts.
+bool ContactSolver::returnsTooMuch() const
 {
 	double excess = 0, energy = momentum / 2;
 	for (const SolverPair& pair : pairs) {
@@ -270,7 +270,7 @@ double ContactSolver::returnedTooMuch() const
 			energy += c.energy + c.shearEnergy;
 		}
 	}
-	return energy > 0 ? excess / energy : 0;
+	return excess > returnTolerance * energy;
 }
 
 template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
@@ -304,7 +304,7 @@ void ContactSolver::stepAlong(ConjugateDirection& d)
 		const double change = x - d.before[n++];
 		square += weight * change * change;
 	});
-	const double gamma = square <= d.square ? square / d.square : 0;
+	const double gamma = square < d.square ? square / d.square : 0;
 	n = 0;
 	visitUnknowns([&](double& x, double) {
 		const double change = x - d.before[n];
@@ -335,7 +335,7 @@ bool ContactSolver::sweepAccelerated(double threshold, int& sweeps)
 	direction.direction.resize(direction.before.size(), 0);
 	while (true) {
 		++sweeps;
-		if (!sweepAll(threshold) && returnedTooMuch() <= returnTolerance) return true;
+		if (!sweepAll(threshold) && !returnsTooMuch()) return true;
 		if (sweeps >= maxSweeps) return false;
 		stepAlong(direction);
 	}
@@ -367,7 +367,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 			changed = activateChanged(threshold);
 		}
 	}
-	result.converged = !changed && (result.sweeps < slowSweeps || returnedTooMuch() <= returnTolerance);
+	result.converged = !changed && (result.sweeps < slowSweeps || !returnsTooMuch());
 	if (!result.converged && result.sweeps < maxSweeps)
 		result.converged = sweepAccelerated(threshold, result.sweeps);
 	if (!result.converged) result.change = largestChange();

@@ -55,7 +55,7 @@
 /// takes more than plainSweeps, or in which points have returned too much after slowSweeps or more, goes on with
 /// sweeps over all pairs and joints. A step along the conjugate direction d precedes each of them:
 ///     x <- x' + gamma d,   d <- gamma d + (x' - x),   gamma = |x' - x|^2 / |x' - x|^2 of the sweep before    (9)
-/// with all impulses and velocities x before, x' after a sweep; gamma > 1 starts anew with d = x' - x and no step
+/// with all impulses and velocities x before, x' after a sweep; gamma >= 1 starts anew with d = x' - x and no step
 /// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),
 /// 893-901). They end after a sweep, so that (3) to (6) hold.
 ///
@@ -209,7 +209,7 @@ private:
 	bool sweepJoints(double threshold);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
-	double returnedTooMuch() const;
+	bool returnsTooMuch() const;
 	/// Calls visit(x, weight) for each number x of (9); weight: in the norm [1/kg].
 	template <class Visit> void visitUnknowns(Visit visit);
 	struct ConjugateDirection;

@@ -31,6 +31,7 @@ from yade_timber.motion.record import MAX_ACCELERATION
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 YADE = [shutil.which("yade") or "yade", "-n", "-x"]
 SHORT = ["--dt", "2e-4", "--no-views", "--quiet"]
+SHOVED = ["--no-views", "--quiet", "--duration", 0.6]  # with the record `shove`, at the default step
 PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
     **{f"model{house}_quake": (house, True, False) for house in ("A", "B", "C", "B1", "B2", "C1", "C2")},
     **{f"model{house}_snow": (house, False, True) for house in "ABC"},
@@ -74,7 +75,7 @@ def shove(tmp_path_factory):
 def straight(tmp_path_factory, shove):
     """Folder of a run with many broken joints."""
     folder = tmp_path_factory.mktemp("straight")
-    done = run("modelB1_quake", *SHORT, "--duration", 0.6, "--record", shove, "--out", folder)
+    done = run("modelB1_quake", *SHOVED, "--record", shove, "--out", folder)
     lines = own_errors(done)
     assert done.returncode == 0 and len(lines) == 1 and "constant part" in lines[0], done.stderr
     return folder
@@ -102,7 +103,7 @@ def test_summary(straight, shove):
     found = summary(straight)
     assert set(KEYS) <= set(found)
     assert (found["scenario"], found["model"], found["earthquake"], found["snow"]) == ("modelB1_quake", "B1", True, False)
-    assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (3000, 0.6, 2e-4, 1)
+    assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (1200, 0.6, 5e-4, 1)
     assert found["record"]["pga_gal"] == {"ns": 2000, "ew": 4000, "ud": 1500} and shove.name in found["record"]["source"]
     assert found["record"]["dt"] == 0.01 and 0 < found["record"]["interpolation_error"] < 1  # the ends of a constant, and nothing else
     assert found["joints"]["total"] == sum(n for kind, n in found["joints"].items() if kind != "total")
@@ -223,7 +224,7 @@ def test_frames_of_the_start_are_the_house(straight):
 
 
 def test_two_threads_do_what_one_does(tmp_path, shove, straight):
-    done = run("modelB1_quake", *SHORT, "--duration", 0.6, "--record", shove, "--out", tmp_path, threads=2)
+    done = run("modelB1_quake", *SHOVED, "--record", shove, "--out", tmp_path, threads=2)
     assert done.returncode == 0 and summary(tmp_path)["threads"] == 2, done.stderr
     assert_same_results(straight, tmp_path)
 
@@ -270,7 +271,7 @@ def test_killed_and_resumed(tmp_path, shove, straight):
     """SIGKILL right after a checkpoint and again later: the end is the same to the last bit."""
 
     def options(duration):
-        return [*SHORT, "--duration", duration, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05]
+        return [*SHOVED, "--duration", duration, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05]
 
     victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options(0.6))], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
@@ -345,7 +346,7 @@ main("A", earthquake=True, argv=["modelA_quake.py", *{options}])
 """
 
 
-@pytest.mark.parametrize("times", [(0.05,), (0.15,), (0.3,), (0.6,), (1.5,), (0.2, 0.21), (0.6, 0.7, 0.8), (2.0, 2.02, 2.3)])
+@pytest.mark.parametrize("times", [(0.05,), (0.3,), (1.5,), (0.2, 0.21), (2.0, 2.02, 2.3)])
 def test_interrupted_at_once_or_twice(tmp_path, times):
     """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the
     start of `main` [s].
@@ -371,15 +372,14 @@ def test_no_port_is_open_during_a_run(tmp_path):
 
 
 def test_output_files_follow_the_umask(tmp_path):
+    """Parts of files that killed processes have left are removed."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / ".part-0123-frames.h5").write_text("half")
     done = subprocess.run(["sh", "-c", 'umask 027; exec "$0" "$@"', *YADE, "-j1", str(SCRIPTS / "modelA_snow.py"), *SHORT, "--duration", "0.01", "--out", str(tmp_path / "out")],
                           stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
     modes = {path.name: oct(path.stat().st_mode & 0o777) for path in (tmp_path / "out").iterdir()}
     assert done.returncode == 0 and len(modes) >= 5 and set(modes.values()) == {"0o640"}, (modes, done.stderr)
-
-
-def test_parts_of_killed_processes_are_removed(tmp_path):
-    (tmp_path / ".part-0123-frames.h5").write_text("half")
-    assert run("modelA_snow", *SHORT, "--duration", 0.01, "--out", tmp_path).returncode == 0 and not list(tmp_path.glob(".part-*"))
+    assert not [name for name in modes if name.startswith(".part")]
 
 
 def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
