@@ -13,7 +13,6 @@ from show_common import Parser, errors_in_a_line, file_name, path
 from yade_timber.base.errors import RunError
 from yade_timber.house import build_house, diagnose, load_house, shipped_houses, weigh
 from yade_timber.pictures import drawings
-from yade_timber.pictures.figures import stem_of
 from yade_timber.study.own_weight import check_own_weight
 
 SCRIPTS = Path(__file__).resolve().parents[1]
@@ -23,7 +22,7 @@ def arguments():
     parser = Parser(description=__doc__)
     parser.add_argument("house", help=f"{', '.join(shipped_houses())} or a YAML file")
     parser.add_argument("--snow", type=float, default=None, help="snow depth [m] (default: that of the house)")
-    parser.add_argument("--out", type=path, help="picture to write, as .png and .pdf (default: house_<name>.png)")
+    parser.add_argument("--out", type=path, help="picture to write, .png or .pdf (default: house_<name>.png)")
     return parser.parse_args()
 
 
@@ -33,7 +32,7 @@ def main():
         model = build_house(load_house(options.house), options.snow)
         judged = diagnose(model)
         print(json.dumps({**model.counts(), "weight": weigh(model), "diagnosis": judged}, indent=2))
-        written = drawings.write(stem_of(options.out) if options.out else file_name(f"house_{model.name}"), model)
+        written = drawings.write(options.out or file_name(f"house_{model.name}"), model)
     print("written: " + ", ".join(map(str, written)))
     try:
         print(f"without shaking: {check_own_weight(options.house, options.snow, SCRIPTS)}")

@@ -17,7 +17,6 @@ from yade_timber.base.time_step import DEFAULT_DT
 from yade_timber.motion import (add_motion_options, arias, interpolation_error, jma_intensity, motion_request, pga, pgd,
                                 pgv, scaled, significant_duration, with_then)
 from yade_timber.pictures import motion_sheet
-from yade_timber.pictures.figures import stem_of
 
 
 def print_measures(motion, corner):
@@ -52,7 +51,7 @@ def arguments():
     parser.add_argument("--corner", type=float, default=0.05,
                         help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
     parser.add_argument("--out", type=path,
-                        help="picture to write, as .png and .pdf (default: NAME.png in this folder)")
+                        help="picture to write, .png or .pdf (default: NAME.png in this folder)")
     options = parser.parse_args(with_then(sys.argv[1:]))
     if options.record and options.positional:
         parser.error("RECORD and --record name the same option: give one")
@@ -68,8 +67,7 @@ def main():
         with noted():
             motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
         print_measures(motion, corner)
-        stem = stem_of(options.out) if options.out else file_name(motion.name)
-        written = motion_sheet.write(stem, motion, corner)
+        written = motion_sheet.write(options.out or file_name(motion.name), motion, corner)
     print("written: " + ", ".join(map(str, written)))
 
 

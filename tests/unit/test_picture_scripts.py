@@ -10,7 +10,7 @@ import h5py
 import in_process
 import pytest
 from small_frames import frames
-from yade_timber.pictures.figures import stem_of
+from yade_timber.pictures.figures import stem_and_endings
 from yade_timber.recording import frames as recorded
 from yade_timber.recording.events import Event, Tilt
 
@@ -123,12 +123,14 @@ def test_pictures_of_several_runs_lie_apart(tmp_path):
 
 
 def test_a_dot_in_a_name_is_no_ending(tmp_path, monkeypatch):
-    assert stem_of(tmp_path / "site.a") == tmp_path / "site.a" and stem_of(tmp_path / "site.a.png") == tmp_path / "site.a"
+    site = tmp_path / "site.a"
+    assert stem_and_endings(site) == (site, ("png",)) == stem_and_endings(tmp_path / "site.a.png")
+    assert stem_and_endings(tmp_path / "site.a.PDF") == (site, ("pdf",))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.yaml").write_text("extends: A\nname: house 1.5\n")
     done = run("show/show_house.py", "mine.yaml")
     assert done.returncode == 0, done.stderr
-    assert {path.name for path in tmp_path.glob("house_*")} == {"house_house 1.5.png", "house_house 1.5.pdf"}
+    assert {path.name for path in tmp_path.glob("house_*")} == {"house_house 1.5.png"}
 
 
 def test_a_folder_that_cannot_be_written(tmp_path):

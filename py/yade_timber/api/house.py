@@ -100,7 +100,7 @@ class House:
         Parameters
         ----------
         path : str or Path, optional
-            Picture to write, as PNG and PDF; by default ``house_NAME.png`` in this folder.
+            Picture to write, PNG or PDF by its ending; by default ``house_NAME.png`` in this folder.
         snow : float, optional
             Depth of snow on the roofs [m]; by default the house file's.
 
@@ -110,10 +110,9 @@ class House:
             The written files.
         """
         from ..pictures import drawings
-        from ..pictures.figures import stem_of
 
         with os_errors(lambda fault: f"{path}: the drawing cannot be written: {fault}"):
-            return drawings.write(stem_of(Path(path or f"house_{self.name}.png")), self.model(snow))
+            return drawings.write(Path(path or f"house_{self.name}.png"), self.model(snow))
 
     def variant(self, path, settings=(), braces=(), strength=1.0):
         """Write a changed copy to a house file, and return it as a house.

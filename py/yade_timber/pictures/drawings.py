@@ -8,7 +8,7 @@ from ..base import colors
 from ..base.joint_kinds import WALL_COLUMN
 from ..house import weigh
 from ..house.weight import sentence
-from .figures import A4, heading, new_figure, save
+from .figures import A4, heading, new_figure, save, stem_and_endings
 from .panels import panels_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
@@ -34,9 +34,9 @@ LABEL_GAP = 0.12
 """Between the baselines of two labels of heights. [inch]"""
 
 
-def write(stem, model):
-    """Write `stem`.png and `stem`.pdf: the drawings of a HouseModel. Returns the paths. Raises OSError."""
-    return save(page(model, DPI), stem, ("png", "pdf"))
+def write(path, model):
+    """Write the drawings of a HouseModel, as PDF if the path ends so. Returns the paths. Raises OSError."""
+    return save(page(model, DPI), *stem_and_endings(path))
 
 
 @default_style()

@@ -141,6 +141,7 @@ def image_of(figure):
     return Image.fromarray(np.ascontiguousarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
 
 
-def stem_of(path):
-    """A picture's path without .png or .pdf; any other dot belongs to the name."""
-    return path.with_suffix("") if path.suffix.lower() in (".png", ".pdf") else path
+def stem_and_endings(path):
+    """Arguments of `save` for a picture: PDF if the path ends so, else PNG. Any other dot belongs to the name."""
+    ending = path.suffix.lower()
+    return (path.with_suffix(""), (ending[1:],)) if ending in (".png", ".pdf") else (path, ("png",))

@@ -6,7 +6,7 @@ from matplotlib.ticker import FuncFormatter
 from ..base.colors import DIRECTIONS
 from ..motion import (GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window,
                       velocity)
-from .figures import A4, heading, heading_height, new_figure, save
+from .figures import A4, heading, heading_height, new_figure, save, stem_and_endings
 from .style import default_style
 
 DPI = 150
@@ -19,9 +19,9 @@ ROWS = (("ns", 1, "N-S", "-"), ("ew", 0, "E-W", "--"), ("ud", 2, "up-down", ":")
 """Key, column, name, line style of the components."""
 
 
-def write(stem, motion, corner):
-    """Write `stem`.png and `stem`.pdf; corner as in `page`. Returns the paths. Raises OSError."""
-    return save(page(motion, corner, DPI), stem, ("png", "pdf"))
+def write(path, motion, corner):
+    """Write a motion, as PDF if the path ends so; corner as in `page`. Returns the paths. Raises OSError."""
+    return save(page(motion, corner, DPI), *stem_and_endings(path))
 
 
 @default_style()
