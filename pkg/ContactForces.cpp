@@ -37,35 +37,35 @@ void ContactForces::validate() const
 
 void ContactForces::sortPairs()
 {
-	const auto ids = [this](size_t k) { return std::minmax(found[k].id1, found[k].id2); };
-	order.resize(found.size());
+	const auto ids = [this](size_t k) { return std::minmax(unordered[k].id1, unordered[k].id2); };
+	order.resize(unordered.size());
 	std::iota(order.begin(), order.end(), 0);
 	std::sort(order.begin(), order.end(), [&](size_t k, size_t l) { return ids(k) < ids(l); });
 }
 
 /// Pairs with contact points or released energy, in the container's order.
-void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& found)
+void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& contacts)
 {
 	static const int manifoldIndex = ManifoldGeom::getClassIndexStatic();
-	found.clear();
+	contacts.clear();
 	for (const shared_ptr<Interaction>& I : *scene.interactions) {
 		if (!I->isReal() || I->geom->getClassIndex() != manifoldIndex) continue;
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
-			found.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys,
+			contacts.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys,
 			        phys.records.size(), phys.releasedEnergy, phys.placedEnergy });
 	}
 }
 
 void ContactForces::collectPairs()
 {
-	findPairs(*scene, found);
+	findPairs(*scene, unordered);
 	// the order of the last step is reused while the pairs are the same
-	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(found[k]); };
-	if (pairs.size() != found.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds))
+	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(unordered[k]); };
+	if (pairs.size() != unordered.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds))
 		sortPairs();
-	pairs.resize(found.size());
-	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t k) { return found[k]; });
+	pairs.resize(unordered.size());
+	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t k) { return unordered[k]; });
 }
 
 void ContactForces::collectBody(Body::id_t id)
@@ -203,10 +203,10 @@ void ContactForces::action()
 
 std::vector<timber::SolverBody> ContactForces::placements(const Scene& scene)
 {
-	std::vector<timber::SolverBody> found(scene.bodies->size());
+	std::vector<timber::SolverBody> states(scene.bodies->size());
 	for (const shared_ptr<Body>& b : *scene.bodies)
-		if (b) setBody(found[b->getId()], *b->state);
-	return found;
+		if (b) setBody(states[b->getId()], *b->state);
+	return states;
 }
 
 std::vector<timber::PointSpring> ContactForces::linearSprings(

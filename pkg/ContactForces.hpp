@@ -27,8 +27,8 @@ class ContactForces : public GlobalEngine {
 		JointEnergies joints;
 		timber::Convergence convergence;
 	};
-	std::vector<ContactPair> pairs, found; ///< ordered by body ids, and in the container's order
-	std::vector<size_t> order; ///< of each of `pairs`, its index in `found`
+	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
+	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
 	std::vector<TimberJoint*> joints; ///< damped or stiff
 	timber::Islands islands; ///< of the pairs, and of the joints after them
 	std::vector<timber::Link> links; ///< of each pair and joint

@@ -8,11 +8,11 @@ YADE_PLUGIN((ManifoldGeom)(Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom)
 
 boost::python::list ManifoldGeom::pyPoints() const
 {
-	boost::python::list all;
+	boost::python::list points;
 	for (const timber::ContactPoint& p : contactPoints)
-		all.append(boost::python::make_tuple(
+		points.append(boost::python::make_tuple(
 		        Vector3r(p.position), Vector3r(p.normal), Real(p.overlap), p.id.bits));
-	return all;
+	return points;
 }
 
 bool Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom::go(const shared_ptr<Shape>& shape1,

@@ -151,11 +151,11 @@ void Ip2_ElementMat_ElementMat_SnowPhys::validate() const
 
 boost::python::list ManifoldPhys::pyPoints() const
 {
-	boost::python::list all;
+	boost::python::list points;
 	for (const timber::PointRecord& p : records)
-		all.append(boost::python::make_tuple(
+		points.append(boost::python::make_tuple(
 		        p.id.bits, Real(p.normalForce), Vector3r(p.shearForce), Vector3r(p.dashpotForce)));
-	return all;
+	return points;
 }
 
 void Ip2_TimberMat_TimberMat_TimberPhys::go(

@@ -107,11 +107,11 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 /// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
 boost::python::dict HouseMonitor::pyEnergy() const
 {
-	boost::python::dict all;
+	boost::python::dict terms;
 	const std::vector<Real> values = energies(*Omega::instance().getScene());
 	for (size_t k = 0; k < values.size(); ++k)
-		all[energyTerms[k]] = values[k];
-	return all;
+		terms[energyTerms[k]] = values[k];
+	return terms;
 }
 
 boost::python::list HouseMonitor::pyColumns() const

@@ -31,13 +31,13 @@ namespace {
 }
 
 void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& found, Real& lost)
+        std::vector<TimberJoint*>& implicit, Real& lost)
 {
-	found.clear();
+	implicit.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return;
 	for (const shared_ptr<TimberJoint>& joint : engine->joints)
-		if (isImplicit(*joint, scene, bodies, alsoStiff)) found.push_back(joint.get());
+		if (isImplicit(*joint, scene, bodies, alsoStiff)) implicit.push_back(joint.get());
 		else {
 			lost += joint->newmarkEnergy;
 			joint->newmarkEnergy = 0;

@@ -17,7 +17,7 @@ struct JointEnergies {
 /// bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of Newmark's term of the
 /// others, added to [J].
 void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& found, Real& lost);
+        std::vector<TimberJoint*>& implicit, Real& lost);
 
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(timber::ContactSolver&, size_t k, TimberJoint&, const Scene&);

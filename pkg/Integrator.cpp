@@ -40,15 +40,15 @@ void SymplecticIntegrator::moveFixed(State& s) const
 /// Orientations and angular velocities of at most as many bodies as a Number has lanes.
 template <class Number> void SymplecticIntegrator::rotate(State* const* states, size_t count) const
 {
-	const auto all = [&](auto member) {
+	const auto lanesOf = [&](auto member) {
 		using Vector = std::remove_reference_t<decltype(member(**states))>;
 		return timber::Group<Number, Vector>(count, [&](size_t i) { return &member(*states[i]); });
 	};
-	const auto orientation = all([](State & s) -> auto& { return s.ori.coeffs(); });
-	const timber::Vec3Of<Number> momentum = all([](State & s) -> auto& { return s.angMom; }).vectors(),
-	                             inertia = all([](State & s) -> auto& { return s.inertia; }).vectors();
+	const auto orientation = lanesOf([](State & s) -> auto& { return s.ori.coeffs(); });
+	const timber::Vec3Of<Number> momentum = lanesOf([](State & s) -> auto& { return s.angMom; }).vectors(),
+	                             inertia = lanesOf([](State & s) -> auto& { return s.inertia; }).vectors();
 	timber::QuatOf<Number> rotated(orientation.vectors());
-	all([](State & s) -> auto& {
+	lanesOf([](State & s) -> auto& {
 		return s.angVel;
 	}).set(timber::freeRotation<Number>(rotated, momentum, inertia, scene->dt));
 	orientation.set(rotated.coeffs());

@@ -60,14 +60,14 @@ void JointEngine::collectBodies()
 
 void JointEngine::checkJoints() const
 {
-	std::set<const TimberJoint*> known;
+	std::set<const TimberJoint*> visited;
 	const auto refuse = [](size_t k, const string& fault) {
 		throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
 	};
 	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
-		if (!known.insert(&joint).second) refuse(k, "the same joint is in the list before");
+		if (!visited.insert(&joint).second) refuse(k, "the same joint is in the list before");
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
 			refuse(k,
 			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)
@@ -107,18 +107,18 @@ void JointEngine::computeForces()
 }
 
 /// Breaks a spring and logs it.
-void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& found)
+void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
 	const shared_ptr<JointBreak> entry(new JointBreak);
 	entry->time = scene->time;
 	entry->joint = int(joint);
-	entry->spring = int(found.spring);
-	entry->cause = names[int(found.cause)];
-	entry->force = found.force;
+	entry->spring = int(event.spring);
+	entry->cause = names[int(event.cause)];
+	entry->force = event.force;
 	breaks.push_back(entry);
-	released += found.energy;
-	joints[joint]->breakSpring(found.spring);
+	released += event.energy;
+	joints[joint]->breakSpring(event.spring);
 }
 
 /// Breaks the overloaded springs of a joint and computes the forces of the others again.
@@ -127,9 +127,9 @@ void JointEngine::breakSprings(size_t index)
 	TimberJoint& joint = *joints[index];
 	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
-	for (const timber::SpringBreak& found : timber::springBreaks(joint.stiffness(), joint.jointStrength(),
+	for (const timber::SpringBreak& event : timber::springBreaks(joint.stiffness(), joint.jointStrength(),
 	             placement(packed->joints[index]), joint.normal, joint.springs(), motion))
-		breakSpring(index, found);
+		breakSpring(index, event);
 	computeForce(index);
 }
 
@@ -137,9 +137,9 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& found : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
+	for (const timber::SpringBreak& event : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
 	             joint.normal, joint.springs(), joint.slipHistories()))
-		breakSpring(index, found);
+		breakSpring(index, event);
 }
 
 /// Breaks and sums in the order of the joints: results do not depend on the number of threads.

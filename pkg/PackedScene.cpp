@@ -19,13 +19,13 @@ namespace {
 	/// Interactions of near bodies, ordered by their ids: the order of the container depends on the run's history.
 	std::vector<Interaction*> interactionsById(const Scene& scene)
 	{
-		std::vector<Interaction*> found;
+		std::vector<Interaction*> sorted;
 		for (const shared_ptr<Interaction>& i : *scene.interactions)
-			if (i->isReal()) found.push_back(i.get());
-		std::sort(found.begin(), found.end(), [](const Interaction* a, const Interaction* b) {
+			if (i->isReal()) sorted.push_back(i.get());
+		std::sort(sorted.begin(), sorted.end(), [](const Interaction* a, const Interaction* b) {
 			return std::make_pair(a->getId1(), a->getId2()) < std::make_pair(b->getId1(), b->getId2());
 		});
-		return found;
+		return sorted;
 	}
 }
 

@@ -20,10 +20,10 @@ void RestSkipper::validate() const
 
 vector<Vector3r> RestSkipper::positions() const
 {
-	vector<Vector3r> all(scene->bodies->size(), Vector3r::Zero());
+	vector<Vector3r> centres(scene->bodies->size(), Vector3r::Zero());
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) all[b->getId()] = b->state->pos;
-	return all;
+		if (b) centres[b->getId()] = b->state->pos;
+	return centres;
 }
 
 Real RestSkipper::largestSpeed() const

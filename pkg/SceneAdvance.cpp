@@ -61,10 +61,10 @@ boost::python::list advanceScenes(
 		const CurrentScene none(idle);
 		timber::forAllLong(int(jobs.size()), [&](int k) { advance(jobs[k]); });
 	}
-	boost::python::list found;
+	boost::python::list outcomes;
 	for (const Job& job : jobs)
-		found.append(boost::python::make_tuple(job.seconds, job.error));
-	return found;
+		outcomes.append(boost::python::make_tuple(job.seconds, job.error));
+	return outcomes;
 }
 
 } // namespace yade

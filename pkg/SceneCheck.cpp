@@ -53,8 +53,8 @@ namespace {
 			return std::any_of(role.classes.begin(), role.classes.end(),
 			        [&](const char* base) { return isKindOf(name, base); });
 		};
-		const auto found = std::find_if(roles.begin(), roles.end(), match);
-		return found == roles.end() ? nullptr : &*found;
+		const auto place = std::find_if(roles.begin(), roles.end(), match);
+		return place == roles.end() ? nullptr : &*place;
 	}
 
 	/// Classes of YADE that must not run beside the package's engines, also inside a ParallelEngine.
@@ -143,12 +143,13 @@ namespace {
 	/// touch others.
 	std::vector<const Body*> kindsOfBodies(const Scene& scene)
 	{
-		std::set<std::tuple<int, int, mask_t>> known;
+		std::set<std::tuple<int, int, mask_t>> combinations;
 		std::vector<const Body*> kinds;
 		for (const shared_ptr<Body>& b : *scene.bodies)
 			if (b && b->shape && b->isBounded()
-			        && known.emplace(b->shape->getClassIndex(),
-			                        b->material ? b->material->getClassIndex() : -1, b->groupMask)
+			        && combinations
+			                   .emplace(b->shape->getClassIndex(),
+			                           b->material ? b->material->getClassIndex() : -1, b->groupMask)
 			                   .second)
 				kinds.push_back(b.get());
 		return kinds;
@@ -169,8 +170,8 @@ namespace {
 			return (isKindOf(a, law.material1) && isKindOf(b, law.material2))
 			        || (isKindOf(b, law.material1) && isKindOf(a, law.material2));
 		};
-		const auto found = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
-		return found == contactLaws.end() ? nullptr : &*found;
+		const auto place = std::find_if(contactLaws.begin(), contactLaws.end(), matches);
+		return place == contactLaws.end() ? nullptr : &*place;
 	}
 
 	/// A functor of a base class is not enough: Ip2_ElementMat_ElementMat_SnowPhys would give timber an infinite

@@ -42,13 +42,13 @@ namespace {
 			removeUnused();
 			const std::vector<Real> key = keyOf(vertices, radius);
 			const auto place = geometries.find(key);
-			shared_ptr<Geometry> found = place == geometries.end() ? nullptr : place->second.lock();
-			if (found) return found;
-			found = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(
+			shared_ptr<Geometry> shared = place == geometries.end() ? nullptr : place->second.lock();
+			if (shared) return shared;
+			shared = boost::make_shared<Geometry>(timber::RoundedPolyhedron::fromSharp(
 			        timber::Polyhedron::fromVertices(vertices), radius));
-			geometries[key] = found;
-			geometries[keyOf(vertices, found->radius)] = found; // the attribute's value from now on
-			return found;
+			geometries[key] = shared;
+			geometries[keyOf(vertices, shared->radius)] = shared; // the attribute's value from now on
+			return shared;
 		}
 	};
 	SharedGeometries sharedGeometries;
@@ -65,10 +65,10 @@ void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
 {
 	validate();
 	if (vertices.empty()) return; // default-constructed
-	const auto made = sharedGeometries.findOrMake(vertices, radius);
-	volume = timber::massProperties(made->sharp).volume;
-	radius = made->radius;
-	geometry = made;
+	const auto shared = sharedGeometries.findOrMake(vertices, radius);
+	volume = timber::massProperties(shared->sharp).volume;
+	radius = shared->radius;
+	geometry = shared;
 }
 
 boost::python::tuple RoundedPolyhedron::massProperties() const
@@ -81,14 +81,14 @@ boost::python::tuple RoundedPolyhedron::massProperties() const
 
 boost::python::list RoundedPolyhedron::faces() const
 {
-	boost::python::list all;
+	boost::python::list cornerLists;
 	for (const timber::Face& face : geometry->sharp.faces) {
 		boost::python::list corners;
 		for (const int k : face.corners)
 			corners.append(k);
-		all.append(corners);
+		cornerLists.append(corners);
 	}
-	return all;
+	return cornerLists;
 }
 
 constexpr int fastBodySteps = 32; ///< for which the box of a fast body is sufficient

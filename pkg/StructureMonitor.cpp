@@ -2,19 +2,12 @@
 #include <StructureMonitor.hpp>
 #include <sampling.hpp>
 #include <validation.hpp>
-#include <numeric>
 
 namespace yade {
 
 YADE_PLUGIN((StructureMonitor));
 
 namespace {
-	/// Mean of vectors, of which there is at least one.
-	Vector3r mean(const vector<Vector3r>& v)
-	{
-		return std::accumulate(v.begin(), v.end(), Vector3r(Vector3r::Zero())) / Real(v.size());
-	}
-
 	void raise(Real& largest, Real value) { largest = math::max(largest, value); }
 }
 
@@ -46,8 +39,7 @@ void StructureMonitor::recordJoint(const TimberJoint& joint, const timber::Joint
 	if (!b1 || !b2) return;
 	const State &s1 = *b1->state, &s2 = *b2->state;
 	const Vector3r normal = s1.ori * joint.normal;
-	raise(opening[k],
-	        (s2.pos - s1.pos + s2.ori * mean(joint.anchors2) - s1.ori * mean(joint.anchors1)).dot(normal));
+	raise(opening[k], (s2.pos - s1.pos + s2.ori * joint.centre2() - s1.ori * joint.centre1()).dot(normal));
 	if (joint.isBroken()) return;
 	const Real along = total.force.dot(normal); // on body 1
 	const bool isWall = joint.ks == 0; // its springs act along the normal, which lies in the plane of the wall

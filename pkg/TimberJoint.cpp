@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <TimberJoint.hpp>
 #include <validation.hpp>
+#include <numeric>
 
 namespace yade {
 
@@ -14,6 +15,12 @@ namespace {
 		if (!hasSprings && std::isnan(value)) return;
 		require(value > 0 && (mayBeInfinite || std::isfinite(value)), attribute, value,
 		        mayBeInfinite ? "> 0" : "finite and > 0");
+	}
+
+	/// Of vectors, of which there is at least one.
+	Vector3r mean(const vector<Vector3r>& v)
+	{
+		return std::accumulate(v.begin(), v.end(), Vector3r(Vector3r::Zero())) / Real(v.size());
 	}
 
 	void requireAnchors(const char* attribute, const vector<Vector3r>& anchors)
@@ -81,6 +88,8 @@ void TimberJoint::postLoad(TimberJoint&)
 	if (hasSprings) broken.resize(anchors1.size(), 0);
 	intact = size_t(std::count(broken.begin(), broken.end(), 0));
 	if (!hasSprings) return;
+	mean1 = mean(anchors1);
+	mean2 = mean(anchors2);
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
 	if (yields()) {
@@ -168,23 +177,23 @@ Real TimberJoint::load() const
 boost::python::list TimberJoint::pySprings() const
 {
 	const vector<Vector3r> pulling = springForces(), stretched = springStretches();
-	boost::python::list all;
+	boost::python::list rows;
 	for (size_t k = 0; k < broken.size(); ++k) {
 		boost::python::dict one;
 		one["force"] = Vector3r(pulling[k]);
 		one["stretch"] = stretched[k].norm();
 		one["broken"] = bool(broken[k]);
-		all.append(one);
+		rows.append(one);
 	}
-	return all;
+	return rows;
 }
 
 boost::python::dict TimberJoint::pyDictCustom() const
 {
-	boost::python::dict all;
-	all["forces"] = springForces();
-	all["stretches"] = springStretches();
-	return all;
+	boost::python::dict attributes;
+	attributes["forces"] = springForces();
+	attributes["stretches"] = springStretches();
+	return attributes;
 }
 
 } // namespace yade

@@ -32,6 +32,7 @@ class TimberJoint : public Serializable {
 	shared_ptr<timber::PackedJoints> packed;
 	size_t index = 0; ///< in `packed`
 	size_t intact = 0; ///< number of unbroken springs
+	Vector3r mean1 = Vector3r::Zero(), mean2 = Vector3r::Zero(); ///< of the anchors [m]
 
 	struct SpringVectors {
 		vector<Vector3r> stretches, forces;
@@ -51,6 +52,9 @@ public:
 	void validateEnvelope() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const { return { share() * kn, share() * ks }; }
+	/// Mean of the springs' ends, in the frame of each body. [m]
+	const Vector3r& centre1() const { return mean1; }
+	const Vector3r& centre2() const { return mean2; }
 	size_t intactSprings() const { return intact; }
 	bool isBroken() const { return intact == 0; }
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]

@@ -24,7 +24,7 @@ inline Body* bodyAt(const Scene& scene, Body::id_t id)
 template <class E> E* findEngine(const Scene& scene)
 {
 	for (const shared_ptr<Engine>& e : scene.engines)
-		if (E* found = e->dead ? nullptr : dynamic_cast<E*>(e.get())) return found;
+		if (E* match = e->dead ? nullptr : dynamic_cast<E*>(e.get())) return match;
 	return nullptr;
 }
 

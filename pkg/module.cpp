@@ -23,10 +23,10 @@ boost::python::list registerClasses()
 {
 	auto& names = yade::ClassFactory::instance().pluginClasses;
 	auto& omega = yade::Omega::instance();
-	const auto known = omega.getDynlibsDescriptor();
+	const auto loaded = omega.getDynlibsDescriptor();
 	std::list<std::string> others = names;
-	others.remove_if([&](const std::string& name) { return known.count(name) == 0; });
-	names.remove_if([&](const std::string& name) { return known.count(name) != 0; });
+	others.remove_if([&](const std::string& name) { return loaded.count(name) == 0; });
+	names.remove_if([&](const std::string& name) { return loaded.count(name) != 0; });
 	omega.loadPlugins({});
 	boost::python::list registered;
 	for (const auto& name : names)

@@ -25,8 +25,8 @@ constexpr double smallestSize = 1e-6, largestSize = 1e6;
 /// Larger: nearly flat corners are lost; smaller: vertices in single precision no longer give planar faces.
 constexpr double planarShare = 1e-6;
 
-/// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. It is used only if the
-/// faces do not close with a smaller value. [-]
+/// Upper limit of planarShare for warped faces, e.g. of vertices rounded to the millimetre. Larger values than
+/// planarShare are used only if corners of the core are too close to be two contacts. [-]
 /// Larger: more warped input is accepted and the core deviates more from it; smaller: it is refused.
 constexpr double warpShare = 1e-3;
 

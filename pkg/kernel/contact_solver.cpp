@@ -24,15 +24,15 @@ namespace {
 
 } // namespace
 
-void ContactSolver::begin(std::vector<SolverBody>& all, double step, int sweepLimit)
+void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int sweepLimit)
 {
 	assert(sweepLimit >= 0 && step > 0 && std::isfinite(step));
-	bodies = &all;
+	bodies = &sceneBodies;
 	h = step;
 	maxSweeps = sweepLimit;
 	pairs.clear();
 	joints.clear();
-	weighted.resize(all.size());
+	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
 	++solveCount;
 	momentum = 0;
@@ -80,16 +80,16 @@ void ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& 
 	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, stored);
 }
 
-template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& given)
+template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)
 {
-	assert(k < pairs.size() && first < pairs[k].count && isValid(given));
+	assert(k < pairs.size() && first < pairs[k].count && isValid(data));
 	const SolverPair& pair = pairs[k];
 	const SolverBodies both = bodiesOf(pair);
 	const size_t count = std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1;
 	const auto at = [&](size_t i) -> PointStep& { return pair.points[first + i].step; };
-	if (maxSweeps > 0) return prepareSteps<Number>(given, both, h, count, at);
-	StepInput<Number> input = given;
-	input.impulse = explicitImpulse<Number>(given, both, h);
+	if (maxSweeps > 0) return prepareSteps<Number>(data, both, h, count, at);
+	StepInput<Number> input = data;
+	input.impulse = explicitImpulse<Number>(data, both, h);
 	prepareSteps<Number>(input, both, h, count, at);
 }
 template void ContactSolver::prepare(size_t, size_t, const StepInput<double>&);

@@ -12,21 +12,9 @@
 
 namespace timber {
 
-// Convex hull of n points, n <= 4 maxVertices:
-//   1. For each pair of points: skip the pair if no supporting plane can contain it (maySupport). This leaves about the
-//     edges.
-//   2. For each third point: the plane through the three points is supporting if no point is outside by more than the
-//     tolerance. The points
-//      within the tolerance of the plane are the corners of a face.
-//   3. Sets of corners contained in another set are caused by rounding and are dropped.
-//   4. Sort the corners of each face; find the edges from pairs of faces; check that the surface is closed.
-// Step 1 is O(n^2) for most inputs and changes no result. Faces are ordered by the indices of their corners.
+// The hull's triangles (triangle_hull.hpp) close at any placement of the points. Neighbours in one plane within the
+// tolerance are joined to faces. Faces are ordered by the indices of their corners.
 namespace {
-
-	/// The faces do not form a closed surface: some are neither planar within the tolerance nor clearly bent.
-	struct OpenSurface : PolyhedronError {
-		using PolyhedronError::PolyhedronError;
-	};
 
 	void checkSize(double extent)
 	{
@@ -47,123 +35,7 @@ namespace {
 					        + std::to_string(l) + " are the same point " + toText(points[k]));
 	}
 
-	using Vec2 = Eigen::Vector2d;
-
-	double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-	/// Whether the triangle contains the origin at more than `distance` from each side; it must contain the origin.
-	bool enclosesOrigin(const Vec2& a, const Vec2& b, const Vec2& c, double distance)
-	{
-		const auto isFar = [distance](const Vec2& p, const Vec2& q) {
-			return std::abs(cross(p, q)) > distance * (p - q).norm();
-		};
-		return isFar(a, b) && isFar(b, c) && isFar(c, a);
-	}
-
-	/// Whether a plane through points a and b can be supporting. All points are projected along the line ab, which
-	/// becomes the origin. Their directions from there form a cone; once a triangle of projected points encloses
-	/// the origin, each plane has points on both sides.
-	bool maySupport(const std::vector<Vec3>& points, int a, int b, double tolerance)
-	{
-		const Vec3 line = (points[b] - points[a]).normalized(), e1 = line.unitOrthogonal(), e2 = line.cross(e1);
-		Vec2 right = Vec2::Zero(), left = right; // of the cone, counter-clockwise from right to left
-		for (const Vec3& point : points) {
-			const Vec3 x = point - points[a];
-			const Vec2 w(e1.dot(x), e2.dot(x));
-			// Too near the line to exclude a plane
-			if (w.squaredNorm() <= 64 * tolerance * tolerance) continue;
-			const double beyondRight = -cross(right, w), beyondLeft = -cross(w, left);
-			if (right.isZero(0)) right = left = w;
-			else if (beyondRight > 0 && beyondLeft > 0) {
-				if (enclosesOrigin(right, left, w, 2 * tolerance)) return false;
-			} else if (beyondRight > 0) right = w;
-			else if (beyondLeft > 0) left = w;
-		}
-		return true;
-	}
-
 	using Corners = std::vector<int>; ///< of a face, by index
-
-	/// Sets of the corners of faces (step 2).
-	class SupportingSets {
-	public:
-		std::vector<Corners> sets;
-
-		SupportingSets(const std::vector<Vec3>& points, double tolerance)
-		        : points(points)
-		        , tolerance(tolerance)
-		{
-		}
-		/// Adds the corners of the planes through three points, one for each sign of the normal.
-		void addPlanes(int a, int b, int c)
-		{
-			const Vec3 &origin = points[a], ab = points[b] - origin, ac = points[c] - origin;
-			Vec3 normal = ab.cross(ac);
-			const bool isExcluded = isOutside(lastAbove, origin, normal),
-			           isReverseExcluded = isOutside(lastBelow, origin, -normal);
-			if (isExcluded && isReverseExcluded) return;
-			const double longest = std::max({ ab.norm(), ac.norm(), (points[c] - points[b]).norm() });
-			if (normal.norm() <= 2 * tolerance * longest) return; // collinear points span no plane
-			normal.normalize();
-			if (!isExcluded) addIfSupporting(origin, normal, lastAbove);
-			if (!isReverseExcluded) addIfSupporting(origin, -normal, lastBelow);
-		}
-
-	private:
-		const std::vector<Vec3>& points;
-		const double tolerance;
-		/// The last points found outside a plane: they are likely outside the next one.
-		int lastAbove = 0, lastBelow = 0;
-
-		/// Whether a point is outside the plane by more than twice the tolerance, so that rounding does not
-		/// matter.
-		bool isOutside(int k, const Vec3& origin, const Vec3& unscaledNormal) const
-		{
-			const double height = unscaledNormal.dot(points[k] - origin);
-			return height > 0 && height * height > 4 * tolerance * tolerance * unscaledNormal.squaredNorm();
-		}
-		void addIfSupporting(const Vec3& origin, const Vec3& normal, int& outside)
-		{
-			Corners in;
-			for (size_t k = 0; k < points.size(); ++k) {
-				const double height = normal.dot(points[k] - origin);
-				if (height > tolerance) {
-					outside = int(k);
-					return;
-				}
-				if (height >= -tolerance) in.push_back(int(k));
-			}
-			if (std::find(sets.begin(), sets.end(), in) == sets.end()) sets.push_back(in);
-		}
-	};
-
-	std::vector<Corners> withoutSubsets(const std::vector<Corners>& sets)
-	{
-		const auto isSubset = [&](const Corners& small) {
-			return std::any_of(sets.begin(), sets.end(), [&](const Corners& large) {
-				return large.size() > small.size()
-				        && std::includes(large.begin(), large.end(), small.begin(), small.end());
-			});
-		};
-		std::vector<Corners> maximal;
-		for (const Corners& s : sets)
-			if (!isSubset(s)) maximal.push_back(s);
-		return maximal;
-	}
-
-	/// Steps 1 to 3.
-	std::vector<Corners> supportingSets(const std::vector<Vec3>& points, double tolerance)
-	{
-		const int count = int(points.size());
-		SupportingSets found(points, tolerance);
-		for (int a = 0; a < count; ++a)
-			for (int b = a + 1; b < count; ++b) {
-				if (!maySupport(points, a, b, tolerance)) continue;
-				for (int c = b + 1; c < count; ++c)
-					found.addPlanes(a, b, c);
-			}
-		return withoutSubsets(found.sets);
-	}
 
 	void setSidePlanes(Face& face, const std::vector<Vec3>& points)
 	{
@@ -205,23 +77,28 @@ namespace {
 		return face;
 	}
 
-	/// Face from its unordered corners.
-	Face orderedFace(const std::vector<Vec3>& points, std::vector<int> corners, const Vec3& inside)
+	/// Face from its outline and its sorted corners. Of the angles about the centre, from the first corner, the least
+	/// one comes first.
+	Face faceOf(const std::vector<Vec3>& points, Corners outline, const Corners& sorted, const Vec3& inside)
 	{
-		const Vec3 centre = meanOf(points, corners);
-		const Vec3 u = (points[corners[0]] - centre).normalized();
+		const Vec3 centre = meanOf(points, sorted);
+		const Vec3 u = (points[sorted[0]] - centre).normalized();
 		Vec3 direction = Vec3::Zero();
-		for (size_t k = 1; k < corners.size(); ++k) {
-			const Vec3 c = u.cross(points[corners[k]] - centre);
+		for (size_t k = 1; k < sorted.size(); ++k) {
+			const Vec3 c = u.cross(points[sorted[k]] - centre);
 			if (c.norm() > direction.norm()) direction = c;
 		}
 		if (direction.dot(centre - inside) < 0) direction = -direction;
 		const Vec3 v = direction.normalized().cross(u);
-		std::sort(corners.begin(), corners.end(), [&](int k, int l) {
-			const Vec3 a = points[k] - centre, b = points[l] - centre;
-			return std::atan2(a.dot(v), a.dot(u)) < std::atan2(b.dot(v), b.dot(u));
-		});
-		return faceOf(points, std::move(corners), centre);
+		const auto angle = [&](int k) {
+			const Vec3 x = points[k] - centre;
+			return std::atan2(x.dot(v), x.dot(u));
+		};
+		std::rotate(outline.begin(),
+		        std::min_element(
+		                outline.begin(), outline.end(), [&](int k, int l) { return angle(k) < angle(l); }),
+		        outline.end());
+		return faceOf(points, std::move(outline), centre);
 	}
 
 	Edge edgeBetween(const std::vector<Vec3>& points, const std::vector<Face>& faces, int tail, int head, int left,
@@ -243,7 +120,7 @@ namespace {
 		for (const auto& [ends, left] : faceLeftOf) {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
 			if (back == faceLeftOf.end())
-				throw OpenSurface("the faces do not close around the edge between vertices "
+				throw PolyhedronError("the faces do not close around the edge between vertices "
 				        + std::to_string(ends.first) + " and " + std::to_string(ends.second));
 			if (ends.first < ends.second)
 				edges.push_back(
@@ -258,16 +135,6 @@ namespace {
 	{
 		return PolyhedronError("vertex " + std::to_string(k) + " " + toText(points[k])
 		        + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
-	}
-
-	void checkCorners(const std::vector<Vec3>& points, const std::vector<Corners>& faces)
-	{
-		std::vector<int> degree(points.size(), 0);
-		for (const Corners& corners : faces)
-			for (int k : corners)
-				++degree[k];
-		for (size_t k = 0; k < points.size(); ++k)
-			if (degree[k] < 3) throw noCorner(points, k);
 	}
 
 	/// Largest distance of a point from the planes of triangles, > 0 outside; those without a plane are left out.
@@ -328,8 +195,8 @@ namespace {
 	}
 
 	/// Faces of triangles, with neighbours in one plane joined.
-	std::vector<Face> joinedFaces(
-	        const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
+	std::vector<Face> joinedFaces(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
+	        const Vec3& inside, double tolerance)
 	{
 		std::vector<Patch> patches;
 		for (const Triangle& t : triangles)
@@ -341,9 +208,15 @@ namespace {
 					patches.erase(patches.begin() + long(l));
 					l = k + 1;
 				} else ++l;
+		std::map<Corners, Face> ordered;
+		for (const Patch& patch : patches) {
+			Corners sorted = patch.face.corners;
+			std::sort(sorted.begin(), sorted.end());
+			ordered[sorted] = faceOf(points, patch.face.corners, sorted, inside);
+		}
 		std::vector<Face> faces;
-		for (Patch& patch : patches)
-			faces.push_back(std::move(patch.face));
+		for (auto& item : ordered)
+			faces.push_back(std::move(item.second));
 		return faces;
 	}
 
@@ -376,6 +249,7 @@ double sizeOf(const std::vector<Vec3>& points)
 	return (high - low).maxCoeff();
 }
 
+/// Faces are as planar as leaves each point the corner of three.
 Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance)
 {
 	assert(points.size() >= 4 && points.size() <= 4 * maxVertices);
@@ -383,14 +257,14 @@ Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance)
 	Vec3 inside = Vec3::Zero();
 	for (const Vec3& p : points)
 		inside += p / double(points.size());
-	const std::vector<Corners> sets = supportingSets(points, tolerance);
-	if (sets.empty()
-	        || std::any_of(sets.begin(), sets.end(), [&](const Corners& s) { return s.size() == points.size(); }))
-		throw PolyhedronError(coplanar);
-	std::vector<Face> faces;
-	for (const Corners& corners : sets)
-		faces.push_back(orderedFace(points, corners, inside));
-	checkCorners(points, sets);
+	const std::vector<Triangle> triangles = hullTriangles(points);
+	const auto facesWithin = [&](double limit) { return joinedFaces(points, triangles, inside, limit); };
+	std::vector<Face> faces = facesWithin(tolerance);
+	if (faces.size() < 4) throw PolyhedronError(coplanar);
+	if (leastDegree(points.size(), faces) < 3) checkHeights(points, tolerance);
+	for (double share = 0.1; share > 1e-4 && leastDegree(points.size(), faces) < 3; share /= 10)
+		faces = facesWithin(share * tolerance);
+	if (leastDegree(points.size(), faces) < 3) faces = facesWithin(0);
 	return closedBody(points, std::move(faces));
 }
 
@@ -401,25 +275,11 @@ Polyhedron closedBody(std::vector<Vec3> vertices, std::vector<Face> faces)
 		setSidePlanes(face, body.vertices);
 	body.edges = edgesOf(body.vertices, body.faces);
 	if (body.vertices.size() + body.faces.size() != body.edges.size() + 2)
-		throw OpenSurface("faces, edges and vertices do not form one closed surface (Euler's formula)");
+		throw PolyhedronError("faces, edges and vertices do not form one closed surface (Euler's formula)");
 	return body;
 }
 
-/// Faces are as planar as leaves each point the corner of three.
-Polyhedron triangulatedHull(const std::vector<Vec3>& points)
-{
-	const double tolerance = planarShare * sizeOf(points);
-	const std::vector<Triangle> triangles = hullTriangles(points);
-	if (triangles.empty()) throw PolyhedronError(coplanar);
-	checkHeights(points, tolerance);
-	for (double share = 1; share > 1e-4; share /= 10)
-		if (std::vector<Face> faces = joinedFaces(points, triangles, share * tolerance);
-		        leastDegree(points.size(), faces) > 2)
-			return closedBody(points, std::move(faces));
-	return closedBody(points, joinedFaces(points, triangles, 0));
-}
-
-void checkPoints(const std::vector<Vec3>& points)
+Polyhedron convexHull(const std::vector<Vec3>& points)
 {
 	for (size_t k = 0; k < points.size(); ++k)
 		if (!points[k].allFinite())
@@ -427,18 +287,7 @@ void checkPoints(const std::vector<Vec3>& points)
 	const double size = sizeOf(points);
 	checkSize(size);
 	checkDistinct(points, planarShare * size);
-}
-
-Polyhedron closedConvexHull(const std::vector<Vec3>& points)
-{
-	checkPoints(points);
-	const double size = sizeOf(points);
-	for (double share = planarShare; share < warpShare; share *= 10)
-		try {
-			return convexHull(points, share * size);
-		} catch (const OpenSurface&) { // nearly planar faces: increase the tolerance
-		}
-	return convexHull(points, warpShare * size);
+	return convexHull(points, planarShare * size);
 }
 
 } // namespace timber

@@ -5,21 +5,14 @@
 
 namespace timber {
 
-/// Hull whose faces contain all points within `tolerance` of their plane. [m]
-/// Throws PolyhedronError if the points are coplanar, if one is not a corner or if the faces do not close.
+/// Hull whose faces contain all points within `tolerance` of their plane [m]; less where no tolerance tells faces from
+/// corners.
+/// Throws PolyhedronError if the points are coplanar or if one is not a corner.
 Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance);
 
-/// Throws PolyhedronError for coordinates that are not finite, an extent outside smallestSize ... largestSize, and
-/// coincident points.
-void checkPoints(const std::vector<Vec3>& points);
-
-/// The hull with the smallest tolerance of planarShare ... warpShare times the size at which the faces close. Checks
-/// the points.
-Polyhedron closedConvexHull(const std::vector<Vec3>& points);
-
-/// The same from triangles, which always close; coplanar neighbours are one face. It serves where no tolerance tells
-/// faces from corners.
-Polyhedron triangulatedHull(const std::vector<Vec3>& points);
+/// The same with planarShare of the size. Throws PolyhedronError also for coordinates that are not finite, an extent
+/// outside smallestSize ... largestSize, and coincident points.
+Polyhedron convexHull(const std::vector<Vec3>& points);
 
 /// Body of faces that have their plane and corners. Throws PolyhedronError if they do not close.
 Polyhedron closedBody(std::vector<Vec3> vertices, std::vector<Face> faces);

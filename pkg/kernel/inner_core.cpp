@@ -155,24 +155,24 @@ namespace {
 Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle, double size)
 {
 	assert(size > 0);
-	std::vector<TouchingPlane> all; // lengths in units of the size about the middle
+	std::vector<TouchingPlane> touching; // lengths in units of the size about the middle
 	for (const Vec3& n : { Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) })
-		all.push_back(touchingPlane(n.normalized(), 10));
+		touching.push_back(touchingPlane(n.normalized(), 10));
 	for (const HalfSpace& h : planes)
-		all.push_back(touchingPlane(h.normal, (h.offset - h.normal.dot(middle)) / size));
+		touching.push_back(touchingPlane(h.normal, (h.offset - h.normal.dot(middle)) / size));
 	std::array<size_t, 4> basis { 0, 1, 2, 3 };
 	Sphere best { middle, -std::numeric_limits<double>::infinity() };
 	for (int step = 0; step < maxSteps; ++step) {
 		LongMat4 rows;
 		LongVec4 offsets;
 		for (int k = 0; k < 4; ++k) {
-			rows.row(k) = all[basis[k]].row;
-			offsets[k] = all[basis[k]].offset;
+			rows.row(k) = touching[basis[k]].row;
+			offsets[k] = touching[basis[k]].offset;
 		}
 		const Eigen::FullPivLU<LongMat4> solver(rows), transposed(rows.transpose());
 		const LongVec4 sphere = solver.solve(offsets);
 		const auto excess = [&](const TouchingPlane& p) { return p.row.dot(sphere) - p.offset; };
-		const auto cutting = std::max_element(all.begin(), all.end(),
+		const auto cutting = std::max_element(touching.begin(), touching.end(),
 		        [&](const TouchingPlane& p, const TouchingPlane& q) { return excess(p) < excess(q); });
 		const double radius = size * double(sphere[3] - excess(*cutting)); // inside all planes
 		if (radius > best.radius) best = { middle + size * sphere.head<3>().cast<double>(), radius };
@@ -180,7 +180,7 @@ Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle,
 		const int leaving
 		        = leavingPlane(transposed.solve(LongVec4(0, 0, 0, 1)), transposed.solve(cutting->row));
 		if (leaving < 0) break;
-		basis[leaving] = size_t(cutting - all.begin());
+		basis[leaving] = size_t(cutting - touching.begin());
 	}
 	return best;
 }

@@ -16,14 +16,14 @@ namespace {
 		const Mat3 k = springs.stiffness.shear * Mat3::Identity()
 		        + (springs.stiffness.normal - springs.stiffness.shear) * springs.normal
 		                * springs.normal.transpose();
-		Mat6 all = Mat6::Zero();
+		Mat6 matrix = Mat6::Zero();
 		for (size_t i = 0; i < springs.broken.size(); ++i) {
 			if (springs.broken[i]) continue;
 			const Mat3 r = crossMatrix(springs.anchors[i] - centre);
-			all.topLeftCorner<3, 3>() += k;
-			all.bottomRightCorner<3, 3>() -= r * k * r;
+			matrix.topLeftCorner<3, 3>() += k;
+			matrix.bottomRightCorner<3, 3>() -= r * k * r;
 		}
-		return all;
+		return matrix;
 	}
 
 	Vec3 centreOf(const SpringGroup& springs)

@@ -54,12 +54,12 @@ namespace {
 	{
 		const std::vector<Vec3> corners = cornerPoints(planes);
 		if (corners.size() < 4) throw PolyhedronError("the half-spaces enclose no volume");
-		Polyhedron body = closedConvexHull(corners);
+		Polyhedron body = convexHull(corners);
 		// An unbounded intersection has a closing face that is none of the planes
 		for (const Face& face : body.faces) {
-			const bool given = std::any_of(planes.begin(), planes.end(),
+			const bool isPlane = std::any_of(planes.begin(), planes.end(),
 			        [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
-			if (!given)
+			if (!isPlane)
 				throw PolyhedronError("the half-spaces do not bound a volume in the direction "
 				        + toText(face.plane.normal));
 		}
@@ -100,12 +100,7 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got "
 		        + std::to_string(points.size())
 		        + ": the time of a contact grows with the third power of their number");
-	checkPoints(points);
-	try {
-		return closedConvexHull(points);
-	} catch (const PolyhedronError&) {
-		return triangulatedHull(points);
-	}
+	return convexHull(points);
 }
 
 Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
@@ -194,15 +189,15 @@ Mat3 principalAxes(const Mat3& inertia)
 	const double offDiagonal
 	        = std::max({ std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2)) });
 	if (offDiagonal <= 1e-12 * inertia.trace()) return Mat3::Identity();
-	const Mat3 found = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
+	const Mat3 vectors = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
 	constexpr std::array<std::array<int, 3>, 6> orders { { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 },
 		{ 2, 0, 1 }, { 2, 1, 0 } } };
-	Mat3 best = found;
+	Mat3 best = vectors;
 	double alignment = -1;
 	for (const auto& order : orders) {
 		Mat3 axes;
 		for (int k = 0; k < 3; ++k)
-			axes.col(k) = found.col(order[k]) * (found(k, order[k]) < 0 ? -1. : 1.);
+			axes.col(k) = vectors.col(order[k]) * (vectors(k, order[k]) < 0 ? -1. : 1.);
 		if (axes.trace() > alignment) {
 			alignment = axes.trace();
 			best = axes;

@@ -42,8 +42,7 @@ struct Polyhedron {
 	std::vector<Edge> edges;
 
 	/// Polyhedron with these corners [m]; each point must be a corner of the convex hull.
-	/// Points within a tolerance of a plane form one face (planarShare; up to warpShare if the faces do not close
-	/// otherwise).
+	/// Points within planarShare of a plane form one face.
 	/// Throws PolyhedronError for: fewer than 4 or more than maxVertices points; coordinates that are not finite;
 	/// an extent outside smallestSize ... largestSize; coincident points; coplanar points; a point that is not a
 	/// corner.

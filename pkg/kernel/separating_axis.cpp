@@ -50,10 +50,10 @@ namespace {
 	private:
 		const std::vector<Vec3>&a, &b;
 
-		void update(double found, const Vec3& direction)
+		void update(double separation, const Vec3& direction)
 		{
-			if (found <= gap) return;
-			gap = found;
+			if (separation <= gap) return;
+			gap = separation;
 			axis = direction;
 		}
 	};

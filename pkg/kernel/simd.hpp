@@ -134,10 +134,10 @@ template <class Number> decltype(auto) broadcast(const Mat3& m)
 {
 	if constexpr (std::is_same_v<Number, double>) return (m);
 	else {
-		Eigen::Matrix<Number, 3, 3> all;
+		Eigen::Matrix<Number, 3, 3> wide;
 		for (int k = 0; k < 9; ++k)
-			all(k) = Number(m(k));
-		return all;
+			wide(k) = Number(m(k));
+		return wide;
 	}
 }
 
@@ -275,10 +275,10 @@ public:
 	[[gnu::always_inline]] auto vectors() const
 	{
 		constexpr int size = Item::RowsAtCompileTime;
-		Eigen::Matrix<Lanes, size, 1> all;
+		Eigen::Matrix<Lanes, size, 1> wide;
 		for (int c = 0; c < size; ++c)
-			all[c] = gathered([&](int i) { return (*item[i])[c]; });
-		return all;
+			wide[c] = gathered([&](int i) { return (*item[i])[c]; });
+		return wide;
 	}
 	template <int size> [[gnu::always_inline]] void set(const Eigen::Matrix<Lanes, size, 1>& x) const
 	{

@@ -33,10 +33,10 @@ __version__ = "0.1.0"
 for _package, _function in ((house, House), (motion, _ground_motion), (run, _run)):
     _make_callable(_package, _function)
 
-__all__ = ["House", "RunResult", "house", "load_run", "motion", "run"]
+EVERYWHERE = ("House", "RunResult", "house", "load_run", "motion", "run")
 IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene",
            "polyhedron", "set_velocity", "snow", "stable_dt", "timber")
-"""Names that need a YADE session."""
+"""Names that need a YADE session. There is no __all__: help() would print each of these functions in full."""
 _class_names = ()
 
 if _host.running():
@@ -61,11 +61,9 @@ if _host.running():
     from .scene.joints import SlipLaw, connect  # noqa: E402,F401
     from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401
 
-    __all__ += IN_YADE
-
 
 def __dir__():
-    return [*__all__, *_class_names]
+    return [*EVERYWHERE, *(IN_YADE if _host.running() else ()), *_class_names]
 
 
 def __getattr__(name):

@@ -49,9 +49,9 @@ TEST(Stiff, ConvergenceIsJudgedByLightMembers)
 		solveContacts(bodies, points, h, sweeps, tolerance);
 		return bodies;
 	};
-	const std::vector<SolverBody> converged = solved(10000, 0), found = solved(10000, 1e-3);
+	const std::vector<SolverBody> converged = solved(10000, 0), accelerated = solved(10000, 1e-3);
 	for (int k = 2; k < tower + 2; ++k)
-		EXPECT_NEAR(found[k].newVelocity.z(), converged[k].newVelocity.z(), 1e-3) << k; // of 1 m/s
+		EXPECT_NEAR(accelerated[k].newVelocity.z(), converged[k].newVelocity.z(), 1e-3) << k; // of 1 m/s
 }
 
 TEST(Stiff, MassRatioOfAMillion)

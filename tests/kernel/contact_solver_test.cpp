@@ -90,11 +90,11 @@ struct LoadedMass {
 		p.elasticShear = shear;
 		p.friction = friction;
 		p.normalStiffness = p.shearStiffness = stiffness;
-		std::vector<HeapPoint> all(points, p);
-		solveContacts(bodies, all, h, sweeps);
+		std::vector<HeapPoint> heap(points, p);
+		solveContacts(bodies, heap, h, sweeps);
 		velocity = bodies[1].newVelocity;
 		displacement += h * velocity;
-		shear = clipped<double>(shear, friction * (all[0].impulse.z() / h));
+		shear = clipped<double>(shear, friction * (heap[0].impulse.z() / h));
 		shear -= h * stiffness * Vec3(velocity.x(), velocity.y(), 0);
 	}
 };
@@ -130,15 +130,15 @@ TEST(SinglePair, EightSpringsOnAMemberSetNoLimitEither)
 			LoadedMass m { 4, 2e5, 0, 4e6, 0, turn / 1e3 };
 			m.points = points;
 			m.displacement.z() = start;
-			const double y = turn * turn, all = double(points) * y;
+			const double y = turn * turn, rate = double(points) * y;
 			// On the orbit of start cos(phase k), as above
-			m.velocity.z() = start * all / (2 + 2 * all * y / (4 * y + 2)) / m.h;
+			m.velocity.z() = start * rate / (2 + 2 * rate * y / (4 * y + 2)) / m.h;
 			double largest = 0;
 			for (int k = 0; k < 200 && largest < 0.1; ++k) {
 				m.step(2000); // coupled points: linear convergence of the sweeps
 				largest = std::max(largest, std::abs(m.displacement.z()));
 			}
-			if (all <= 8 * y + 4) EXPECT_LT(largest, 1.001 * start) << turn << " " << points;
+			if (rate <= 8 * y + 4) EXPECT_LT(largest, 1.001 * start) << turn << " " << points;
 			else EXPECT_GT(largest, 10 * start) << turn << " " << points;
 		}
 }

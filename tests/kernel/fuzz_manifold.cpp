@@ -95,17 +95,17 @@ const std::vector<RoundedPolyhedron>& knownBodies()
 {
 	using namespace shapes;
 	static const std::vector<RoundedPolyhedron> bodies = [] {
-		std::vector<RoundedPolyhedron> all;
+		std::vector<RoundedPolyhedron> shapes;
 		for (const Vec3& extents : { Vec3(0.105, 0.105, 2.73), Vec3(0.105, 7.28, 0.12), Vec3(7.28, 8.19, 0.2),
 		             Vec3(1, 1, 1), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1e-3) })
-			all.push_back(roundedBox(extents));
+			shapes.push_back(roundedBox(extents));
 		for (const auto& points : { Brace { 0.91, 2.73, 0.09, 0.045 }.vertices(),
 		             HipSlab { 8, 0.5, 0.4, 0.12 }.vertices(), tetrahedronVertices(0.3),
 		             octahedronVertices(0.2), hexagonalPrismVertices(0.1, 1.5), pyramidVertices(1, 0.2) }) {
 			const Vec3 centre = massProperties(Polyhedron::fromVertices(points)).centroid;
-			all.push_back(rounded(moved(points, Quat::Identity(), -centre)));
+			shapes.push_back(rounded(moved(points, Quat::Identity(), -centre)));
 		}
-		return all;
+		return shapes;
 	}();
 	return bodies;
 }

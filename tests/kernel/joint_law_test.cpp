@@ -120,11 +120,11 @@ struct Joint {
 	{
 		std::vector<SpringLanes> groups(groupsOf(broken.size()));
 		packSprings(springs(), groups.data());
-		JointForce found;
+		JointForce total;
 		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, groups.data(),
-		        groups.data() + groups.size(), found);
+		        groups.data() + groups.size(), total);
 		unpackSprings(groups.data(), stretches, forces);
-		return found;
+		return total;
 	}
 	/// Pulls the springs; returns the breaks, if the joint is overloaded.
 	std::vector<SpringBreak> breaks()

@@ -43,17 +43,17 @@ struct Assembly {
 	/// Zero for a fixed body.
 	Matrix inverseMass() const
 	{
-		Matrix all = Matrix::Zero(size(), size());
+		Matrix matrix = Matrix::Zero(size(), size());
 		for (size_t k = 0; k < bodies.size(); ++k) {
-			all.block<3, 3>(6 * k, 6 * k) = bodies[k].inverseMass * Mat3::Identity();
-			all.block<3, 3>(6 * k + 3, 6 * k + 3) = bodies[k].inverseInertia;
+			matrix.block<3, 3>(6 * k, 6 * k) = bodies[k].inverseMass * Mat3::Identity();
+			matrix.block<3, 3>(6 * k + 3, 6 * k + 3) = bodies[k].inverseInertia;
 		}
-		return all;
+		return matrix;
 	}
 	/// Sum of the springs of one joint.
 	Matrix stiffness(const Joint& joint) const
 	{
-		Matrix all = Matrix::Zero(size(), size());
+		Matrix matrix = Matrix::Zero(size(), size());
 		const Mat3 k = joint.stiffness.shear * Mat3::Identity()
 		        + (joint.stiffness.normal - joint.stiffness.shear) * joint.normal * joint.normal.transpose();
 		for (size_t i = 0; i < joint.points.size(); ++i) {
@@ -63,22 +63,22 @@ struct Assembly {
 				stretch.block<3, 3>(0, 6 * body + 3)
 				        = -sign * crossMatrix(joint.points[i] - bodies[body].position);
 			}
-			if (!joint.broken[i]) all += stretch.transpose() * k * stretch;
+			if (!joint.broken[i]) matrix += stretch.transpose() * k * stretch;
 		}
-		return all;
+		return matrix;
 	}
 	Matrix stiffness() const
 	{
-		Matrix all = Matrix::Zero(size(), size());
+		Matrix matrix = Matrix::Zero(size(), size());
 		for (const Joint& joint : joints)
-			all += stiffness(joint);
-		return all;
+			matrix += stiffness(joint);
+		return matrix;
 	}
 	/// M^1/2 f(omega^2) M^1/2 of each joint and its bodies, with the eigenvalues omega^2 of M^-1/2 K M^-1/2, by
 	/// another way than the kernel's: in the coordinates of the bodies.
 	template <class Function> Matrix ofModes(Function f) const
 	{
-		Matrix all = Matrix::Zero(size(), size());
+		Matrix matrix = Matrix::Zero(size(), size());
 		const Matrix root = Eigen::SelfAdjointEigenSolver<Matrix>(inverseMass()).operatorSqrt(); // M^-1/2
 		const Matrix inverse = root.completeOrthogonalDecomposition().pseudoInverse();
 		for (const Joint& joint : joints) {
@@ -87,10 +87,10 @@ struct Assembly {
 			const double zero = 1e-12 * modes.eigenvalues().maxCoeff();
 			const Vector values = modes.eigenvalues().unaryExpr(
 			        [&](double square) { return square > zero ? f(joint, square) : 0; });
-			all += inverse * modes.eigenvectors() * values.asDiagonal() * modes.eigenvectors().transpose()
-			        * inverse;
+			matrix += inverse * modes.eigenvectors() * values.asDiagonal()
+			        * modes.eigenvectors().transpose() * inverse;
 		}
-		return all;
+		return matrix;
 	}
 	Matrix damping() const
 	{
@@ -194,26 +194,27 @@ std::vector<Vec3> square(const Vec3& centre, double x, double y)
 /// A body on the ground, held by four springs about its centre: six independent oscillators.
 Assembly oscillator(double ratio)
 {
-	Assembly all { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
-	all.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
-	return all;
+	Assembly assembly { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
+	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
+	return assembly;
 }
 
 /// Ground, slender column and beam with two joints off their centres.
 Assembly chain(double ratio)
 {
-	Assembly all { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
-		               member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
+	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
+		                    member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
 		{} };
-	all.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
-	all.joints.push_back({ 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
-	return all;
+	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back(
+	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
+	return assembly;
 }
 
-Vector randomFree(Random& random, const Assembly& all)
+Vector randomFree(Random& random, const Assembly& assembly)
 {
-	Vector x = Vector::Zero(Eigen::Index(all.size()));
-	for (size_t k = 6; k < all.size(); ++k) // the first body is fixed
+	Vector x = Vector::Zero(Eigen::Index(assembly.size()));
+	for (size_t k = 6; k < assembly.size(); ++k) // the first body is fixed
 		x[Eigen::Index(k)] = uniform(random, -1, 1);
 	return x;
 }
@@ -269,19 +270,20 @@ TEST(Oscillator, StiffSpringsSetNoLimitToTheStep)
 {
 	const double mass = 30, k = 5e7, omega = std::sqrt(k / mass), start = 1e-4;
 	for (const double turn : { 1.1, 2., 10., 300. }) {
-		Assembly all { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
+		Assembly assembly { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
 			{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
 		const double h = turn / omega, y = turn * turn,
 		             phase = std::acos(1 - y / (2 + 2 * y * y / (4 * y + 2)));
 		double x = start;
 		// Half a step earlier, on the orbit of start cos(phase k)
-		all.bodies[1].newVelocity.z() = start * (1 - std::cos(phase)) / h;
-		all.setVelocities(all.velocities());
-		all.stored = { all.velocities().dot(all.newmark(h) * all.velocities()) / 2 };
+		assembly.bodies[1].newVelocity.z() = start * (1 - std::cos(phase)) / h;
+		assembly.setVelocities(assembly.velocities());
+		assembly.stored = { assembly.velocities().dot(assembly.newmark(h) * assembly.velocities()) / 2 };
 		for (int n = 1; n <= 200; ++n) {
-			all.accelerate((Vector(12) << Vector::Zero(8), -h * k * x / mass, Vector::Zero(3)).finished());
-			all.damp(h);
-			x += h * all.bodies[1].newVelocity.z();
+			assembly.accelerate(
+			        (Vector(12) << Vector::Zero(8), -h * k * x / mass, Vector::Zero(3)).finished());
+			assembly.damp(h);
+			x += h * assembly.bodies[1].newVelocity.z();
 			EXPECT_NEAR(x, start * std::cos(phase * n), 1e-9 * start * turn * turn)
 			        << turn << " " << n; // rounding adds up
 		}
@@ -293,13 +295,14 @@ TEST(Chain, LosesTheEnergyThatIsDissipated)
 {
 	Random random(3);
 	for (const double h : { 1e-4, 1e-2, 1., 1e3 }) {
-		Assembly all = chain(1);
-		all.setVelocities(randomFree(random, all));
+		Assembly assembly = chain(1);
+		assembly.setVelocities(randomFree(random, assembly));
 		// Rigid dashpots of light members converge slowly
-		const double before = kineticEnergy(all.bodies), dissipated = all.damp(h, 500000);
-		const double stored = std::accumulate(all.stored.begin(), all.stored.end(), 0.); // by Newmark's term
+		const double before = kineticEnergy(assembly.bodies), dissipated = assembly.damp(h, 500000);
+		const double stored
+		        = std::accumulate(assembly.stored.begin(), assembly.stored.end(), 0.); // by Newmark's term
 		// Residual of the sweeps
-		EXPECT_NEAR(before - kineticEnergy(all.bodies), dissipated + stored, 1e-9 * before) << h;
+		EXPECT_NEAR(before - kineticEnergy(assembly.bodies), dissipated + stored, 1e-9 * before) << h;
 		EXPECT_GE(dissipated, 0) << h;
 	}
 }
@@ -310,17 +313,17 @@ TEST(Chain, SolvesTheDenseSystem)
 	Random random(7);
 	for (const double ratio : { 0.02, 0.3, 1. })
 		for (const double h : { 2.5e-4, 5e-3 }) {
-			Assembly all = chain(ratio);
-			const Matrix W = all.inverseMass(), D = all.damping(), N = all.newmark(h),
+			Assembly assembly = chain(ratio);
+			const Matrix W = assembly.inverseMass(), D = assembly.damping(), N = assembly.newmark(h),
 			             one = Matrix::Identity(18, 18);
-			const Vector v = randomFree(random, all), change = randomFree(random, all);
+			const Vector v = randomFree(random, assembly), change = randomFree(random, assembly);
 			const Vector expected = (one + h / 2 * W * D + W * N)
 			                                .partialPivLu()
 			                                .solve(v + change - h / 2 * W * D * v + W * N * v);
-			all.setVelocities(v);
-			all.accelerate(change);
-			all.damp(h, 5000);
-			EXPECT_LT((all.velocities() - expected).norm(), 1e-9 * expected.norm())
+			assembly.setVelocities(v);
+			assembly.accelerate(change);
+			assembly.damp(h, 5000);
+			EXPECT_LT((assembly.velocities() - expected).norm(), 1e-9 * expected.norm())
 			        << ratio << " " << h; // residual of the sweeps
 		}
 }
@@ -330,13 +333,14 @@ TEST(Chain, ConvergesWithSecondOrderToTheExponential)
 {
 	Random random(11);
 	for (const double ratio : { 0.05, 0.5 }) {
-		Assembly all = chain(ratio);
-		const Vector x0 = 1e-3 * randomFree(random, all), v0 = 0.1 * randomFree(random, all);
+		Assembly assembly = chain(ratio);
+		const Vector x0 = 1e-3 * randomFree(random, assembly), v0 = 0.1 * randomFree(random, assembly);
 		const double time = 0.1;
-		const Vector expected = all.exact(x0, v0, time);
+		const Vector expected = assembly.exact(x0, v0, time);
 		double before = 0;
 		for (const int steps : { 400, 800, 1600 }) {
-			const double error = (all.run(x0, v0, time / steps, steps) - expected).norm() / expected.norm();
+			const double error
+			        = (assembly.run(x0, v0, time / steps, steps) - expected).norm() / expected.norm();
 			if (before > 0) {
 				EXPECT_NEAR(before / error, 4, 0.2) << ratio << " " << steps; // higher orders
 			}
@@ -350,12 +354,12 @@ TEST(Chain, ConvergesWithSecondOrderToTheExponential)
 TEST(Chain, ConservesMomentumAndAngularMomentum)
 {
 	Random random(5);
-	Assembly all = chain(0.5);
-	all.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
-	all.setVelocities(Vector::NullaryExpr(18, [&] { return uniform(random, -1, 1); }));
+	Assembly assembly = chain(0.5);
+	assembly.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
+	assembly.setVelocities(Vector::NullaryExpr(18, [&] { return uniform(random, -1, 1); }));
 	const auto momenta = [&] {
 		Vec6 sum = Vec6::Zero();
-		for (const SolverBody& b : all.bodies) {
+		for (const SolverBody& b : assembly.bodies) {
 			const Vec3 p = b.newVelocity / b.inverseMass;
 			sum.head<3>() += p;
 			sum.tail<3>() += b.position.cross(p) + b.inverseInertia.inverse() * b.newSpin;
@@ -363,21 +367,21 @@ TEST(Chain, ConservesMomentumAndAngularMomentum)
 		return sum;
 	};
 	const Vec6 before = momenta();
-	all.damp(1e-3);
+	assembly.damp(1e-3);
 	EXPECT_LT((momenta() - before).norm(), 1e-12 * before.norm());
 }
 
 TEST(Chain, RigidMotionIsNotDamped)
 {
-	Assembly all = chain(1);
-	all.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
+	Assembly assembly = chain(1);
+	assembly.bodies[0] = member(5, { 0.3, 0.4, 0.2 }, { 0.1, -0.2, -0.5 });
 	const Vec3 spin(0.3, -1, 2);
 	Vector v(18);
 	for (size_t k = 0; k < 3; ++k)
-		v.segment<6>(Eigen::Index(6 * k)) << Vec3(1, 2, 3) + spin.cross(all.bodies[k].position), spin;
-	all.setVelocities(v);
-	all.damp(1e-3);
-	EXPECT_LT((all.velocities() - v).norm(), 1e-12 * v.norm());
+		v.segment<6>(Eigen::Index(6 * k)) << Vec3(1, 2, 3) + spin.cross(assembly.bodies[k].position), spin;
+	assembly.setVelocities(v);
+	assembly.damp(1e-3);
+	EXPECT_LT((assembly.velocities() - v).norm(), 1e-12 * v.norm());
 }
 
 /// A joint with one spring left resists no rotation about it.
@@ -396,16 +400,16 @@ TEST(Oscillator, OneSpringDampsNoRotation)
 /// sweeps = 0: the impulse of the velocities before the step, -h D w.
 TEST(Oscillator, ExplicitWithoutSweeps)
 {
-	Assembly all = chain(0.3);
+	Assembly assembly = chain(0.3);
 	Random random(13);
 	const double h = 1e-5;
-	const Vector v = randomFree(random, all), change = randomFree(random, all);
-	all.setVelocities(v);
-	all.accelerate(change);
-	all.damp(h, 0);
-	const Vector expected = v + change - h * all.inverseMass() * all.damping() * v;
+	const Vector v = randomFree(random, assembly), change = randomFree(random, assembly);
+	assembly.setVelocities(v);
+	assembly.accelerate(change);
+	assembly.damp(h, 0);
+	const Vector expected = v + change - h * assembly.inverseMass() * assembly.damping() * v;
 	// Rounding times the ratio of the column's inertias
-	EXPECT_LT((all.velocities() - expected).norm(), 1e-11 * expected.norm());
+	EXPECT_LT((assembly.velocities() - expected).norm(), 1e-11 * expected.norm());
 }
 
 /// Modes depend on springs, masses, moments of inertia and the orientation of the bodies against each other.
@@ -453,31 +457,32 @@ TEST(JointModes, OldOnesAddNoEnergy)
 {
 	Random random(5);
 	for (int trial = 0; trial < 300; ++trial) {
-		Assembly all = chain(1);
-		all.setVelocities(randomFree(random, all));
-		const double before = kineticEnergy(all.bodies), h = std::pow(10, uniform(random, -5, -2));
+		Assembly assembly = chain(1);
+		assembly.setVelocities(randomFree(random, assembly));
+		const double before = kineticEnergy(assembly.bodies), h = std::pow(10, uniform(random, -5, -2));
 		ContactSolver solver;
-		solver.begin(all.bodies, h, 500);
+		solver.begin(assembly.bodies, h, 500);
 		std::vector<JointModes> modes;
-		for (const Joint& j : all.joints) {
+		for (const Joint& j : assembly.joints) {
 			std::vector<Vec3> anchors = j.points;
 			for (Vec3& point : anchors)
-				point -= all.bodies[j.a].position;
-			modes.push_back(jointModes(all.bodies[j.a], all.bodies[j.b], Mat3::Identity(),
+				point -= assembly.bodies[j.a].position;
+			modes.push_back(jointModes(assembly.bodies[j.a], assembly.bodies[j.b], Mat3::Identity(),
 			        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j)));
 		}
 		// The bodies have turned since then
 		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix();
-		for (size_t k = 0; k < all.joints.size(); ++k)
-			solver.prepareJoint(solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], axes, 1, 0);
+		for (size_t k = 0; k < assembly.joints.size(); ++k)
+			solver.prepareJoint(
+			        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], axes, 1, 0);
 		solver.solve(1e-10);
 		double dissipated = 0, stored = 0;
-		for (size_t k = 0; k < all.joints.size(); ++k) {
+		for (size_t k = 0; k < assembly.joints.size(); ++k) {
 			EXPECT_GE(solver.joint(k).dissipated, -1e-6 * before) << trial << " " << h;
 			dissipated += solver.joint(k).dissipated;
 			stored += solver.joint(k).stored;
 		}
-		EXPECT_NEAR(kineticEnergy(all.bodies) + dissipated + stored, before, 1e-6 * before)
+		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated + stored, before, 1e-6 * before)
 		        << trial << " " << h;
 	}
 }
@@ -486,20 +491,20 @@ TEST(JointModes, OldOnesAddNoEnergy)
 TEST(Chain, IsSolvedTogetherWithContacts)
 {
 	Random random(17);
-	Assembly all = chain(1);
-	all.setVelocities(randomFree(random, all));
+	Assembly assembly = chain(1);
+	assembly.setVelocities(randomFree(random, assembly));
 	const double h = 1e-3;
-	const std::vector<SolverBody> start = all.bodies;
+	const std::vector<SolverBody> start = assembly.bodies;
 	ContactSolver solver;
 	PointRecord record;
-	solver.begin(all.bodies, h, 5000);
+	solver.begin(assembly.bodies, h, 5000);
 	HeapPoint p = central(3000, 50000);
 	p.friction = 1e3; // sticks
 	p.armA = Vec3(0.05, 0.05, 2.8) - start[1].position;
 	p.armB = Vec3(0.05, 0.05, 2.8) - start[2].position;
 	solver.prepare<double>(solver.addPair(1, 2, &record, 1), 0, p);
 	std::vector<JointModes> modes;
-	for (const Joint& j : all.joints) {
+	for (const Joint& j : assembly.joints) {
 		std::vector<Vec3> anchors = j.points;
 		for (Vec3& point : anchors)
 			point -= start[j.a].position;
@@ -508,16 +513,16 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	}
 	for (size_t k = 0; k < 2; ++k)
 		solver.prepareJoint(
-		        solver.addJoint(all.joints[k].a, all.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
+		        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], Mat3::Identity(), 1, 0);
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
 	const Vec3 contact = worldImpulse(record.step);
 	impulse.segment<6>(6) << -contact, -p.armA.cross(contact);
 	impulse.segment<6>(12) << contact, p.armB.cross(contact);
-	const Assembly before { start, all.joints, {} };
-	const Matrix W = all.inverseMass();
-	const Vector v = before.velocities(), after = all.velocities();
-	const Vector expected = v + W * impulse - h / 2 * W * all.damping() * (v + after);
+	const Assembly before { start, assembly.joints, {} };
+	const Matrix W = assembly.inverseMass();
+	const Vector v = before.velocities(), after = assembly.velocities();
+	const Vector expected = v + W * impulse - h / 2 * W * assembly.damping() * (v + after);
 	EXPECT_GT(contact.z(), 0);
 	EXPECT_LT((after - expected).norm(), 1e-8 * expected.norm()); // residual of the sweeps
 }

@@ -154,13 +154,13 @@ TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 	const Quat onEdge = about({ 1, 0, 0 }, M_PI / 4);
 	const Pose below { { 0, 0, 0 }, onEdge }, above { { 0, 0, height }, onEdge };
 	EXPECT_TRUE(contacts(lower, upper, below, above).empty());
-	const Patterns all { true, true };
-	auto points = contacts(lower, upper, below, above, all);
+	const Patterns both { true, true };
+	auto points = contacts(lower, upper, below, above, both);
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 2);
 	expectPositions(points, { { 0.48, 0, height / 2 }, { -0.48, 0, height / 2 } });
 	for (const auto& p : points)
 		expectPoint(p, Vec3::UnitZ(), press);
-	points = contacts(lower, lower, below, above, all); // flush ends: one contact at each end
+	points = contacts(lower, lower, below, above, both); // flush ends: one contact at each end
 	expectPositions(points, { { 0.98, 0, height / 2 }, { -0.98, 0, height / 2 } });
 }
 

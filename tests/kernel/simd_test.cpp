@@ -361,11 +361,11 @@ TEST(LanesOfAFace, OverAndInsideAreThoseOfEachPoint)
 		std::vector<Vec3> points(laneCount);
 		for (Vec3& x : points)
 			x = Vec3(0.5, 0.05, 0.15) + randomVector(random, 0.7);
-		const Group<Lanes, const Vec3> all(points.data(), points.size());
+		const Group<Lanes, const Vec3> group(points.data(), points.size());
 		const double limit = uniform(random, -0.05, 0.05);
 		for (int f = 0; f < int(wedge.faces.size()); ++f) {
-			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], all.vectors(), Lanes(limit)),
-			                  inside = isInsideOtherFaces(wedge, f, all.vectors(), Lanes(limit));
+			const Lanes::Mask over = projectsOntoFace(wedge.faces[f], group.vectors(), Lanes(limit)),
+			                  inside = isInsideOtherFaces(wedge, f, group.vectors(), Lanes(limit));
 			for (int i = 0; i < laneCount; ++i) {
 				EXPECT_EQ(over[i] != 0, projectsOntoFace<double>(wedge.faces[f], points[i], limit));
 				EXPECT_EQ(inside[i] != 0, isInsideOtherFaces<double>(wedge, f, points[i], limit));
