@@ -168,7 +168,7 @@ def balance(steps):
         O.dt = chance.choice(steps)
         for _ in range(round(SAMPLE / O.dt)):
             O.step()
-        residuals.append(yt.energy_residual(yt.energy()))
+        residuals.append(yt.energy_residual())
     terms = yt.energy()
     return max(residuals) / (abs(terms["ground_motion"]) + max(0.0, -terms["gravity"]))
 

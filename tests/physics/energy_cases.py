@@ -48,7 +48,7 @@ def balance(duration):
     """Energy balance over time: terms {name: (m,) [J]}; 'input' is the work of ground motion and gravity, 'residual'
     the error of the balance."""
     names = sorted(yt.energy())
-    rows = recorded(duration, EVERY, lambda: [yt.energy()[n] for n in names] + [yt.energy_residual(yt.energy())])
+    rows = recorded(duration, EVERY, lambda: [yt.energy()[n] for n in names] + [yt.energy_residual()])
     terms = dict(zip(names, rows.T))
     return {**terms, "input": terms["ground_motion"] - terms["gravity"], "residual": rows[:, -1] - rows[0, -1]}
 
@@ -109,9 +109,9 @@ def brace_impact(speed, dt, phase):
     O.engines, O.dt = yt.engines(gravity=(0, 0, 0)), dt
     yt.set_velocity(brace, (0, 0, -speed))
     O.run(1, True)
-    kinetic, before = yt.energy()["kinetic"], yt.energy_residual(yt.energy())
+    kinetic, before = yt.energy()["kinetic"], yt.energy_residual()
     O.run(math.ceil(0.01 / dt), True)
-    return (yt.energy_residual(yt.energy()) - before) / kinetic
+    return (yt.energy_residual() - before) / kinetic
 
 
 @case

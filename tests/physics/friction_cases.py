@@ -106,7 +106,7 @@ def sliding_run(dt, v=1.0, orientation=Quaternion.Identity, origin=Vector3.Zero)
 
 def residual():
     """Residual of the energy balance. [J]"""
-    return yt.energy_residual(yt.energy())
+    return yt.energy_residual()
 
 
 def dissipated():

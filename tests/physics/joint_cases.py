@@ -278,7 +278,7 @@ def swing(dt, count, ks=1.0):
     def probe():
         angular = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)), Vector3.Zero)
         linear = sum((b.state.mass * b.state.vel for b in (beam, column)), Vector3.Zero)
-        return [yt.energy_residual(yt.energy()), *linear, *angular]
+        return [yt.energy_residual(), *linear, *angular]
 
     O.step()
     first = np.array(probe())

@@ -138,7 +138,7 @@ def oscillate(dt, speed, duration=0.5):
     _, column, joint = yielding(dt, fixed=True)
     yt.set_velocity(column, (0, 0, speed))
     start = column.state.mass * speed**2 / 2
-    residuals = steps(round(duration / dt), lambda: yt.energy_residual(yt.energy()))
+    residuals = steps(round(duration / dt), lambda: yt.energy_residual())
     return max(joint.largestStretches), abs(residuals).max() / start, yt.energy()["joint_yield"] / start
 
 

@@ -88,19 +88,20 @@ def energy():
     return Energies(yw.HouseMonitor().energy() | {IMPOSED: float(O.tags[TAG]) if TAG in O.tags.keys() else 0.0})
 
 
-def energy_residual(terms):
+def energy_residual(terms=None):
     """Residual of the energy balance; zero at the start of a scene at rest, also after `set_velocity`.
 
     Parameters
     ----------
     terms : dict
-        From `energy`.
+        From `energy` (default: those of the present state).
 
     Returns
     -------
     float
         [J]
     """
+    terms = energy() if terms is None else terms
     arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
     supplied, others = (sum(value for name, value in terms.items() if SIGNS.get(name, 1) == sign) for sign in (-1, 1))
     return others - supplied
@@ -111,7 +112,7 @@ def imposed_velocities():
     """Context between two steps; what velocities that are set in it change in the energy balance is booked as imposed.
     """
     with between_steps():
-        before = energy_residual(energy())
+        before = energy_residual()
         yield
         terms = energy()
         O.tags[TAG] = repr(terms[IMPOSED] + energy_residual(terms) - before)
