@@ -24,7 +24,7 @@ from . import host as _host
 from . import house, motion, run
 from .api.house import House
 from .api.motion import ground_motion as _ground_motion
-from .api.result import RunResult, load_run
+from .api.result import RunResult, load_run  # noqa: F401
 from .api.run import run as _run
 from .base.callable_package import make_callable as _make_callable
 

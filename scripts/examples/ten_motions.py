@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One house under ten motions of the same published strength: bands of the storey drift.
 
-    yade -n -x scripts/examples/ten_motions.py [--house storehouse] [--duration S] [--out DIR]
+    yade -n -x scripts/examples/ten_motions.py [--house storehouse] [--motions 10] [--duration S] [--out DIR]
 
-Writes the results of ten runs, bands.png, and peaks.csv with the peak drift of each motion.
+Writes the results of the runs, bands.png, and peaks.csv with the peak drift of each motion.
 """
 import argparse
 from pathlib import Path
@@ -16,7 +16,6 @@ from yade_timber.base.colors import BLUE, ORANGE
 from yade_timber.base.table import csv_text
 from yade_timber.text.english import DRIFT_LINES, ratio
 
-SEEDS = range(1, 11)
 START = 17.0
 """The motions are cut there; strong shaking begins at about 19 s. [s]"""
 
@@ -24,6 +23,7 @@ START = 17.0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--house", default="storehouse", help="shipped house or house file (default %(default)s)")
+    parser.add_argument("--motions", type=int, default=10, help="number of motions (default %(default)s)")
     parser.add_argument("--duration", type=float, default=10.0,
                         help="simulated time of each run [s] (default %(default)g)")
     parser.add_argument("--out", type=Path, default=Path("results/ten_motions"), help="folder (default %(default)s)")
@@ -37,11 +37,11 @@ def plot(house, runs, path):
     low, first, median, third, high = np.percentile(so_far, (0, 25, 50, 75, 100), axis=0)
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.6), width_ratios=[3, 1], sharey=True,
                                          constrained_layout=True)
-    left.fill_between(time, low, high, color=BLUE, alpha=0.15, lw=0, label="all ten motions")
+    left.fill_between(time, low, high, color=BLUE, alpha=0.15, lw=0, label="all motions")
     left.fill_between(time, first, third, color=BLUE, alpha=0.35, lw=0, label="quartiles")
     left.plot(time, median, color=BLUE, lw=1.2, label="median")
     left.set(xlabel="time [s]", ylabel="largest storey drift so far [-]", xlim=(0, time[-1]), ylim=(0, 1.15 * high[-1]))
-    left.set_title(f"House {house.name}, ten motions")
+    left.set_title(f"House {house.name}, {len(runs)} motions")
     left.legend(loc="upper left")
     right.plot((np.arange(len(runs)) + 0.5) / len(runs), np.sort(so_far[:, -1]), "o", color=ORANGE)
     right.set(xlabel="share of motions [-]", xlim=(0, 1), xticks=(0, 0.5, 1),
@@ -57,14 +57,14 @@ def plot(house, runs, path):
 
 def main():
     options = arguments()
-    house = yt.house(options.house)
+    house, seeds = yt.house(options.house), range(1, options.motions + 1)
     runs = [
         yt.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
                no_frames=True)
-        for seed in SEEDS
+        for seed in seeds
     ]
     plot(house, runs, options.out / "bands.png")
-    rows = [(seed, run.drift, run.broken, run.collapsed) for seed, run in zip(SEEDS, runs)]
+    rows = [(seed, run.drift, run.broken, run.collapsed) for seed, run in zip(seeds, runs)]
     (options.out / "peaks.csv").write_text(csv_text(("seed", "peak drift [-]", "broken joints [-]", "collapsed"), rows))
 
 

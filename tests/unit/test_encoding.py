@@ -1,3 +1,4 @@
+# runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Names in any encoding and cells that a spreadsheet would evaluate: a run ends with its results, a table is text, no
 file is quoted.
