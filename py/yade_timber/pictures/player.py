@@ -97,11 +97,9 @@ def info(run, largest):
                    else f"Not ended yet: the first {run.time[-1]:.1f} s"),
         "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
         "origin": plain(provenance(run)),
-        "elements": [
-            {"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
-             **uplift(largest, name)}
-            for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)
-        ],
+        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
+                      **uplift(largest, name)}
+                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
         "joint_list": [

@@ -35,19 +35,13 @@ PATIENCE = 120.0
 COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
 CAVEATS = (
     "Members are rigid: they neither bend nor split; only joints and contacts deform.",
-    (
-        "Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
-        " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
-        " house."
-    ),
-    (
-        "Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
-        " several motions."
-    ),
-    (
-        "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report"
-        " certifies no house; ask an engineer."
-    ),
+    ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
+     " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
+     " house."),
+    ("Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
+     " several motions."),
+    ("Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies"
+     " no house; ask an engineer."),
 )
 """Limits of the model that a reader of one result must know (docs/limits.md)."""
 LIGHT = 1.5
@@ -111,12 +105,10 @@ def house(frames, summary, failures):
     counts = {"column": kinds.count("column"), "brace": kinds.count("brace"), "walled bay": len(panels(frames, 0))}
     (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
-    marks = {
-        "blue: braces (thin end: foot)": counts["brace"],
-        "green: walls (dotted: with an opening)": counts["walled bay"],
-        "orange: joints broken from the start": any(frames.joints.damaged),
-        "numbers: first failures": failures,
-    }
+    marks = {"blue: braces (thin end: foot)": counts["brace"],
+             "green: walls (dotted: with an opening)": counts["walled bay"],
+             "orange: joints broken from the start": any(frames.joints.damaged),
+             "numbers: first failures": failures}
     legend = "; ".join(["Plans, north up", *(mark for mark, occurs in marks.items() if occurs)])
     periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
                         if (mode := summary.main_mode("before", axis)))
@@ -163,11 +155,9 @@ def motion(frames, summary):
 def joints(results):
     """Rows of the table of the joints most loaded."""
     units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
-    return [
-        {"joint": joint_name(row["joint"]), "state": row["state"],
-         "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
-        for row in results.joints[:JOINTS_SHOWN]
-    ]
+    return [{"joint": joint_name(row["joint"]), "state": row["state"],
+             "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
+            for row in results.joints[:JOINTS_SHOWN]]
 
 
 def failed_joints(frames, results, failures):
@@ -218,20 +208,16 @@ def joint_name(name):
 def caveats(summary):
     """Limits of the model that matter for this run."""
     per_area = summary.weight.per_floor_area_kn_m2
-    light = (
-        f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load"
-        " weigh 2.5 to 3 kN per m²."
-    )
+    light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
+             " load weigh 2.5 to 3 kN per m².")
     return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
 def versions(summary):
     """Versions of the run's programs and files, and its time step."""
     versions, origin = summary.versions, summary.made_from
-    return (
-        f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files {origin['files']};"
-        f" time step {summary.dt:g} s."
-    )
+    return (f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files"
+            f" {origin['files']}; time step {summary.dt:g} s.")
 
 
 def command(options):

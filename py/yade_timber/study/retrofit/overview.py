@@ -16,12 +16,10 @@ HEADER = ("rank", "candidate", "description", "motions", "ratio", "collapses", "
 
 def table_text(results):
     """Text of retrofit.csv. results: of race.ranking"""
-    rows = [
-        (rank, r.entry.candidate.name, r.entry.candidate.text, r.motions, r.ratio, r.collapses, r.house_collapses,
-         "" if r.p is None else r.p,
-         "" if r.p is None else "collapses" if r.comparison.by_collapses else "drifts", r.words)
-        for rank, r in enumerate(results, 1)
-    ]
+    rows = [(rank, r.entry.candidate.name, r.entry.candidate.text, r.motions, r.ratio, r.collapses, r.house_collapses,
+             "" if r.p is None else r.p,
+             "" if r.p is None else "collapses" if r.comparison.by_collapses else "drifts", r.words)
+            for rank, r in enumerate(results, 1)]
     return csv_text(HEADER, rows)
 
 
@@ -29,10 +27,8 @@ def summary(results):
     """What the ranking shows, in a sentence."""
     better = [result for result in results if result.words == "better"]
     if better:
-        return (
-            "Shown to be better than the house as it is:"
-            f" {'; '.join(f'{result.entry.candidate.text} ({result.why})' for result in better)}."
-        )
+        return ("Shown to be better than the house as it is:"
+                f" {'; '.join(f'{result.entry.candidate.text} ({result.why})' for result in better)}.")
     tested = "; ".join(f"{result.entry.candidate.text} ({result.why})" for result in results if result.p is not None)
     return f"No measure is shown to be better than the house as it is: {NO_DIFFERENCE}. Tested: {tested}."
 
