@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${architecture})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # The module fits one build of YADE; its other libraries come with it.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "yade (= ${yade_package_version}), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-pil, python3-moderngl, libegl1, libgl1-mesa-dri, python3-yaml, python3-tqdm, libtbb12")
+  "yade (= ${yade_package_version}), python3-numpy, python3-scipy, python3-h5py, python3-jinja2, python3-matplotlib, python3-pil, python3-moderngl, libegl1, libgl1-mesa-dri, python3-yaml, python3-tqdm, libtbb12")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9, ffmpeg, fonts-ipafont-gothic") # yade-timber vtk and film, Japanese names
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_SET_DESTDIR ON)

@@ -69,8 +69,6 @@ def __dir__():
 def __getattr__(name):
     """A useful message for the names that need a YADE session."""
     if name in IN_YADE:
-        raise AttributeError(
-            f"yade_timber.{name} needs YADE: import yade_timber in a YADE session, or start the script with `yade -n -x"
-            " script.py`"
-        )
+        raise AttributeError(f"yade_timber.{name} needs YADE: import yade_timber in a YADE session, or start the script"
+                             " with `yade -n -x script.py`")
     raise AttributeError(f"module 'yade_timber' has no attribute '{name}'")

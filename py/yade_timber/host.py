@@ -54,26 +54,21 @@ def check_build(record: dict, host: dict) -> None:
     """Raise ImportError unless a build record (see build_record) fits a host (see host_facts)."""
     for key, noun in (("yade", "YADE"), ("python", "Python")):
         if record[key] != host[key]:
-            raise ImportError(
-                f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}. {REMEDY}"
-            )
+            raise ImportError(f"yade-timber was built for {noun} {record[key]}, but this is {noun} {host[key]}."
+                              f" {REMEDY}")
     built, features = set(record["features"].split()), set(host["features"].split())
     if built != features:
         changes = [f"+{name}" for name in sorted(features - built)] + [f"-{name}" for name in sorted(built - features)]
-        raise ImportError(
-            f"yade-timber was built for YADE {record['yade']} with other features: this host has {' '.join(changes)}."
-            f" {REMEDY}"
-        )
+        raise ImportError(f"yade-timber was built for YADE {record['yade']} with other features: this host has"
+                          f" {' '.join(changes)}. {REMEDY}")
 
 
 def check_value(place: str, expected, actual, record: dict, host: dict) -> None:
     """Raise ImportError unless a value stored at `place` ("Class.attribute (direction)") came back unchanged."""
     if not expected == actual:  # a NaN differs, too
-        raise ImportError(
-            f"YADE's {place}: stored {expected!r}, read back {actual!r}; the layout of the class differs between the"
-            f" running YADE {host['yade']} and the headers ({record['headers']}) that yade-timber was built with."
-            f" {REMEDY}"
-        )
+        raise ImportError(f"YADE's {place}: stored {expected!r}, read back {actual!r}; the layout of the class differs"
+                          f" between the running YADE {host['yade']} and the headers ({record['headers']}) that"
+                          f" yade-timber was built with. {REMEDY}")
 
 
 def _sentinel(wrapper, default, pointee: str, number: int):

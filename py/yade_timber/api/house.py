@@ -38,10 +38,8 @@ class House:
     def __repr__(self):
         model = self.model()
         mass = sum(element.mass for element in model.elements if not element.fixed and element.kind != "snow") / 1000
-        return (
-            f"<House {self.name}: {len(model.elements)} elements, {model.joints_text}, {mass:.1f} t of timber;"
-            f" {self.path.name}>"
-        )
+        return (f"<House {self.name}: {len(model.elements)} elements, {model.joints_text}, {mass:.1f} t of timber;"
+                f" {self.path.name}>")
 
     @property
     def name(self):

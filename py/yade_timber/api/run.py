@@ -91,9 +91,8 @@ def _complete(options):
     except Interrupted as stop:
         if stop.number == signal.SIGTERM:
             raise SystemExit(128 + stop.number) from None
-        raise KeyboardInterrupt(
-            f"stopped at {stop.time:.2f} s; yt.run(..., out='{options.folder}', resume=True) continues"
-        ) from None
+        raise KeyboardInterrupt(f"stopped at {stop.time:.2f} s; yt.run(..., out='{options.folder}', resume=True)"
+                                " continues") from None
     return RunResult(options.folder)
 
 

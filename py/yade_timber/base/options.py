@@ -49,13 +49,11 @@ def check_ranges(values, name, error):
         if value is None:
             continue
         if choices and value not in choices:
-            raise error(
-                f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)}; {each.metadata['help']}"
-            )
+            raise error(f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)};"
+                        f" {each.metadata['help']}")
         if low is not None and not low <= value <= high:
-            raise error(
-                f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)}; {each.metadata['help']}"
-            )
+            raise error(f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)};"
+                        f" {each.metadata['help']}")
 
 
 def _number(value):
@@ -79,9 +77,8 @@ def read(each, text, name):
     try:
         return FLAGS[text.lower()] if kind is bool else kind(text)
     except (ValueError, KeyError):
-        raise RunError(
-            f"{name} {shown(text)}: must be {KINDS[kind][0]}{decimal_point(text)}; {each.metadata['help']}"
-        ) from None
+        raise RunError(f"{name} {shown(text)}: must be {KINDS[kind][0]}{decimal_point(text)};"
+                       f" {each.metadata['help']}") from None
 
 
 def add_options(parser, wanted):

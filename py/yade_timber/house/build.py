@@ -58,16 +58,12 @@ def _require_storeys(structures):
     """HouseError for columns without a layer, and for a first structure without a storey: its drifts are reported."""
     for name, structure in structures.items():
         if structure.table["columns"] and not structure.storeys:
-            raise HouseError(
-                f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; "
-                "add one or remove the columns"
-            )
+            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of"
+                             " columns; add one or remove the columns")
     name, main = next(iter(structures.items()))
     if not main.storeys:
-        raise HouseError(
-            f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its storey drifts"
-            " are reported; put a structure with columns first"
-        )
+        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its"
+                         " storey drifts are reported; put a structure with columns first")
 
 
 def _snow_depth(data, snow_depth):
@@ -119,10 +115,8 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        raise HouseError(
-            f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at least"
-            f" {2 * reach:.3g} m"
-        )
+        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at"
+                         f" least {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True,

@@ -56,11 +56,9 @@ def _report_loose_end(member, end, touching):
     z = member.solid.bounds[0 if end == "bottom" else 1][2]
     place, where = f"{member.source}: {member.kind} {member.name}", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
     for mate, area in _lying_at(member, end, touching):
-        raise HouseError(
-            f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches"
-            f" {mate.kind} {mate.name} at {where}; add a rule for {member.kind} and {mate.kind} to 'joints', or enlarge"
-            " the contact area (joint_search.min_area)"
-        )
+        raise HouseError(f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches"
+                         f" {mate.kind} {mate.name} at {where}; add a rule for {member.kind} and {mate.kind} to"
+                         " 'joints', or enlarge the contact area (joint_search.min_area)")
     verb = "stands on nothing" if end == "bottom" else "supports nothing"
     raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
 
@@ -104,8 +102,6 @@ def _add_support(supports, a, b):
 def _report_unsupported(element, others):
     x, y, _ = element.solid.centroid
     more = f" (and {others} more elements)" if others else ""
-    raise HouseError(
-        f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
-        f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it (a rule in"
-        f" 'joints') or remove it{more}"
-    )
+    raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
+                     f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it"
+                     f" (a rule in 'joints') or remove it{more}")

@@ -27,10 +27,8 @@ def _break(joints, structure, region, kind, default_end, path):
     candidates = [j for j in joints
              if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
     if wanted["count"] > len(candidates):
-        raise HouseError(
-            f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall of"
-            f" {structure.name} has {len(candidates)} at the {end} of storey {storey}; lower the count"
-        )
+        raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall"
+                         f" of {structure.name} has {len(candidates)} at the {end} of storey {storey}; lower the count")
     for joint in nearest_to_middle(candidates, structure, side)[: wanted["count"]]:
         joint.broken = True
 

@@ -60,14 +60,10 @@ def house_path(name):
         if is_file(path):
             return path
     if is_folder(own[0]):
-        raise HouseError(
-            f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house"
-            f" ({', '.join(shipped_houses())})"
-        )
-    raise HouseError(
-        f"unknown house {shown(str(name))}: no such regular file and no shipped house;"
-        f" {nearest(name, shipped_houses())}"
-    )
+        raise HouseError(f"unknown house {shown(str(name))}: is a folder; give a house file or a shipped house"
+                         f" ({', '.join(shipped_houses())})")
+    raise HouseError(f"unknown house {shown(str(name))}: no such regular file and no shipped house;"
+                     f" {nearest(name, shipped_houses())}")
 
 
 def _check_references(data):

@@ -80,11 +80,9 @@ def sentence(diagnosis):
     """
     if diagnosis["iw"] is None:
         return "no seismic index: the rules are for one to three storeys with a floor area"
-    return (
-        f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
-        f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
-        f" ({diagnosis['wall_quantity_at']})"
-    )
+    return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
+            f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
+            f" ({diagnosis['wall_quantity_at']})")
 
 
 def comparison(summary):
@@ -108,10 +106,8 @@ def _circumstances(summary):
     if summary.earthquake:
         peak = max(summary.record.pga_gal[axis] for axis in DIRECTIONS) / 100
         than = "stronger" if peak > rules.VERY_RARE_PEAK else "weaker"
-        parts = [
-            f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's"
-            " earthquake"
-        ]
+        parts = [f"peak acceleration {peak:.1f} m/s2, {than} than the {rules.VERY_RARE_PEAK:g} m/s2 of the index's"
+                 " earthquake"]
     if summary.snow_depth_m:
         parts.append(f"snow {summary.snow_depth_m:g} m")
     if summary.diagnosis.broken_from_start:
@@ -122,12 +118,10 @@ def _circumstances(summary):
 def _structure(model, group):
     storeys, bays = sorted(model.storey_levels[group]), _bays(model, group)
     roof = _roof_class(model, group)
-    return {
-        "roof": roof,
-        "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
-                    for storey in storeys},
-        "uplift": _uplift(model, group, bays),
-    }
+    return {"roof": roof,
+            "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
+                        for storey in storeys},
+            "uplift": _uplift(model, group, bays)}
 
 
 @dataclass(frozen=True)
@@ -154,13 +148,11 @@ class _Rules:
 def _storey(model, group, storey, required, bays):
     here, area = [bay for bay in bays if bay.low.storey == storey], floor_area(model, group, storey)
     eccentricity = _eccentricities(here, _mass_centre(model, group, storey))
-    return {
-        "floor_area_m2": round(area, 3),
-        "directions": {
-            name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
-            for name, axis in DIRECTIONS.items()
-        },
-    }
+    return {"floor_area_m2": round(area, 3),
+            "directions": {
+                name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
+                for name, axis in DIRECTIONS.items()
+            }}
 
 
 def _direction(bays, axis, area, eccentricity, place):
@@ -266,10 +258,8 @@ def _bays(model, group):
 def _sheets(model, group):
     """(column, column, multiplier) of sheets without openings."""
     for joint in model.joints:
-        if (
-            joint.kind == WALL_COLUMN and joint.group == group and not joint.broken
-            and not joint.label.endswith((".window.columns", ".door.columns"))
-        ):
+        has_opening = joint.label.endswith((".window.columns", ".door.columns"))
+        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not has_opening:
             yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
 
 

@@ -22,8 +22,6 @@ def check_friction(data):
     own = {name: own_coefficient(name, material["law"], pairs) for name, material in data["materials"].items()}
     for entry, (a, b, wanted) in zip(data["friction"], pairs):
         if wanted != min(own[a], own[b]):
-            raise HouseError(
-                f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}; it must be {min(own[a], own[b]):g},"
-                f" the smaller coefficient of {a} ({own[a]:g}) and {b} ({own[b]:g}); change the pairs [{a}, {a}] and"
-                f" [{b}, {b}], too"
-            )
+            raise HouseError(f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}; it must be"
+                             f" {min(own[a], own[b]):g}, the smaller coefficient of {a} ({own[a]:g}) and {b}"
+                             f" ({own[b]:g}); change the pairs [{a}, {a}] and [{b}, {b}], too")

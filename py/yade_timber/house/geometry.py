@@ -51,9 +51,8 @@ class Polyhedron:
         except (QhullError, ValueError):
             raise ValueError("vertices are flat, too few or not finite") from None
         if len(hull.vertices) != len(self.vertices):
-            raise ValueError(
-                f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside the convex hull"
-            )
+            raise ValueError(f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside"
+                             " the convex hull")
         return hull
 
     @cached_property

@@ -46,10 +46,8 @@ def near_pairs(elements, margin):
         near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
         pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
         if len(pairs) > MAX_PAIRS:
-            raise HouseError(
-                f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements touch or"
-                " overlap by their bounding boxes; move members apart"
-            )
+            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements"
+                             " touch or overlap by their bounding boxes; move members apart")
     return pairs
 
 

@@ -32,11 +32,9 @@ nodes = ListOf(node, scalar=True, most=MAX_LINES)
 storey = Number("", 1, MAX_STOREYS, whole=True)
 storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
 
-axis = Record(
-    {"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
-     "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)},
-    one_of=("module", "positions"),
-)
+axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
+               "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)},
+              one_of=("module", "positions"))
 
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
 
@@ -107,10 +105,8 @@ material = Variants(
             {"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000), "young": Number("Pa", 1e6, 1e12),
              "poisson": Number("", 0.0, 0.49)}
         ),  # of known materials; TimberMat takes (-1, 0.5]
-        "snow": Record(
-            {"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
-             "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}
-        ),
+        "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
+                        "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
     },
 )
 
@@ -124,17 +120,13 @@ SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
 
 _drift = Number("rad", 1e-4, 1.0, default=None)
-board = Record(
-    {"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
-     "thickness": length(0.001, 0.2), "shear_modulus": Number("Pa", 1e6, 1e11),
-     "edge": length(high=0.1, default=0.01, open_low=False)}
-)
-nails = Record(
-    {"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None),
-     "du": length(1e-4, 0.5), "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None),
-     "board": board, "height": length(0.1, 20.0, default=None)},
-    default=None,
-)
+board = Record({"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
+                "thickness": length(0.001, 0.2), "shear_modulus": Number("Pa", 1e6, 1e11),
+                "edge": length(high=0.1, default=0.01, open_low=False)})
+nails = Record({"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None),
+                "du": length(1e-4, 0.5), "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None),
+                "board": board, "height": length(0.1, 20.0, default=None)},
+               default=None)
 wall_type = Record(
     {"multiplier": Number("", 0.1, 20.0, default=None), "strength": Number("N/m", 10.0, 1e6, default=None),
      "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),

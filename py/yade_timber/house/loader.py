@@ -40,10 +40,8 @@ def _chain(path):
     while path is not None:
         files = [file for file, _ in links]
         if path.resolve() in [file.resolve() for file in files]:
-            raise HouseError(
-                f"{where}: extends: the file extends itself through {' -> '.join(file.name for file in files)}; remove"
-                " one 'extends'"
-            )
+            raise HouseError(f"{where}: extends: the file extends itself through"
+                             f" {' -> '.join(file.name for file in files)}; remove one 'extends'")
         if len(links) == MAX_FILES:
             raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
         table, nodes = parse_table(text_of(path), path.name, nodes_left)
@@ -71,10 +69,8 @@ def _extended(path, table):
         raise HouseError(f"{table.at('extends')}: extends: expected the name of a file, got {shown(parent)}")
     file = next((p for p in (path.parent / parent, *shipped_paths(parent)) if is_file(p)), None)
     if file is None:
-        raise HouseError(
-            f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped house of that"
-            f" name ({', '.join([*COMMON, *shipped_houses()])})"
-        )
+        raise HouseError(f"{table.at('extends')}: extends: no file {shown(parent)} beside {path.name}, and no shipped"
+                         f" house of that name ({', '.join([*COMMON, *shipped_houses()])})")
     require_house_file(file, f"{table.at('extends')}: extends")
     return file
 
@@ -82,9 +78,8 @@ def _extended(path, table):
 def require_house_file(path, where):
     """Refuse a file that is no house file by its name: messages about its content would quote it."""
     if path.resolve().suffix not in SUFFIXES:
-        raise HouseError(
-            f"{where}: {shown(path.name)} is not a house file; its name must end in {' or '.join(SUFFIXES)}"
-        )
+        raise HouseError(f"{where}: {shown(path.name)} is not a house file; its name must end in"
+                         f" {' or '.join(SUFFIXES)}")
 
 
 def shipped_houses():

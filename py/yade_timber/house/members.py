@@ -30,15 +30,12 @@ def _single_lines(structure, lines):
         structure.check_nodes(line["along"], (line["from"], line["to"]), line.at("from"))
         structure.check_nodes(across, line["at"], line.at("at"))
         if line["from"] >= line["to"]:
-            raise HouseError(
-                f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to {line['to']:g}; 'from' must"
-                " be below 'to'"
-            )
+            raise HouseError(f"{line.at('from')}: {structure.name}: a line runs from {line['from']:g} to"
+                             f" {line['to']:g}; 'from' must be below 'to'")
         single += [{**line, "at": at, "where": line.where} for at in line["at"]]
         if len(single) > MAX_LINES:
-            raise HouseError(
-                f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list; remove some"
-            )
+            raise HouseError(f"{line.at('at')}: structures.{structure.name}: more than {MAX_LINES} lines in one list;"
+                             " remove some")
     return single
 
 
@@ -112,10 +109,8 @@ def column_plan(structure, storey):
                 plan[x, y] = (group["section"], group.where)
                 require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
             elif group["lines"] is None:
-                raise HouseError(
-                    f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey {storey} "
-                    f"(first in {plan[x, y][1]}); remove one of them"
-                )
+                raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey"
+                                 f" {storey} (first in {plan[x, y][1]}); remove one of them")
     return plan
 
 

@@ -39,9 +39,8 @@ class Element:
             polyhedron = Polyhedron(np.asarray(self.vertices, float))
             polyhedron.hull
         except ValueError as problem:
-            raise HouseError(
-                f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its dimensions"
-            ) from None
+            raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its"
+                             " dimensions") from None
         return polyhedron
 
     def move(self, vertices):
@@ -123,10 +122,8 @@ class HouseModel:
     multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
 
     def __repr__(self):
-        return (
-            f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of"
-            " snow>"
-        )
+        return (f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of"
+                " snow>")
 
     @cached_property
     def by_name(self):

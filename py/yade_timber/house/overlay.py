@@ -85,9 +85,8 @@ def _steps(key, where):
     for part in parts:
         match = _STEP.fullmatch(part)
         if match is None:
-            raise HouseError(
-                f"{where}: {shown(key)} is not a key; write it like materials.timber.density or friction[1].coefficient"
-            )
+            raise HouseError(f"{where}: {shown(key)} is not a key; write it like materials.timber.density or"
+                             " friction[1].coefficient")
         steps += [match.group(1), *(int(number) - 1 for number in re.findall(r"\d+", match.group(2)))]
     return steps
 
@@ -111,9 +110,8 @@ def _put(node, step, value, key, where):
 
 def _require_item(node, step, key, where):
     if not isinstance(step, int) or not isinstance(node, Items):
-        raise HouseError(
-            f"{where}: {key}: there is no table or list at '{step if isinstance(step, str) else f'[{step + 1}]'}'"
-        )
+        raise HouseError(f"{where}: {key}: there is no table or list at"
+                         f" '{step if isinstance(step, str) else f'[{step + 1}]'}'")
     if not 0 <= step < len(node):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
 
@@ -125,10 +123,8 @@ def brace_parts(name, where="brace"):
     """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0); raises HouseError."""
     match = _BRACE.fullmatch(name)
     if match is None:
-        raise HouseError(
-            f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
-            " main.wall2.NS.x8.6-7.plywood"
-        )
+        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
+                         " main.wall2.NS.x8.6-7.plywood")
     return _parts(match)
 
 
@@ -170,9 +166,8 @@ def _append(lines, line, where):
 
 def _strengthen(data, factor, where):
     if not MIN_FACTOR <= factor <= MAX_FACTOR:
-        raise HouseError(
-            f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g}, {MAX_FACTOR:g}]"
-        )
+        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g},"
+                         f" {MAX_FACTOR:g}]")
     for table in (*data["joint_types"].values(), *data["joints"].values()):
         if table.get("strength") is not None:
             table["strength"] *= factor

@@ -95,15 +95,11 @@ class _Parser(yaml.SafeLoader):
 
     def _check_size(self, count, depth, mark):
         if count > self.max_nodes:
-            raise HouseError(
-                f"{self._where(mark)}: more than {MAX_NODES} values, aliases and extended files included; make the"
-                " house smaller"
-            )
+            raise HouseError(f"{self._where(mark)}: more than {MAX_NODES} values, aliases and extended files included;"
+                             " make the house smaller")
         if depth > MAX_DEPTH:
-            raise HouseError(
-                f"{self._where(mark)}: nested more than {MAX_DEPTH} levels deep, or an entry contains itself; remove"
-                " levels"
-            )
+            raise HouseError(f"{self._where(mark)}: nested more than {MAX_DEPTH} levels deep, or an entry contains"
+                             " itself; remove levels")
 
     def _convert(self, node, depth):
         if node is None:
@@ -131,10 +127,8 @@ class _Parser(yaml.SafeLoader):
             if not isinstance(key, str):
                 raise HouseError(f"{where}: a key must be a word, got {shown(key)}")
             if key in table:
-                raise HouseError(
-                    f"{where}: key {shown(key)} is given twice (first in line {table.at(key).rsplit(':', 1)[-1]});"
-                    " remove one"
-                )
+                raise HouseError(f"{where}: key {shown(key)} is given twice (first in line"
+                                 f" {table.at(key).rsplit(':', 1)[-1]}); remove one")
             previous = table[key] = self._convert(value_node, depth + 1)
             table.entries[key] = where
         return table
@@ -174,19 +168,16 @@ def _refuse_decimal_comma(where, key_node, previous, value_node):
     is_number = (isinstance(key_node, yaml.ScalarNode) and re.fullmatch(r"\d{1,20}", key_node.value)
                  and isinstance(previous, int))
     if is_number and isinstance(value_node, yaml.ScalarNode) and not value_node.value:
-        raise HouseError(
-            f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point:"
-            f" {previous}.{key_node.value}"
-        )
+        raise HouseError(f"{where}: '{previous},{key_node.value}' has a decimal comma; write a decimal point:"
+                         f" {previous}.{key_node.value}")
 
 
 _Parser.yaml_implicit_resolvers = {
     first: [(tag, pattern) for tag, pattern in resolvers if tag in _PLAIN_TYPES]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }  # dates are texts
-_Parser.add_implicit_resolver(
-    TAG + "float", _EXPONENT, list("-+.0123456789")
-)  # 1e7 is a number in YAML 1.2, a text for PyYAML
+_Parser.add_implicit_resolver(TAG + "float", _EXPONENT,
+                              list("-+.0123456789"))  # 1e7 is a number in YAML 1.2, a text for PyYAML
 
 
 class _Writer(yaml.SafeDumper):

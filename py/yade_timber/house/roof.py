@@ -130,10 +130,8 @@ def hip_plan(structure, layer):
     half, cut = (high - low).min() / 2, layer.table["corner_cut"]
     plan = HipPlan(low, high, layer.z0, half, slope(structure, layer, half), cut)
     if cut >= half / 2:
-        raise HouseError(
-            f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the roof's width "
-            f"({half / 2:g} m), got {cut:g}"
-        )
+        raise HouseError(f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the"
+                         f" roof's width ({half / 2:g} m), got {cut:g}")
     return plan
 
 
@@ -284,10 +282,9 @@ def _posts(structure, layer, elements, joints):
                 None)
     high = _high_plates(mono_plan(structure, layer), plates.values()) if eave else []
     if not high or {eave.a, eave.b} & {plate.name for plate in high}:
-        raise HouseError(
-            f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on posts over"
-            " those of the wall opposite; add beams below both and a rule of `joints` between roof and beam"
-        )
+        raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on"
+                         " posts over those of the wall opposite; add beams below both and a rule of `joints` between"
+                         " roof and beam")
     return [_post_row(eave, name, plate) for plate in high]
 
 

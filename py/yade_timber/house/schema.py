@@ -51,14 +51,8 @@ class Number:
         wrong_kind = (math.isnan(value) or (math.isinf(value) and not self.infinite)
                       or (self.whole and value != int(value)))
         if wrong_kind or not self._admits(value):
-            fail(
-                where,
-                name,
-                (
-                    f"must be a{' whole' if self.whole else ''} number{self._range()}, got"
-                    f" {value!r}{self._other_units(value)}"
-                ),
-            )
+            kind = "a whole number" if self.whole else "a number"
+            fail(where, name, f"must be {kind}{self._range()}, got {value!r}{self._other_units(value)}")
         return int(value) if self.whole else float(value)
 
     def _admits(self, value):
@@ -126,14 +120,8 @@ class Pair:
 
     def check(self, value, where, name):
         if not isinstance(value, list) or len(value) != 2:
-            fail(
-                where,
-                name,
-                (
-                    "expected a list of two items, got"
-                    f" {f'{len(value)} items' if isinstance(value, list) else shown(value)}"
-                ),
-            )
+            got = f"{len(value)} items" if isinstance(value, list) else shown(value)
+            fail(where, name, f"expected a list of two items, got {got}")
         checked = [field.check(v, value.at(i), f"{name}[{i + 1}]")
                    for i, (field, v) in enumerate(zip((self.first, self.second), value))]
         return Items(checked, value.where, value.entries)
@@ -155,14 +143,8 @@ class ListOf:
         if not isinstance(value, list):
             fail(where, name, f"expected a list, got {shown(value)}")
         if self.length and len(value) != self.length:
-            fail(
-                where,
-                name,
-                (
-                    f"expected {self.length} items, got"
-                    f" {len(value)}{'; write decimal points, not commas' if len(value) > self.length else ''}"
-                ),
-            )
+            remedy = "; write decimal points, not commas" if len(value) > self.length else ""
+            fail(where, name, f"expected {self.length} items, got {len(value)}{remedy}")
         if len(value) > self.most:
             fail(where, name, f"a list of {len(value)} items; at most {self.most}")
         checked = [self.item.check(v, value.at(i), f"{name}[{i + 1}]") for i, v in enumerate(value)]

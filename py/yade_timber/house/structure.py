@@ -74,10 +74,8 @@ class Structure:
         for axis in "xy":
             self.check_nodes(axis, area[axis], area.at(axis))
             if min(area[axis]) == max(area[axis]):
-                raise HouseError(
-                    f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself is empty; give"
-                    " two different nodes"
-                )
+                raise HouseError(f"{area.at(axis)}: {self.name}: an area from {axis} node {area[axis][0]:g} to itself"
+                                 " is empty; give two different nodes")
         return {axis: (min(area[axis]), max(area[axis])) for axis in "xy"}
 
     def sides(self, **nodes):
@@ -94,9 +92,8 @@ class Structure:
         """HouseError when a node lies outside the grid."""
         for node in nodes:
             if not 0 <= node <= self.axes[axis].last:
-                raise HouseError(
-                    f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to {self.axes[axis].last}"
-                )
+                raise HouseError(f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to"
+                                 f" {self.axes[axis].last}")
 
     def check_storeys(self, storeys, where, name):
         """HouseError for a storey that the stack does not have. name: of the list that names it"""
@@ -128,9 +125,8 @@ class Structure:
         try:
             return halfspace_vertices(planes)
         except ValueError as problem:
-            raise HouseError(
-                f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its dimensions"
-            ) from None
+            raise HouseError(f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its"
+                             " dimensions") from None
 
 
 def require_few(count, where, name):
@@ -152,10 +148,8 @@ def _positions(axis, path):
         return axis["module"] * np.arange(axis["count"] + 1)
     positions = np.array(axis["positions"])
     if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
-        raise HouseError(
-            f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order, {MIN_SPACING:g} m"
-            " or more apart"
-        )
+        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order,"
+                         f" {MIN_SPACING:g} m or more apart")
     return positions
 
 
@@ -164,16 +158,13 @@ def _origin(table, local, others, name):
     place = table["place"]
     if place["origin"] is not None:
         if place["shift"]:
-            raise HouseError(
-                f"{place.at('shift')}: structures.{name}.place.shift: belongs to 'beside'; change the origin instead"
-            )
+            raise HouseError(f"{place.at('shift')}: structures.{name}.place.shift: belongs to 'beside'; change the"
+                             " origin instead")
         return np.array(place["origin"])
     if place["beside"] not in others:
         earlier = ", ".join(others) or "none yet"
-        raise HouseError(
-            f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this one; known:"
-            f" {earlier}"
-        )
+        raise HouseError(f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this"
+                         f" one; known: {earlier}")
     low, high = others[place["beside"]].area()
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])
     start = np.array([local[axis][0] for axis in "xy"])
@@ -198,16 +189,12 @@ def _layers(stack, name):
         kind = table["layer"]
         storey += kind == "columns"
         if layers and layers[-1].kind == "roof" and kind != "roof":
-            raise HouseError(
-                f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make roofs the"
-                " last layers"
-            )
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make"
+                             " roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
         if storey > MAX_STOREYS:
-            raise HouseError(
-                f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: more than {MAX_STOREYS} layers of columns;"
-                " remove some"
-            )
+            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: more than {MAX_STOREYS} layers of"
+                             " columns; remove some")
         layers.append(Layer(table, kind, storey, z, top))
         z = z if kind == "roof" else top
     return layers

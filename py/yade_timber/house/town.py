@@ -18,10 +18,8 @@ from .schema import MapOf, Number, Record, fail
 
 FAR = 20_000.0
 """Largest coordinate of a lot. [m]"""
-LOT = Record(
-    {"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
-     "rotation": Number("degrees", -360, 360, default=0.0), "snow": Number("m", 0, MAX_SNOW, default=None)}
-)
+LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
+              "rotation": Number("degrees", -360, 360, default=0.0), "snow": Number("m", 0, MAX_SNOW, default=None)})
 WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)
 TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOTS)})
 
@@ -127,10 +125,8 @@ def check_places(placed):
         for (other, others), (centre, radius) in zip(outlines[:k], reach[:k]):
             near = np.linalg.norm(reach[k][0] - centre) < reach[k][1] + radius
             if near and _overlap(corners, others):
-                raise HouseError(
-                    f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}: move it by x or"
-                    " y, or turn it"
-                )
+                raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}:"
+                                 " move it by x or y, or turn it")
 
 
 def _overlap(a, b):

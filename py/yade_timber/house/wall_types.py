@@ -98,14 +98,8 @@ def _check_envelope(table, path):
         fail(where, f"{path}.envelope",
              f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
     if table["ultimate_drift"] is None and points[-1][1] == largest:
-        fail(
-            where,
-            f"{path}.envelope",
-            (
-                "the last point has the largest shear; add points beyond it, or ultimate_drift, at which there is no"
-                " shear left"
-            ),
-        )
+        fail(where, f"{path}.envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift,"
+             " at which there is no shear left")
     if points[-1][1] == 0 and table["ultimate_drift"] is not None:
         fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
              "the last point of envelope has no shear already; remove one of them")

@@ -81,10 +81,8 @@ def sheathe(structure, elements, data, level):
         for bay in _bays(structure, line, {element.name: element for element in members}):
             for name in line["type"]:
                 if (bay.name, name) in seen:
-                    raise HouseError(
-                        f"{bay.where}: {bay.name} has sheathing of type {name} already ({seen[bay.name, name]});"
-                        " remove one"
-                    )
+                    raise HouseError(f"{bay.where}: {bay.name} has sheathing of type {name} already"
+                                     f" ({seen[bay.name, name]}); remove one")
                 seen[bay.name, name] = bay.where
                 joints += _joints(bay, name, members, data, level)
     return joints
@@ -109,15 +107,12 @@ def _nodes(structure, line, storey, at):
     for key in ("from", "to"):
         if line[key] not in on_line:
             columns = ", ".join(f"{node:g}" for node in on_line) or "none"
-            raise HouseError(
-                f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey"
-                f" {storey}: no column at node {line[key]:g}; nodes with columns on this line: {columns}"
-            )
+            raise HouseError(f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g},"
+                             f" storey {storey}: no column at node {line[key]:g}; nodes with columns on this line:"
+                             f" {columns}")
     if line["from"] >= line["to"]:
-        raise HouseError(
-            f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g}; 'from' must be"
-            " below 'to'"
-        )
+        raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g};"
+                         " 'from' must be below 'to'")
     return [node for node in on_line if line["from"] <= node <= line["to"]]
 
 
@@ -170,7 +165,5 @@ def _member_at(bay, members, top):
         if element.kind not in ("column", "brace", "snow") and (low <= point).all() and (point <= high).all():
             return element
     word = "above" if top else "below"
-    raise HouseError(
-        f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y {point[1]:.3f}, z"
-        f" {point[2]:.3f} m; lay one there or remove the wall"
-    )
+    raise HouseError(f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y"
+                     f" {point[1]:.3f}, z {point[2]:.3f} m; lay one there or remove the wall")

@@ -52,7 +52,5 @@ def _texts(samples, scale):
         if abs(means[k]) > max(LARGEST_SHARE * peaks[k], VISIBLE * peaks.max(), ROUNDING):
             share, strength = abs(means[k]) / peaks[k], abs(means[k]) / STANDARD_GRAVITY
             gal = means[k] / GAL
-            yield (
-                f"{gal:{'.0f' if abs(gal) >= 100 else '.3g'}} gal {name} ({100 * share:.0f} % of the peak) acts like"
-                f" {effect} of {100 * strength:.3g} %"
-            )
+            yield (f"{gal:{'.0f' if abs(gal) >= 100 else '.3g'}} gal {name} ({100 * share:.0f} % of the peak) acts like"
+                   f" {effect} of {100 * strength:.3g} %")

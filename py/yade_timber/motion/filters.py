@@ -28,9 +28,8 @@ def zero_phase_highpass(acceleration, dt, corner, order):
 def require_size(samples, member):
     """Refuse a result of more than MAX_RESULT samples."""
     if samples > MAX_RESULT:
-        raise RecordError(
-            f"{member}: {samples:.3g} samples; at most {MAX_RESULT:g}; take a larger time step or a shorter motion"
-        )
+        raise RecordError(f"{member}: {samples:.3g} samples; at most {MAX_RESULT:g}; take a larger time step or a"
+                          " shorter motion")
 
 
 def highpass_with_ends(acceleration, dt, corner, order):

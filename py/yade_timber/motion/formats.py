@@ -48,9 +48,8 @@ def parse(path, lines, units=None, stated=False):
     """Channels of a file. units: where it states none; stated: the caller states the directions. Raises RecordError."""
     kind = sniff(lines)
     if kind is None:
-        raise RecordError(
-            f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and plain CSV"
-        )
+        raise RecordError(f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and"
+                          " plain CSV")
     if kind == "at2":
         return _at2(path, lines, units, stated)
     reader = {"knet": knet.read_ascii, "knet csv": knet.read_csv, "jma": _jma, "csv": _plain_csv}[kind]
@@ -86,9 +85,8 @@ def _at2_header(path, lines):
     absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
     problem = absent if number is None else "with NPTS and DT in another form"
     place = path if number is None else f"{path}:{number}"
-    raise RecordError(
-        f"{place}: AT2 header {problem}; write 'NPTS= n, DT= s SEC', NPTS first, or convert it to {PLAIN_CSV}"
-    )
+    raise RecordError(f"{place}: AT2 header {problem}; write 'NPTS= n, DT= s SEC', NPTS first, or convert it to"
+                      f" {PLAIN_CSV}")
 
 
 def _words(line, separators):
@@ -159,9 +157,8 @@ def _at2_direction(path, header):
     match = re.search(r"(\d{3}|[-_.](?:up|dwn|ud|ver|vert|v|ns|ew)|(?<=\d)(?:ud|ns|ew))$", path.stem, re.I)
     in_name = direction_of(match.group(1)) if match else None
     if None not in (in_title, in_name) and in_title != in_name:
-        raise RecordError(
-            f"{path}: direction is {in_title} in the title but {in_name} in the file name; state component="
-        )
+        raise RecordError(f"{path}: direction is {in_title} in the title but {in_name} in the file name; state"
+                          " component=")
     return in_title if in_title is not None else in_name
 
 
@@ -192,9 +189,8 @@ def _jma_header(path, lines):
         key, _, value = line.replace('"', "").partition("=" if "=" in line else ",")
         key = " ".join(key.upper().split()).rstrip(".")
         keys[key] = value.strip(FILLING), f"{path}:{index + 1}: {shown(key)}"
-    raise RecordError(
-        f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES} lines"
-    )
+    raise RecordError(f"{path}: JMA header without a row that names NS, EW and UD in its first {JMA_HEADER_LINES}"
+                      " lines")
 
 
 # --- plain CSV ----------------------------------------------------------------------------------

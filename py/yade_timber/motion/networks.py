@@ -5,10 +5,8 @@ from __future__ import annotations
 
 import struct
 
-PLAIN_CSV = (
-    "a plain CSV: a line '# dt: 0.01' (time step in s), a line 'ns [gal],ew [gal],ud [gal]', "
-    "then a row of numbers for each sample"
-)
+PLAIN_CSV = ("a plain CSV: a line '# dt: 0.01' (time step in s), a line 'ns [gal],ew [gal],ud [gal]', then a row of"
+             " numbers for each sample")
 """What every record can be converted to."""
 HEAD_LINES = 12
 """Lines in which the words of a format are searched."""

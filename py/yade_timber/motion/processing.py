@@ -126,9 +126,8 @@ def _fourier(motion, dt):
     """(band-limited interpolation at the new times, the same without frequencies above the new Nyquist frequency)."""
     ratio = Fraction(dt / motion.dt).limit_denominator(LARGEST_RATIO)
     if ratio <= 0 or abs(float(ratio) - dt / motion.dt) > 1e-9 * dt / motion.dt or ratio.numerator > LARGEST_RATIO:
-        raise RecordError(
-            f"{motion.name}: {dt:g} s is not a whole-number ratio of {motion.dt:g} s; choose another step"
-        )
+        raise RecordError(f"{motion.name}: {dt:g} s is not a whole-number ratio of {motion.dt:g} s; choose another"
+                          " step")
     periods = math.ceil((len(motion) + PAD_SECONDS / motion.dt) / ratio.numerator)
     total = periods * ratio.numerator
     require_size(max(total, periods * ratio.denominator) if ratio <= 1 else total * ratio.denominator,

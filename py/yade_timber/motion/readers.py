@@ -24,13 +24,11 @@ from .text import DOWN, UP, direction_of, read_lines
 RIGHT_ANGLE_TOLERANCE = 1.0
 """Largest deviation of two horizontal components from a right angle. [degrees] (PEER prints whole degrees)"""
 
-SUFFIXES = (
-    ("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
-    ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
-    ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-    ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
-     "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
-)
+SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
+            ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
+            ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
+            ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
+             "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"))
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
 
@@ -172,9 +170,8 @@ def _aligned(channels, trim_to_shortest):
     lengths = [len(channel.values) for channel in channels]
     if min(lengths) != max(lengths) and not trim_to_shortest:
         stated = ", ".join(f"{c.path.name}: {n}" for c, n in zip(channels, lengths))
-        raise RecordError(
-            f"components of different length ({stated}); cut them at the shortest (--shortest), or make them equal"
-        )
+        raise RecordError(f"components of different length ({stated}); cut them at the shortest (--shortest), or make"
+                          " them equal")
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
 
 

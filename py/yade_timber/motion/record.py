@@ -135,10 +135,8 @@ def peaks_gal(acceleration):
 def require_possible(peak, where):
     """Refuse a peak acceleration [m/s2] that no ground motion has."""
     if not peak <= MAX_ACCELERATION:
-        raise RecordError(
-            f"{where}: accelerations of up to {peak:.3g} m/s2; at most {MAX_ACCELERATION:g} m/s2; check the unit and"
-            " the scale"
-        )
+        raise RecordError(f"{where}: accelerations of up to {peak:.3g} m/s2; at most {MAX_ACCELERATION:g} m/s2; check"
+                          " the unit and the scale")
 
 
 def unit_factor(unit, where):

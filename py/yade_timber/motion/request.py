@@ -23,10 +23,8 @@ class MotionRequest:
                        2**31)
     component: str = option(
         str,
-        (
-            "direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by"
-            " commas"
-        ),
+        ("direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by"
+         " commas"),
         "DIRECTIONS",
         group="expert",
     )

@@ -61,9 +61,8 @@ def common_step(steps, where):
     whole = [abs(float(fraction) - step) <= 1e-9 * step for fraction, step in zip(fractions, steps)]
     common = Fraction(gcd(*(f.numerator for f in fractions)), lcm(*(f.denominator for f in fractions)))
     if not all(whole) or min(steps) > 100 * common:
-        raise RecordError(
-            f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step; give --resample"
-        )
+        raise RecordError(f"{where}: time steps of {', '.join(f'{step:g}' for step in steps)} s have no common step;"
+                          " give --resample")
     return float(common)
 
 
@@ -84,10 +83,8 @@ def following(text, name):
     for entry in text.split(";"):
         record, value = with_factor(entry)
         if not record or not 0 < value <= 1e6:
-            raise RecordError(
-                f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6]; records are"
-                " separated by ;"
-            )
+            raise RecordError(f"{name} '{entry.strip()}': write a record, or record@factor with a factor in (0, 1e6];"
+                              " records are separated by ;")
         records.append((record, value))
     return records
 

@@ -162,10 +162,8 @@ def require_count(path, got, stated, meaning, other=""):
     if got != stated:
         kind = "truncated" if got < stated else "too long"
         convert = other and f", or convert it to {other}"
-        raise RecordError(
-            f"{path}: {kind}, {got} samples; {meaning} says {stated}; get the file again or correct that"
-            f" number{convert}"
-        )
+        raise RecordError(f"{path}: {kind}, {got} samples; {meaning} says {stated}; get the file again or correct that"
+                          f" number{convert}")
 
 
 def require_step(dt, where):
@@ -193,9 +191,8 @@ def clock(text, where):
             return datetime(year, month, day, hour, minute) + timedelta(seconds=seconds)
     except (ValueError, OverflowError, AttributeError):
         pass
-    problem = (
-        f"{shown(text.strip())} is not a date and time like 2004/10/23 17:56:00 of the years {YEARS[0]} to {YEARS[-1]}"
-    )
+    problem = (f"{shown(text.strip())} is not a date and time like 2004/10/23 17:56:00 of the years {YEARS[0]} to"
+               f" {YEARS[-1]}")
     warnings.warn(f"{where}: {problem}; the record is read without it", RecordWarning, stacklevel=2)
     return None
 

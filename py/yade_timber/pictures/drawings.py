@@ -70,10 +70,8 @@ def describe(model):
                            for size, count in sorted(counts["columns_by_section"].items(), reverse=True))
     walls = f", {counts['walls']} bays with walls" if counts["walls"] else ""
     description = " ".join(model.description.split())
-    return (
-        f"{description}\n{columns}, {counts['braces']} braces{walls},"
-        f" {model.joints_text}{snow}\n{sentence(weigh(model))}"
-    )
+    return (f"{description}\n{columns}, {counts['braces']} braces{walls},"
+            f" {model.joints_text}{snow}\n{sentence(weigh(model))}")
 
 
 def density(ax, box, dpi):
@@ -221,10 +219,8 @@ def legend(figure, solids, model):
                               markerfacecolor="black" if size >= THICK else "white", markeredgecolor="black",
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
-        entries.append(
-            Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE,
-                   label="brace (plan; thin end: foot)")
-        )
+        entries.append(Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE,
+                              label="brace (plan; thin end: foot)"))
     if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):

@@ -64,9 +64,8 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     form = replace(form, width=form.width // len(runs) * len(runs))
     times = picture_times(runs, form, begin, end)
     with written_whole(path) as part:
-        (_write_mp4 if path.suffix.lower() == ".mp4" else _write_webp)(
-            part, partial(images, runs, view, form, times), form, len(times)
-        )
+        write_film = _write_mp4 if path.suffix.lower() == ".mp4" else _write_webp
+        write_film(part, partial(images, runs, view, form, times), form, len(times))
     return len(times)
 
 
@@ -78,10 +77,8 @@ def picture_times(runs, form, begin, end):
         slow = form.speed is None and fall - BEFORE_FALL <= times[-1] < fall + AFTER_FALL
         times.append(times[-1] + (SLOW if slow else form.speed or 1.0) / form.rate)
     if len(times) > LONGEST:
-        raise RunError(
-            f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer pictures per"
-            " second"
-        )
+        raise RunError(f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer"
+                       " pictures per second")
     return times[:-1]
 
 
@@ -133,9 +130,8 @@ def _write_mp4(path, make, form, _count):
     try:
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     except FileNotFoundError:
-        raise RunError(
-            "a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in .webp"
-        ) from None
+        raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in"
+                       " .webp") from None
     said = []
     listener = threading.Thread(target=lambda: said.append(process.stderr.read()))
     listener.start()
@@ -154,9 +150,8 @@ def _write_mp4(path, make, form, _count):
         status = process.wait()
         listener.join()
     if status:
-        raise RunError(
-            f"ffmpeg: {' '.join(said[0].decode(errors='replace').split())[-300:] or f'exit status {status}'}"
-        )
+        words = " ".join(said[0].decode(errors="replace").split())[-300:]
+        raise RunError(f"ffmpeg: {words or f'exit status {status}'}")
 
 
 def _write_webp(path, make, form, count):

@@ -50,10 +50,8 @@ def page(motion, corner, dpi):
 def describe(motion):
     """Source, JMA intensity and horizontal peaks."""
     intensity = jma_intensity(motion)
-    peaks = (
-        f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal and"
-        f" {pgv(motion):.0f} cm/s"
-    )
+    peaks = (f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal"
+             f" and {pgv(motion):.0f} cm/s")
     return "\n".join(filter(None, (peaks, constant_note(motion))))
 
 

@@ -37,10 +37,8 @@ class Panel:
         left, right, low, high = OPENINGS[self.opening]
         foot, other_foot, other_head, head = self.corners
         at = [(left, low), (right, low), (right, high), (left, high)]
-        return np.array(
-            [(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
-             for u, v in at]
-        )
+        return np.array([(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
+                         for u, v in at])
 
 
 @dataclass
@@ -77,10 +75,8 @@ def panels_as_built(model):
         if joint.kind == WALL_COLUMN:
             ends = [axis_ends(vertices, vertices)
                     for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
-            sheets.append(
-                Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey,
-                      [joint.broken])
-            )
+            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey,
+                                [joint.broken]))
     return of_sheets(sheets)
 
 

@@ -10,8 +10,6 @@ page permits its own script and style, by their hashes, and nothing else.
 """
 import base64
 import hashlib
-import html
-import re
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +18,7 @@ from matplotlib.colors import to_hex
 from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
+from ..base.html import DATA, html
 from ..recording import frames, peaks
 from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
 from ..recording.summary import Summary, collapse_time
@@ -29,7 +28,6 @@ from .key_times import first_shown, largest_drift, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
 
-ASSETS = Path(__file__).resolve().parents[1] / "data" / "player"
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
 
 POSITION_STEP = 0.5e-3
@@ -48,20 +46,20 @@ def make(runs, path):
     if not 1 <= len(runs) <= 2:
         raise RunError(f"{len(runs)} runs: the player shows one, or compares two")
     style, script = asset("page.css"), asset("player.js")
-    parts = {
-        "policy": POLICY.format(script=digest(script), style=digest(style)),
-        "title": html.escape(" / ".join(plain(run.title) for _, run in runs)),
-        "style": style,
-        "data": "\n".join(f'<script type="text/plain" class="run-data">{packed(source, run)}</script>'
-                          for source, run in runs),
-        "script": script,
-    }
-    write_text(path, re.sub(r"\{\{(\w+)\}\}", lambda mark: parts[mark[1]], asset("page.html")))
+    page = html(
+        "player/page.html",
+        policy=POLICY.format(script=digest(script), style=digest(style)),
+        title=" / ".join(plain(run.title) for _, run in runs),
+        style=style,
+        data=[packed(source, run) for source, run in runs],
+        script=script,
+    )
+    write_text(path, page)
     return path
 
 
 def asset(name):
-    return (ASSETS / name).read_text(encoding="utf-8")
+    return (DATA / "player" / name).read_text(encoding="utf-8")
 
 
 def digest(text):
@@ -99,11 +97,9 @@ def info(run, largest):
                    else f"Not ended yet: the first {run.time[-1]:.1f} s"),
         "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
         "origin": plain(provenance(run)),
-        "elements": [
-            {"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
-             **uplift(largest, name)}
-            for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)
-        ],
+        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
+                      **uplift(largest, name)}
+                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
         "joint_list": [

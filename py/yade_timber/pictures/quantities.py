@@ -167,10 +167,8 @@ def draw_modes(axis, results):
             sign = 1 if shape[-1] >= 0 else -1
             axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width,
                       color=colors.DIRECTIONS[direction])
-            lines.append(
-                f"{direction_name(direction)} {when}: {period_text(mode)}, {100 * mode.mass_share[direction]:.0f} % of"
-                " the mass"
-            )
+            lines.append(f"{direction_name(direction)} {when}: {period_text(mode)},"
+                         f" {100 * mode.mass_share[direction]:.0f} % of the mass")
     if results.summary.collapsed:
         lines.append("after: none, the house has collapsed")
     axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right",

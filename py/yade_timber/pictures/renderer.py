@@ -49,10 +49,8 @@ def context():
         _started.append(True)
         return moderngl.create_context(standalone=True, backend="egl", require=330)
     except Exception as problem:  # moderngl raises Exception itself
-        raise RunError(
-            f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}): install"
-            f" {PACKAGES}"
-        ) from None
+        raise RunError(f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}):"
+                       f" install {PACKAGES}") from None
 
 
 @cache

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
 import base64
-import html
 import io
 import os
 import shlex
@@ -15,6 +14,7 @@ import numpy as np
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
+from ..base.html import html
 from ..base.options import words
 from ..motion import jma_intensity, pga, pgv
 from ..recording import frames as recording
@@ -35,39 +35,17 @@ PATIENCE = 120.0
 COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
 CAVEATS = (
     "Members are rigid: they neither bend nor split; only joints and contacts deform.",
-    (
-        "Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
-        " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
-        " house."
-    ),
-    (
-        "Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
-        " several motions."
-    ),
-    (
-        "Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report"
-        " certifies no house; ask an engineer."
-    ),
+    ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
+     " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
+     " house."),
+    ("Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
+     " several motions."),
+    ("Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies"
+     " no house; ask an engineer."),
 )
 """Limits of the model that a reader of one result must know (docs/limits.md)."""
 LIGHT = 1.5
 """Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
-STYLE = """
-@page { size: A4; margin: 9mm 10mm; }
-body { font: 7.5pt/1.18 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; width: 190mm; height: 277mm;
-  margin: 0 auto;
-  display: flex; flex-direction: column; }
-h1 { font-size: 14pt; margin: 0 0 1mm; } h2 { font-size: 9pt; margin: 1.6mm 0 0.6mm; border-bottom: 0.3mm solid #999; }
-.verdict { color: white; padding: 1.2mm 2.5mm; border-radius: 1mm; font-weight: bold;
-  -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-.row { display: flex; gap: 4mm; } .row > * { flex: 1 1 0; min-width: 0; } .row > .wide { flex: 1.25 1 0; }
-img { max-width: 100%; display: block; } img.shots { flex: 1 1 0; min-height: 45mm; object-fit: contain; }
-table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: 0.15mm 1mm;
-  border-bottom: 0.15mm solid #ddd; font-size: 6.8pt; }
-td.number, th.number { text-align: right; } td { white-space: nowrap; } td.name { white-space: normal; }
-ol, ul { margin: 0; padding-left: 4.5mm; } p { margin: 0.6mm 0; } code { font-size: 6.8pt; word-break: break-all; }
-small { font-size: 6.4pt; }
-"""
 
 
 def write(folder):
@@ -86,88 +64,71 @@ def page(frames, results):
     """Text of the page. results: quantities.Results"""
     summary = results.summary
     failures = first_failures(frames) if summary.collapsed else []
-    table = failed_joints(frames, results, failures) if failures else joints(results)
-    parts = [
-        f"<h1>{text(frames.title)}</h1>",
-        f'<div class="verdict" style="background:{COLORS[summary.verdict]}">{text(sentence(summary))}</div>',
-        (
-            f'<div class="row"><section>{house(frames, summary, failures)}</section><section'
-            f' class="wide">{motion(frames, summary)}{storeys(summary)}</section></div>'
-        ),
-        f"<h2>What happened</h2>{picture(*report_pictures.shots(frames), name='shots', about='six key times')}",
-        f'<div class="row"><section>{events(summary)}</section><section class="wide">{table}</section></div>{limits()}',
-        f"<h2>Limits of this model</h2><ul>{''.join(f'<li>{text(line)}</li>' for line in caveats(summary))}</ul>",
-        repeat(summary),
-    ]
-    title = text(f"Report: {frames.title}")
-    head = (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta'
-        f' charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
+    return html(
+        "report.html",
+        title=frames.title,
+        color=COLORS[summary.verdict],
+        sentence=sentence(summary),
+        house=house(frames, summary, failures),
+        plans=picture(report_pictures.plans(frames, failures)),
+        motion=motion(frames, summary),
+        spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
+        until=before(summary.quantities.until_s),
+        storeys=storeys(summary),
+        shots=picture(*report_pictures.shots(frames)),
+        lines=lines(summary),
+        failures=failed_joints(frames, results, failures),
+        others=others(frames, results) if failures else None,
+        joints=joints(results),
+        limits="; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS),
+        caveats=caveats(summary),
+        versions=versions(summary),
+        command=command(summary.made_from["options"]),
     )
-    return f"{head}\n<body>\n{chr(10).join(parts)}\n</body></html>\n"
-
-
-def text(value):
-    """A text from data for the page."""
-    return html.escape(str(value))
 
 
 @default_style()
-def picture(figure, part=None, name="", about=""):
-    """An <img> with a figure, or with a part of it (Bbox [inch])."""
+def picture(figure, part=None):
+    """A figure, or a part of it (Bbox [inch]), as the address of an image."""
     data = io.BytesIO()
     fonts.apply(figure)
     figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
-    return (
-        f'<img class="{name}" alt="{text(about)}"'
-        f' src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">'
-    )
+    return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}"
 
 
 # --- parts of the page ------------------------------------------------------------------------------------------------
 
 
 def house(frames, summary, failures):
-    """Plans with the first failures, numbers of members, weight, natural periods."""
+    """Meaning of the marks in the plans, numbers of members, weight, natural periods, seismic index."""
     kinds = frames.elements.kind
-    counts = {kind: sum(k == kind for k in kinds) for kind in ("column", "brace")} | {
-        "walled bay": len(panels(frames, 0))
-    }
-    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
-                        if (mode := summary.main_mode("before", axis)))
+    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"), "walled bay": len(panels(frames, 0))}
     (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
-    marks = "; blue: braces (thin end: foot)" * bool(
-        counts["brace"]
-    ) + "; green: walls (dotted: with an opening)" * bool(counts["walled bay"])
-    marks += "; orange: joints broken from the start" * any(frames.joints.damaged) + "; numbers: first failures" * bool(
-        failures
-    )
-    return (
-        f"<h2>The house</h2>{picture(report_pictures.plans(frames, failures), about='plans, north up')}<p>Plans, north"
-        f" up{marks}. {numbers}."
-        f" {weight(summary.weight)}{periods and f' Natural periods {periods}.'}{diagnosis(summary)}</p>"
-    )
+    marks = {"blue: braces (thin end: foot)": counts["brace"],
+             "green: walls (dotted: with an opening)": counts["walled bay"],
+             "orange: joints broken from the start": any(frames.joints.damaged),
+             "numbers: first failures": failures}
+    legend = "; ".join(["Plans, north up", *(mark for mark, occurs in marks.items() if occurs)])
+    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
+                        if (mode := summary.main_mode("before", axis)))
+    index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
+    natural = f" Natural periods {periods}." if periods else ""
+    return f"{legend}. {numbers}. {weight(summary.weight)}{natural} {index}"
+
+
+def before(time):
+    """', before 4.28 s', or nothing without a time."""
+    return "" if time is None else f", before {time:.2f} s"
 
 
 def storeys(summary):
-    """Table of the storeys: weight above and shear."""
-    quantities = summary.quantities
-    until = "" if quantities.until_s is None else f", before {quantities.until_s:.2f} s"
-    rows = "".join(
-        f"<tr><td>{text(storey_name(name))}</td><td class=number>{weight_of(storey.mass_above_kg):.0f} kN</td>"
-        f"<td class=number>{coefficients(storey)}</td></tr>"
-        for name, storey in quantities.storeys.items()
-    )
-    return (
-        "<table><tr><th></th><th class=number>weight above</th><th class=number>largest shear / weight above, N-S,"
-        f" E-W{until}</th></tr>{rows}</table>"
-    )
-
-
-def coefficients(storey):
-    """'0.45, 0.39': storey shear coefficients N-S and E-W."""
-    return ", ".join("-" if value is None else f"{value:.2f}" for value in storey.shear_coefficient.values())
+    """Rows of the table of the storeys: weight above and shear."""
+    return [
+        {"name": storey_name(name), "weight": f"{weight_of(storey.mass_above_kg):.0f} kN",
+         "shear": ", ".join("-" if value is None else f"{value:.2f}" for value in storey.shear_coefficient.values())}
+        for name, storey in summary.quantities.storeys.items()
+    ]
 
 
 def weight(weights):
@@ -178,81 +139,46 @@ def weight(weights):
     return f"Weight {weights.total_kn:.0f} kN{per_area}{snow}."
 
 
-def diagnosis(summary):
-    """The seismic index beside the run, and why they disagree."""
-    return text(f" By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}")
-
-
 def motion(frames, summary):
-    """The ground motion: record, PGA, intensity, spectrum."""
+    """Record, peaks and intensity of the ground motion; None without an earthquake."""
     if frames.motion is None:
-        return "<h2>The motion</h2><p>No earthquake.</p>"
+        return None
     applied = report_pictures.ground_motion(frames)
-    intensity = jma_intensity(applied).official if applied.duration >= 0.3 and applied.acceleration.any() else None
     peaks = ", ".join(f"{name} {pga(applied, key):.0f}"
                       for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
-    values = f"PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s" + ("" if intensity is None
-                                                                else f", JMA intensity {intensity:.1f}")
+    has_intensity = applied.duration >= 0.3 and applied.acceleration.any()
+    intensity = f", JMA intensity {jma_intensity(applied).official:.1f}" if has_intensity else ""
     scale = f", times {summary.record.scale:g}" if summary.record.scale != 1 else ""
-    source = text(summary.record.source)
-    about = f"<p>{source}{scale}: {values}. Dotted: natural periods of the house before the run.</p>"
-    return f"<h2>The motion</h2>{picture(report_pictures.motion(frames), about='ground motion and spectra')}{about}"
-
-
-def events(summary):
-    """The result in ten lines."""
-    return f"<h2>Result</h2><ol>{''.join(f'<li>{text(line)}</li>' for line in lines(summary))}</ol>"
-
-
-def limits():
-    """Limits of drift with their sources."""
-    texts = "; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS)
-    return f"<p><small>Limits of drift: {text(texts)}.</small></p>"
+    return f"{summary.record.source}{scale}: PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s{intensity}."
 
 
 def joints(results):
-    """Table of the joints most loaded."""
-    rows = "".join(
-        f"<tr><td class=name>{joint_name(row['joint'])}</td><td"
-        f" class=number>{float(row['utilisation [-]']):.2f}</td><td"
-        f" class=number>{float(row['pull [N]']) / 1e3:.1f}</td><td"
-        f" class=number>{float(row['shear [N]']) / 1e3:.1f}</td><td"
-        f" class=number>{1e3 * float(row['opening [m]']):.0f}</td><td>{text(row['state'])}</td></tr>"
-        for row in results.joints[:JOINTS_SHOWN]
-    )
-    heads = ("utilisation", "pull kN", "shear kN", "opening mm")
-    head = f"<tr><th>joint</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}<th>end</th></tr>"
-    return f"<h2>Joints most loaded</h2><table>{head}{rows}</table>"
+    """Rows of the table of the joints most loaded."""
+    units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
+    return [{"joint": joint_name(row["joint"]), "state": row["state"],
+             "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
+            for row in results.joints[:JOINTS_SHOWN]]
 
 
 def failed_joints(frames, results, failures):
-    """Table of the first failures of a house that has collapsed, and how far its other joints were when its fall began.
-    """
+    """Rows of the table of the first failures of a house that has collapsed."""
     by_name = {row["joint"]: row for row in results.joints}
-    rows = "".join(failed_joint(number, failure, frames, by_name) for number, failure in enumerate(failures, 1))
-    heads = ("drift of its storey", "pull kN", "shear kN", "strength kN")
-    head = (
-        "<tr><th></th><th class=number>time"
-        f" s</th><th>joint</th><th>cause</th>{''.join(f'<th class=number>{name}</th>' for name in heads)}</tr>"
-    )
-    return f"<h2>First failures</h2><table>{head}{rows}</table><p>{text(others(frames, results))}</p>"
+    return [failed_joint(failure, frames.joints, by_name) for failure in failures]
 
 
-def failed_joint(number, failure, frames, by_name):
-    """Row of a Failure. by_name: {joint: row of joints.csv}"""
-    joint, row = frames.joints, by_name[frames.joints.name[failure.joint]]
-    storey = joint.storey[failure.joint]
-    place = (
-        f"{joint.kind[failure.joint].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
-        f" {joint.side[failure.joint].replace('+', ', ')}"
-    )
-    drift = "" if failure.drift is None else directed(failure.drift, failure.direction)
-    forces = "".join(f"<td class=number>{float(row[column]) / 1e3:.1f}</td>"
-                     for column in ("pull [N]", "shear [N]", "strength [N]"))
-    title = f' title="{joint_name(row["joint"])}"'
-    return (f"<tr><td class=number>{number}</td><td "
-            f"class=number>{failure.time:.2f}</td><td{title}>{text(place)}</td><td>{text(failure.cause)}</td>"
-            f"<td class=number>{drift}</td>{forces}</tr>")
+def failed_joint(failure, joint, by_name):
+    """Row of a Failure. joint: Joints of the frames; by_name: {joint: row of joints.csv}"""
+    number = failure.joint
+    row, storey = by_name[joint.name[number]], joint.storey[number]
+    return {
+        "time": f"{failure.time:.2f}",
+        "joint": joint_name(row["joint"]),
+        "place": f"{joint.kind[number].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
+                 f" {joint.side[number].replace('+', ', ')}",
+        "cause": failure.cause,
+        "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
+        "forces": [f"{float(row[column]) / 1e3:.1f}" for column in ("pull [N]", "shear [N]", "strength [N]")],
+    }
 
 
 def others(frames, results):
@@ -275,34 +201,32 @@ def others(frames, results):
 def joint_name(name):
     """'main.column1.x0y0 | beam1.EW.y0': without the second structure if it is the first. Walls have one name."""
     first, _, second = name.partition("|")
-    if not second:
-        return text(first)
     second = second.removeprefix(f"{first.partition('.')[0]}.")
-    return f"{text(first)} | {text(second)}"
+    return f"{first} | {second}" if second else first
 
 
 def caveats(summary):
     """Limits of the model that matter for this run."""
     per_area = summary.weight.per_floor_area_kn_m2
-    light = (
-        f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live load"
-        " weigh 2.5 to 3 kN per m²."
-    )
+    light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
+             " load weigh 2.5 to 3 kN per m².")
     return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
 
 
-def repeat(summary):
-    """Versions, and the command that repeats the run; none for the house of a town and for a motion from Python."""
+def versions(summary):
+    """Versions of the run's programs and files, and its time step."""
     versions, origin = summary.versions, summary.made_from
-    about = (
-        f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files {origin['files']};"
-        f" time step {summary.dt:g} s."
-    )
-    options = {name: value for name, value in origin["options"].items() if name != "name"}
-    name = origin["options"].get("name")
-    command = shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(options, name is not None)])
-    code = f" <code>{text(command)}</code>" if options.keys().isdisjoint(("town", "ground_motion")) else ""
-    return f"<h2>How to repeat it</h2><p>{text(about)}{code}</p>"
+    return (f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files"
+            f" {origin['files']}; time step {summary.dt:g} s.")
+
+
+def command(options):
+    """Command that repeats a run of some options; None for the house of a town and for a motion from Python."""
+    if not options.keys().isdisjoint(("town", "ground_motion")):
+        return None
+    name = options.get("name")
+    changed = {key: value for key, value in options.items() if key != "name"}
+    return shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(changed, name is not None)])
 
 
 # --- PDF --------------------------------------------------------------------------------------------------------------

@@ -37,9 +37,8 @@ class Stage:
         distance = np.linalg.norm(e.position[frames.shown] - camera.eye, axis=1)
         self.numbers = np.asarray(frames.shown)[np.argsort(distance, kind="stable")]  # hidden faces cost no shading
         places = e.position[self.numbers, :2]
-        self.middle, self.spread = (places.min(0) + places.max(0)) / 2, max(
-            1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE
-        )
+        self.middle = (places.min(0) + places.max(0)) / 2
+        self.spread = max(1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE)
         self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
         self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
         topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])

@@ -164,11 +164,9 @@ class DamageSurvey:
     def drift(self, state, structure):
         """Largest storey drift of a structure, N-S or E-W. [-]"""
         moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
-        return max(
-            (float(np.abs((above - below)[:2]).max() / height)
-             for (below, _), (above, height) in zip(moves, moves[1:])),
-            default=0.0,
-        )
+        return max((float(np.abs((above - below)[:2]).max() / height)
+                    for (below, _), (above, height) in zip(moves, moves[1:])),
+                   default=0.0)
 
     def by_structure(self, state, peaks):
         """{name: verdict.Structure}, the main one first, on which verdicts rest. peaks: {name: peak drift so far [-]}
@@ -176,13 +174,11 @@ class DamageSurvey:
         broken, partly = self._broken_joints(state)
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
-        return {
-            name: Structure(peak_drift=peaks[name], residual_drift=self.drift(state, name),
-                            broken=int(broken[self._structure_of_joints == name].sum()),
-                            partly_broken=int(partly[self._structure_of_joints == name].sum()),
-                            columns_lost=int(lost[groups == name].sum()), collapsed=name in fallen)
-            for name in self.structures
-        }
+        return {name: Structure(peak_drift=peaks[name], residual_drift=self.drift(state, name),
+                                broken=int(broken[self._structure_of_joints == name].sum()),
+                                partly_broken=int(partly[self._structure_of_joints == name].sum()),
+                                columns_lost=int(lost[groups == name].sum()), collapsed=name in fallen)
+                for name in self.structures}
 
     @cached_property
     def _snow(self):

@@ -266,11 +266,9 @@ def _save_elements(group, elements):
     faces = [face for body in values.pop("faces") for face in body]
     vertices = values.pop("vertices")
     _save_group(group, values)
-    _save_group(
-        group,
-        {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
-         "face_start": starts(faces), "element_start": starts(elements.faces)},
-    )
+    _save_group(group,
+                {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
+                 "face_start": starts(faces), "element_start": starts(elements.faces)})
 
 
 def _save_contacts(group, contacts):
@@ -326,9 +324,8 @@ def _check_shapes(frames):
     shapes = {"position": (n, 3), "orientation": (n, 4), "load": (count,), "broken": (count,)}
     for name, shape in shapes.items():
         if getattr(frames, name).shape != (len(frames.time), *shape):
-            raise ValueError(
-                f"frames/{name}: shape {getattr(frames, name).shape} instead of {(len(frames.time), *shape)}"
-            )
+            raise ValueError(f"frames/{name}: shape {getattr(frames, name).shape} instead of"
+                             f" {(len(frames.time), *shape)}")
     numbers = [("joints/a", j.a, n), ("joints/b", j.b, n),
                *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
     numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)

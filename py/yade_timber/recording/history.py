@@ -37,10 +37,8 @@ class History(Series):
         """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError.
         """
         if storey not in self.storeys or direction not in DIRECTIONS:
-            raise KeyError(
-                f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))}; directions"
-                f" {', '.join(DIRECTIONS)}"
-            )
+            raise KeyError(f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))};"
+                           f" directions {', '.join(DIRECTIONS)}")
         return self.column(f"drift_{direction}{storey}")
 
     def drifts(self):

@@ -21,10 +21,8 @@ class Series(namedtuple("Table", "columns rows")):
         return super().__new__(cls, columns, np.asarray(rows, float).reshape(-1, len(columns)))
 
     def __repr__(self):
-        return (
-            f"<{type(self).__name__}: {self.samples} samples{f', up to {self.time[-1]:g} s' if self.samples else ''},"
-            f" {len(self.columns)} columns>"
-        )
+        return (f"<{type(self).__name__}: {self.samples}"
+                f" samples{f', up to {self.time[-1]:g} s' if self.samples else ''}, {len(self.columns)} columns>")
 
     @classmethod
     def read(cls, path):

@@ -35,10 +35,8 @@ class _Parser(argparse.ArgumentParser):
 def parser(script, file=None, loads=""):
     """ArgumentParser of a run script. file: kind of its input file, None: the script gives house and `loads`"""
     prog, name = f"yade [-n] [-x] {script}.py", f"{file.upper()} " if file else ""
-    about = (
-        f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the folder of"
-        " --out."
-    )
+    about = (f"{loads}Results go to results/<name of the {file or 'script'}{' file' if file else ''}>/, or to the"
+             " folder of --out.")
     reader = _Parser(prog=prog, usage=f"{prog} {name}[options]", allow_abbrev=False, description=about)
     reader._negative_number_matcher = NUMBER
     offered = {each: field for each, field in options(RunOptions).items()

@@ -53,10 +53,8 @@ def _run(session, scenario, options):
     if not has_prompt():
         return session.complete(scenario, options)
     started = session.start(scenario, options)
-    print(
-        f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to"
-        f" {options.folder} at the end"
-    )
+    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to"
+          f" {options.folder} at the end")
     return started
 
 

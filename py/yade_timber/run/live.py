@@ -73,9 +73,8 @@ class LiveRun(Run):
         with self._folder_lock:
             try:
                 if self.steps > 0 and not self.is_loaded():
-                    raise RunError(
-                        f"{self.options.folder}: another scene was loaded before the end of the run; it has no results"
-                    )
+                    raise RunError(f"{self.options.folder}: another scene was loaded before the end of the run; it has"
+                                   " no results")
                 self.write()
             except InputError as problem:
                 print(f"error: {problem}", file=sys.stderr)

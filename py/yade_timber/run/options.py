@@ -127,10 +127,8 @@ class RunOptions(MotionRequest):
             for name in self.given():
                 raise RunError(f"{self.named(name)}: this run has no earthquake; {self.door.earthquake}")
         if self.report and self.no_frames:
-            raise RunError(
-                f"{self.named('report')} and {self.named('no_frames')} exclude each other: a report shows recorded"
-                " frames"
-            )
+            raise RunError(f"{self.named('report')} and {self.named('no_frames')} exclude each other: a report shows"
+                           " recorded frames")
         if self.jobs is not None and self.ensemble is None:
             raise RunError(f"{self.named('jobs')} {self.jobs}: belongs to an ensemble; give {self.named('ensemble')} N")
         for name in filter(lambda each: self.ensemble is not None and is_given(self, each), ALONE):

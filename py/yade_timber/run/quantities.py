@@ -111,10 +111,8 @@ def column_feet(observed):
     for element, fallen, loose in states:
         uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
         x, y, _ = map(float, element.solid.centroid)
-        rows.append(
-            (element.name, element.group, element.storey, x, y, uplift, pull, load,
-             "fallen" if fallen else "loose" if loose else "standing")
-        )
+        rows.append((element.name, element.group, element.storey, x, y, uplift, pull, load,
+                     "fallen" if fallen else "loose" if loose else "standing"))
     return sorted(rows, key=lambda row: -row[5])
 
 

@@ -55,10 +55,8 @@ class Recorder:
             frame_log.log_frames(self.log, earlier)
         self._cut(O.time)
         if len(self.times) < expected:
-            raise RunError(
-                f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are needed;"
-                f" {REMEDY}"
-            )
+            raise RunError(f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are"
+                           f" needed; {REMEDY}")
         self.save()
 
     def save(self):

@@ -296,10 +296,8 @@ def removing(options):
     try:
         yield
     except OSError as problem:
-        raise RunError(
-            f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
-            f" {options.named('out')}"
-        ) from None
+        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
+                       f" {options.named('out')}") from None
 
 
 def title(scenario, model):

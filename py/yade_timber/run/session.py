@@ -59,9 +59,7 @@ def reserved(options):
     prepare_folder(folder, options.named("out"))
     with locked(folder) as free:
         if not free:
-            raise RunError(
-                f"{folder}: another process computes a run there; wait for it, or choose another folder with"
-                f" {options.named('out')}"
-            )
+            raise RunError(f"{folder}: another process computes a run there; wait for it, or choose another folder with"
+                           f" {options.named('out')}")
         remove_parts(folder)
         yield

@@ -146,10 +146,8 @@ def created_too_much(energy):
     if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
         return None
     share = energy.created / energy.input if energy.input > 0 else math.inf
-    return (
-        f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible:"
-        f" {CREATED:g}); try a smaller --dt"
-    )
+    return (f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible:"
+            f" {CREATED:g}); try a smaller --dt")
 
 
 def _time(value):

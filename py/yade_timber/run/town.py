@@ -131,12 +131,8 @@ class TownRun:
         for lot, run in zip(self.town.lots, self.runs):
             self.report(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.report(
-            sentence(
-                recording.summary(self.town.name,
-                                  {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})
-            )
-        )
+        self.report(sentence(recording.summary(self.town.name,
+                                               {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
         self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def report(self, text):
@@ -166,10 +162,8 @@ class TownRun:
             place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
             times = ["" if time is None else time for time in (summary.tilt_time_s, summary.collapse_time_s)]
             joints, sheets = summary.joints_and_sheets
-            rows.append(
-                (*place, summary.verdict, summary.diagnosis.iw, drift, residual, *times, *joints, *sheets,
-                 round(run.wall_s, 3), sentence(summary))
-            )
+            rows.append((*place, summary.verdict, summary.diagnosis.iw, drift, residual, *times, *joints, *sheets,
+                         round(run.wall_s, 3), sentence(summary)))
         return csv_text(COLUMNS, rows)
 
 

@@ -74,10 +74,8 @@ def numbers_of_shape(name, value, shape, form):
         array = np.array(value, float, ndmin=len(shape))
     except (TypeError, ValueError):
         refuse(TypeError, name, value, form)
-    if (
-        array.ndim != len(shape) or any(n == 0 or (m is not None and n != m) for n, m in zip(array.shape, shape))
-        or not np.isfinite(array).all()
-    ):
+    fits = array.ndim == len(shape) and all(n > 0 and m in (None, n) for n, m in zip(array.shape, shape))
+    if not fits or not np.isfinite(array).all():
         refuse(ValueError, name, value, form)
     return array
 

@@ -100,9 +100,8 @@ def _refuse_shape_in_scene(shape, name):
     """Boxes, contacts and mass of a body in the scene would remain those of the old geometry."""
     for body in yw.Omega().bodies:
         if body.shape == shape:
-            raise ValueError(
-                f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape to the body"
-            )
+            raise ValueError(f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape"
+                             " to the body")
 
 
 def _assign(self, attribute, name, value):

@@ -142,9 +142,8 @@ def _with_momentum(part):
 def _check(body, name):
     """Raise an error if an element of the scene cannot be computed with its new part."""
     if body.shape is None:
-        raise ValueError(
-            f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body out"
-        )
+        raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body"
+                         " out")
     compiled.check_replaced_part(body)
     if name in ("shape", "material"):  # functors, stiffness and friction of its contacts are those of the old part
         for interaction in body.intrs():

@@ -38,9 +38,8 @@ class ContactOptions:
     def loop(self):
         """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a functor.
         """
-        geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(
-            vertexEdge=self.vertex_edge, flushSupports=self.flush_supports
-        )
+        geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge,
+                                                                           flushSupports=self.flush_supports)
         physics = [getattr(yw, ip2)(dampingRatio=self.damping_ratio) for ip2, _, _ in compiled.contact_laws()]
         laws = [getattr(yw, law2)() for _, _, law2 in compiled.contact_laws()]
         for law in laws:

@@ -159,10 +159,8 @@ def stiffness_matrix(linearised, rows, count):
     normal = linearised.normal[:, :, None] * linearised.normal[:, None, :]
     kn, ks = linearised.stiffness[:, 0, None, None], linearised.stiffness[:, 1, None, None]
     tangent = kn * normal + ks * (np.eye(3) - normal)
-    ends = [
-        np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(linearised.arm[:, e])], axis=2)
-        for e in (0, 1)
-    ]  # displacement = end @ x
+    ends = [np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(linearised.arm[:, e])], axis=2)
+            for e in (0, 1)]  # displacement = end @ x
     number = np.array([[rows.get(body, -1) for body in pair] for pair in linearised.body.tolist()])
     blocks, places = [], []
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):

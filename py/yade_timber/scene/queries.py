@@ -21,11 +21,9 @@ class Points(list):
     """Contact points; a short table at the prompt."""
 
     def __repr__(self):
-        rows = (
-            f"{' '.join(f'{x:9.4f}' for x in p['position'])}  {p['overlap'] * 1e6:10.4g}  {p['normal_force']:11.4g}"
-            f"  {p['shear_force'].norm():11.4g}"
-            for p in self
-        )
+        rows = (f"{' '.join(f'{x:9.4f}' for x in p['position'])}  {p['overlap'] * 1e6:10.4g}  {p['normal_force']:11.4g}"
+                f"  {p['shear_force'].norm():11.4g}"
+                for p in self)
         return "\n".join(["position x, y, z [m]           overlap [um]   normal [N]    shear [N]", *rows])
 
 

@@ -24,11 +24,9 @@ class Springs(list):
     """Springs of a joint; a short table at the prompt."""
 
     def __repr__(self):
-        rows = (
-            f"{k:6}  {' '.join(f'{x:10.4g}' for x in spring['force'])}  {spring['stretch'] * 1e3:12.4g}"
-            f"  {'broken' if spring['broken'] else 'intact'}"
-            for k, spring in enumerate(self)
-        )
+        rows = (f"{k:6}  {' '.join(f'{x:10.4g}' for x in spring['force'])}  {spring['stretch'] * 1e3:12.4g}"
+                f"  {'broken' if spring['broken'] else 'intact'}"
+                for k, spring in enumerate(self))
         return "\n".join(["spring  force x, y, z on body 1 [N]           stretch [mm]  state", *rows])
 
 

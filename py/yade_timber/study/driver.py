@@ -165,10 +165,8 @@ class _Process:
             last = next((line for line in reversed(lines) if line.strip()), f"exit status {self.child.returncode}")
             return last.strip().removeprefix("error: ")
         if self.task.summary is None:
-            return (
-                f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
-                " Python"
-            )
+            return (f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
+                    " Python")
         return None
 
 

@@ -97,9 +97,8 @@ def results_folder(text):
         with tempfile.TemporaryFile(dir=text):
             return Path(text)
     except (OSError, ValueError) as problem:
-        raise argparse.ArgumentTypeError(
-            f"'{str(text)[:80]}': no results can be written there: {getattr(problem, 'strerror', None) or problem}"
-        ) from None
+        raise argparse.ArgumentTypeError(f"'{str(text)[:80]}': no results can be written there:"
+                                         f" {getattr(problem, 'strerror', None) or problem}") from None
 
 
 # --- options that studies share ---------------------------------------------------------------------------------------

@@ -73,10 +73,8 @@ def ensemble(summary):
     outcomes, drifts = summary.ensemble.outcomes, summary.ensemble.peak_drift_standing
     numbers = ", ".join(f"{number} {state}" for state, number in outcomes.items())
     standing = " in those that stand" * (verdict.COLLAPSED in outcomes)
-    return (
-        f"{place_in_ensemble(summary.ensemble)} "
-        f"({numbers}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). "
-    )
+    return (f"{place_in_ensemble(summary.ensemble)}"
+            f" ({numbers}{f'; peak drift {span(*map(ratio, drifts))}{standing}' if drifts else ''}). ")
 
 
 def place_in_ensemble(place):
@@ -208,10 +206,8 @@ def _damage(facts):
         return "collapsed"
     counts = ((facts.broken, "joint", "broken"), (facts.partly_broken, "joint", "partly broken"),
               (facts.columns_lost, "column", "lost"))
-    return ", ".join(
-        [*(f"{counted(number, noun)} {state}" for number, noun, state in counts if number),
-         f"peak drift {ratio(facts.peak_drift)}"]
-    )
+    return ", ".join([*(f"{counted(number, noun)} {state}" for number, noun, state in counts if number),
+                      f"peak drift {ratio(facts.peak_drift)}"])
 
 
 def snow_fallen(facts):
@@ -231,9 +227,8 @@ PHRASES = {
     "collapse": lambda facts: "collapse: a floor has come down by half a storey",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",
-    "columns_lost": lambda facts: (
-        f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or without a joint"
-    ),
+    "columns_lost": lambda facts: (f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or"
+                                   " without a joint"),
     "snow_fallen": snow_fallen,
     "shaking_begins": lambda facts: "the shaking begins",
     "strongest_shaking": lambda facts: "strongest shaking",

@@ -50,10 +50,8 @@ def drifts(summary):
     peak, storey, direction = summary.largest_drift()
     left, _, side = summary.largest_drift("residual_drift")
     moving = "; still moving at the end" if summary.still_moving else ""
-    return (
-        f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}, residual drift"
-        f" {directed(left, side)}{moving}."
-    )
+    return (f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}, residual drift"
+            f" {directed(left, side)}{moving}.")
 
 
 def forces(quantities):
@@ -73,9 +71,8 @@ def accelerations(quantities):
     if not values:
         return ""
     value, name, axis = max(values)
-    return (
-        f"Largest floor acceleration ({BAND_TEXT}) {value:.1f} m/s² {direction_name(axis)}, above {storey_name(name)}."
-    )
+    return (f"Largest floor acceleration ({BAND_TEXT}) {value:.1f} m/s² {direction_name(axis)}, above"
+            f" {storey_name(name)}.")
 
 
 def pulls(quantities):

@@ -50,10 +50,8 @@ COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
 
 DESCRIPTION = "description"
 
-MIXED = (
-    "the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
-    " values here by blanks alone"
-)
+MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
+         " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""
 
 
@@ -157,9 +155,8 @@ def read_table(path):
     rows, above = [], {}
     for number, cells in body:
         if len(cells) != len(heads):
-            raise BatchError(
-                f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns; {_remedy(path, number)}"
-            )
+            raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns;"
+                             f" {_remedy(path, number)}")
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
@@ -176,9 +173,8 @@ def _lines(path):
     """[(line number, cells)] of the lines that are not empty."""
     lines = _text_lines(path)
     if lines and ";" in lines[0][1]:
-        raise BatchError(
-            f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or blanks"
-        )
+        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or"
+                         " blanks")
     separate = _csv_cells if lines and "," in lines[0][1] else str.split
     return [(number, separate(line)) for number, line in lines]
 
@@ -205,10 +201,8 @@ def _remedy(path, number):
     """Remedy for a line with too few or too many values."""
     first, line = _text_lines(path)[0][1], dict(_text_lines(path))[number]
     if "," in first:
-        return (
-            'the first line has commas, which separate the values here, too: write decimal points (1.5) and put a value'
-            ' with commas in quotes ("a,b")'
-        )
+        return ('the first line has commas, which separate the values here, too: write decimal points (1.5) and put a'
+                ' value with commas in quotes ("a,b")')
     if "," in line and len(line.split(",")) == len(first.split()):
         return MIXED
     return "blanks separate the columns: values contain none, * stands for a default"

@@ -105,10 +105,8 @@ def lines(content, shown):
     rows = [_row(label, content["numbers"][place], text, count) for label, place, text in ROWS
             if place in content["numbers"]]
     number = content["shown"]
-    reason = (
-        f"shown: run {number}, nearest to the median of the {'collapse time' if shown.collapsed else 'peak drift'} of"
-        f" the {shown.verdict} ones"
-    )
+    reason = (f"shown: run {number}, nearest to the median of the"
+              f" {'collapse time' if shown.collapsed else 'peak drift'} of the {shown.verdict} ones")
     return [*heads, COLUMNS.format("", "median", "lowest to highest", "").rstrip(), *rows, reason]
 
 

@@ -88,9 +88,8 @@ def bay_text(model, name):
     """'brace: main, storey 1, south wall, 3.2 m east': place of the bay's centre; 'plywood wall: ...'."""
     xs, ys = bay_ends(model, name)
     along = bay_parts(name)[2]
-    return (
-        f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m {'east' if along == 'x' else 'north'}"
-    )
+    return (f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m"
+            f" {'east' if along == 'x' else 'north'}")
 
 
 def line_text(model, name, bays=1):

@@ -52,10 +52,8 @@ class Ranking:
 
     def check(self):
         """Check all rows first: each candidate under the first motion, the house under all. Raises BatchError."""
-        rows = self._rows(
-            [(AS_IT_IS, motion) for motion in self.motions]
-            + [(candidate, self.motions[0]) for candidate in self.candidates]
-        )
+        rows = self._rows([(AS_IT_IS, motion) for motion in self.motions]
+                          + [(candidate, self.motions[0]) for candidate in self.candidates])
         check_rows(rows, self.folder)
 
     def choose_scale(self, report=print):
@@ -63,10 +61,8 @@ class Ranking:
         pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
         while scale not in shares:
             shares[scale] = self._pilot(pilots, scale) / len(pilots)
-            report(
-                f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of"
-                f" {len(pilots)} runs"
-            )
+            report(f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of"
+                   f" {len(pilots)} runs")
             if abs(shares[scale] - 0.5) < 0.2:
                 break
             low, high = (low, scale) if shares[scale] > 0.5 else (scale, high)
@@ -77,10 +73,8 @@ class Ranking:
         scale = min(shares, key=lambda one: (abs(shares[one] - 0.5), one if shares[one] > 0.5 else -one))
         self.motions = [(name, {**cells, "scale": f"{scale:g}"}) for name, cells in self.motions]
         fallen = f"{shares[scale] * len(pilots):.0f} of the first {len(pilots)}"
-        return (
-            f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses"
-            " another strength."
-        )
+        return (f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses"
+                " another strength.")
 
     def _pilot(self, pilots, scale):
         """Number of pilots, scaled, under which the house as it is collapses."""
@@ -113,10 +107,8 @@ class Ranking:
             if run["status"] == "done":
                 entry.runs[motion] = run
             elif entry is house:
-                raise RunError(
-                    f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to compare"
-                    " with"
-                )
+                raise RunError(f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to"
+                               " compare with")
             else:
                 entry.failed = run["error"] or run["status"]
         return runs
