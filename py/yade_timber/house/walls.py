@@ -10,7 +10,6 @@ restraint of neighbouring members into account.
 Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no
 stiffness across their plane.
 """
-
 from dataclasses import dataclass
 
 import numpy as np

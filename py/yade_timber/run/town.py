@@ -27,7 +27,6 @@ from .runner import STOP_SIGNALS, Interrupted, Run, removing, unwritten
 HOUSES = "houses.csv"
 NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
 """Files in the folder of a town; those of a lot are in the folder lots/<name of the lot>."""
-
 O = yw.Omega()
 
 
