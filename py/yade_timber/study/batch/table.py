@@ -2,10 +2,8 @@
 """Parameter tables: a line with the names of the columns, then one line per run. Two formats are read.
 
 Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the
-line above;
-columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty cell is the
-default.
-Relative paths are relative to the table's folder.
+line above; columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty
+cell is the default. Relative paths are relative to the table's folder.
 """
 import csv
 import hashlib
