@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Colours shared by all pictures, distinct for colour-blind readers (Okabe and Ito 2008) and in grey print."""
-
 KINDS = {  # of elements; RGB in 0..1
     "ground": (0.55, 0.55, 0.50),
     "foundation": (0.60, 0.60, 0.60),

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight and mass."""
-
 GRAVITY = 9.81
 """Acceleration of gravity, that of the scene (pkg/Gravity.hpp). [m/s2]"""
 

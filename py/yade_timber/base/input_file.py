@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Input files of unknown content: only regular files, only up to a size."""
-
 import errno
 import os
 import stat

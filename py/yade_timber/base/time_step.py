@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Time steps and durations of runs."""
-
 DEFAULT_DT = 5e-4
 """Time step of house runs. [s]"""
 MAX_DT = 5e-4

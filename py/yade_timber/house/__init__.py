@@ -4,7 +4,6 @@
     model = build_house(load_house("C2"), snow_depth=1.0)
     model.elements, model.joints, model.counts()
 """
-
 from .bays import free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bays that can take a brace or a wall, between neighbouring columns on a line of beams; for `changed_house`."""
-
 from .members import DIRECTION, column_plan
 from .structure import ACROSS, Structure
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagonal braces: hexagonal prisms (8 faces) in the bay between two neighbouring columns. Lengths in m."""
-
 from dataclasses import dataclass
 
 import numpy as np

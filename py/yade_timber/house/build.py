@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Description -> HouseModel: structures, members, construction tolerance, joints, damage, checks."""
-
 from collections import Counter
 
 import numpy as np

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of a built house: no overlap, joints at both ends of columns and braces, every element supported."""
-
 import numpy as np
 
 from ..base.joint_kinds import WALL_KINDS

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints broken from the start, selected by side, storey, kind and end."""
-
 import numpy as np
 
 from .errors import HouseError

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files as checked descriptions: merged with the files they extend, without unknown names."""
-
 from dataclasses import dataclass
 from pathlib import Path
 

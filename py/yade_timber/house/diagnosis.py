@@ -5,7 +5,6 @@ eKfl dK / Qr.
 Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources:
 diagnosis_tables.py.
 """
-
 from dataclasses import dataclass
 
 import numpy as np

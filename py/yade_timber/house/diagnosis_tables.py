@@ -5,9 +5,7 @@ Order: Enforcement Order of the Building Standard Law, as in force until March 2
 houses, general diagnosis (Japan Building Disaster Prevention Association, 2012). None of them was at hand: 'compared'
 names the published text that repeats the numbers, 'not verified' is from memory of the source.
 """
-
 DIRECTION_NAMES = {"ew": "E-W", "ns": "N-S"}
-
 ALLOWABLE_KN_M = 1.96
 """Allowable shear of a wall of multiplier 1. [kN/m] (Order, Article 46; compared: stmaki.com, N-value method)"""
 LARGEST_MULTIPLIER = 5.0
@@ -17,7 +15,6 @@ BRACES = ((0.090, 3.0), (0.045, 2.0), (0.030, 1.5), (0.015, 1.0))
 kenchikuyogo.com, 30 and 45 mm what-myhome.net; 90 mm not verified)"""
 BRACE_WIDTH = 0.090
 """Least width of a brace; 90 mm thick ones are square. [m] (Order, Article 46, Table 1)"""
-
 ROOF_CLASSES = ((1.01, "very_heavy"), (0.69, "heavy"), (0.0, "light"))
 """(least weight of the roof with its ceiling [kN/m2 of its surface], class). Limits (assumed) lie halfway between the
 roofs of the Order, Article 84: slates 0.34, tiles 0.64, tiles on mud 0.98, each with purlins 0.05 and ceiling 0.15."""
@@ -26,7 +23,6 @@ WALL_QUANTITY = {"light": {1: (11,), 2: (29, 15), 3: (46, 34, 18)}, "heavy": {1:
 2; heavy: tiles.
 compared: one and two storeys mnjk.blog, page on wall quantities; two storeys of the light row not on that excerpt: 29
 and 15 in a published calculation; three storeys not verified). The Order has no addition for snow."""
-
 REQUIRED_STRENGTH = {"light": {1: (0.28,), 2: (0.83, 0.37), 3: (1.34, 0.98, 0.43)},
                      "heavy": {1: (0.40,), 2: (1.06, 0.53), 3: (1.66, 1.25, 0.62)},
                      "very_heavy": {1: (0.64,), 2: (1.41, 0.78), 3: (2.07, 1.59, 0.91)}}
@@ -45,7 +41,6 @@ BANDS = ((1.5, "will not collapse"), (1.0, "unlikely to collapse"), (0.7, "may c
 """(least Iw, judgement) under a very rare earthquake. (JBDPA; compared: mokutaikyo.com)"""
 VERY_RARE_PEAK = 4.0
 """Peak acceleration of a very rare earthquake: its response is 1 g (Order, Article 88), 2.5 times. [m/s2] (assumed)"""
-
 ECCENTRICITY_LIMIT = 0.30
 """[-] (Notification 1352 of 2000; compared: what-myhome.net)"""
 ECCENTRICITY_START, ECCENTRICITY_END = 0.15, 0.45
@@ -53,7 +48,6 @@ ECCENTRICITY_START, ECCENTRICITY_END = 0.15, 0.45
 compared with the program kouzou, which is linear between them; the formula not verified)"""
 QUARTER_RATIO = 0.5
 """Least ratio of opposite quarters, one of them below 1. [-] (Notification 1352 of 2000; compared: what-myhome.net)"""
-
 UPLIFT_KN = 5.3
 """Tension of N = 1: 1.96 kN/m over 2.7 m. [kN] (Notification 1460 of 2000, N-value method; compared: stmaki.com)"""
 RESTRAINT = {True: 0.8, False: 0.5}

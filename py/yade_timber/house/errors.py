@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The exceptions of the house description."""
-
 from ..base.errors import InputError
 
 

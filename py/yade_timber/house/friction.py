@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Friction of material pairs. A description must have YADE's form: the smaller coefficient of both materials."""
-
 from .errors import HouseError
 
 DEFAULT = 0.5

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polyhedra from vertices or half-spaces; contact polygon and separation of two. Lengths in m, world frame."""
-
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations

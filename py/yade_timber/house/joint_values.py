@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Values of joints: a joint type has those of one fitting, a rule the number of fittings and their share."""
-
 from ..base.joint_kinds import WALL_KINDS
 from .layout import SLIP_KEYS
 from .schema import fail

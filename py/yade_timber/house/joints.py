@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints found from the contact areas between elements (paper, 4: four springs at the corners of the contact area)."""
-
 from itertools import combinations
 
 import numpy as np

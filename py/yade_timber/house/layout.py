@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
-
 from .limits import MAX_LINES, MAX_NAME
 from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
@@ -31,17 +30,13 @@ node = Number("grid nodes", -1000, 1000)
 nodes = ListOf(node, scalar=True, most=MAX_LINES)
 storey = Number("", 1, MAX_STOREYS, whole=True)
 storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
-
 axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
                "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)},
               one_of=("module", "positions"))
-
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})
-
 column_group = Record({"section": length(0.01, 1.0), "storeys": storeys, "at": ListOf(ListOf(node, 2), default=None),
                        "grid": Record({"x": nodes, "y": nodes}, default=None),
                        "lines": ListOf(line, most=MAX_LINES, default=None)}, one_of=("at", "grid", "lines"))
-
 brace_line = Record({"along": Choice(("x", "y")), "at": nodes, "runs": ListOf(ListOf(node, 2)), "storeys": storeys})
 braces = Record({"width": length(0.005, 0.5, 0.09), "thickness": length(0.005, 0.5, 0.045),
                  "material": word("timber"), "lines": ListOf(brace_line, default=())}, default={})
@@ -71,33 +66,26 @@ roof = Variants("type", {"hip": _roof("hip", _RISE, corner_cut=length(high=5.0, 
                          "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
                          "mono": _roof("mono", _RISE, falls=Choice(("west", "east", "south", "north")), **_rise),
                          "flat": _roof("flat")})
-
 layer = Variants("layer", {
     "foundation": _strip("foundation", True), "sill": _strip("sill", True),
     "columns": _layer("columns", height=length(0.1, 20.0)), "beams": _strip("beams", False),
     "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
     "roof": roof
 })
-
 wall_line = Record(
     {"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "type": ListOf(word(), scalar=True, most=5),
      "opening": Choice(("none", "window", "door"), "none"), "storeys": storeys}
 )
-
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
-
-
 place = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
                 "side": Choice(SIDES, "east"), "align": Choice(("middle", *SIDES), "middle"),
                 "gap": length(high=100.0, default=0.0, open_low=False),
                 "shift": Number("m", -100, 100, default=0.0)}, one_of=("origin", "beside"))
-
 structure = Record({"place": place, "grid": Record({"x": axis, "y": axis}), "margin": length(high=2.0, open_low=False),
                     "lines": ListOf(line, most=MAX_LINES), "stack": ListOf(layer, most=MAX_LAYERS),
                     "columns": ListOf(column_group), "braces": braces, "walls": ListOf(wall_line, default=()),
                     "loads": loads})
-
 material = Variants(
     "law",
     {
@@ -109,7 +97,6 @@ material = Variants(
                         "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
     },
 )
-
 _stretch = Number("m", 1e-5, 10.0, default=None)
 joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number("N/m", 1e3, 1e12),
                      "ks": Number("N/m", 1e3, 1e12), "strength": Number("N", 10.0, infinite=True),
@@ -118,7 +105,6 @@ joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number
                      "ultimate_stretch": _stretch})
 SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
-
 _drift = Number("rad", 1e-4, 1.0, default=None)
 board = Record({"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
                 "thickness": length(0.001, 0.2), "shear_modulus": Number("Pa", 1e6, 1e11),
@@ -134,19 +120,16 @@ wall_type = Record(
      "nails": nails, "friction_share": Number("", 0.0, 1.0, default=0.2), "softening_drift": _drift,
      "ultimate_drift": _drift}
 )
-
 joint_rule = Record(
     {"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(),
      "across": Flag(False), "number": Number("fittings", 1, 100, whole=True, default=1),
      "share": Number("", 0.01, 1.0, default=1.0), "strength": Number("N", 10.0, infinite=True, default=None)}
 )
-
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
 damage_region = Record(
     {"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken, "brace_beam": _broken}
 )
-
 HOUSE = Record({
     "name": word(),
     "description": Text(""),

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Limits of a house description, far above any real house: they bound the time (seconds) and memory (100 MB)."""
-
 MAX_FILE_SIZE = 500_000
 """Of one YAML file. [bytes] The largest shipped house has 5 kB."""
 MAX_FILES = 10

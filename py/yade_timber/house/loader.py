@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files -> tables. `extends` merges a file into the one that it extends: a file beside it or a shipped one."""
-
 from functools import reduce
 from pathlib import Path
 

@@ -3,7 +3,6 @@
 
 A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
 """
-
 import numpy as np
 
 from ..base.gravity import mass_of

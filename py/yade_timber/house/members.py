@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Straight members: foundation strips, sills, beams, columns and floor slabs of one structure. Lengths in m."""
-
 import numpy as np
 
 from .errors import HouseError

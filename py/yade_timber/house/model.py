@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A built house: elements (convex polyhedra), joints (spring points), and counts of both."""
-
 from collections import Counter
 from dataclasses import dataclass, field
 from functools import cached_property

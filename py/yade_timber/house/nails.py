@@ -18,7 +18,6 @@ M over its height H:
 Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed
 calculation of walls with boards; the formulas follow from the mechanics above.
 """
-
 from dataclasses import dataclass
 
 import numpy as np

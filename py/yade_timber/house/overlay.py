@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Variants of a house for studies: changed keys, added braces, a factor on the strength of joints."""
-
 import re
 
 from ..base.input_file import shown
@@ -16,8 +15,6 @@ _NODE = r"(\d{1,4}(?:\.\d{1,6})?)"
 _PLACE = rf"(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}"
 _BRACE = re.compile(rf"({NAME})\.brace{_PLACE}")
 _WALL = re.compile(rf"({NAME})\.wall{_PLACE}\.({NAME})")
-
-
 MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
 """Range of the factor on the joints' strength."""
 

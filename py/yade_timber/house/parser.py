@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YAML text -> tables and lists that know their file and line; only numbers, texts and flags, limited in size."""
-
 import re
 
 import yaml

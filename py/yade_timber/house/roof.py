@@ -11,7 +11,6 @@ nearest to its own eave. The long slopes are hexahedra; the hip ends, whose thre
 square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
 opposite, which belong to its joints.
 """
-
 from dataclasses import dataclass, replace
 
 import numpy as np

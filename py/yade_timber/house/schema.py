@@ -4,7 +4,6 @@
 Each part of a schema has `default` (REQUIRED: must be given) and `check(value, where, name)`, which returns the value
 with defaults filled in. `where`: "file:line"; `name`: path of the key.
 """
-
 import math
 import re
 from dataclasses import dataclass

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading."""
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +9,6 @@ from .schema import fail
 
 ALLOWABLE = 1960.0
 """Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
-
 RATED_DRIFT = 1 / 120
 """Drift at which walls with pinned feet are rated. [rad]"""
 

@@ -10,7 +10,6 @@ restraint of neighbouring members into account.
 Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no
 stiffness across their plane.
 """
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +26,7 @@ SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
-precise diagnosis of 2004;
-stiffness: assumed to be the same). [-]"""
+precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
 

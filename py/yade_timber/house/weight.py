@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
-
 from ..base.gravity import weight_of
 
 HALVED = ("column", "brace")

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Ground motion: readers, processing, measures, synthetic motion. Columns ew, ns, ud = x east, y north, z up; m/s2."""
-
 from .constant_part import constant_note
 from .measures import (JmaIntensity, Spectrum, arias, displacement, jma_intensity, onset, pga, pgd, pgv,
                        response_spectrum, significant_duration, velocity)

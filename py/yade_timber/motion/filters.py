@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The high-pass filter of baseline correction, velocities and displacements."""
-
 from __future__ import annotations
 
 import math
@@ -10,11 +9,8 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .record import RecordError
 
-
 MAX_RESULT = 5_000_000
 """Samples of one component, transients included, in a processed motion: 45 s at 1e-5 s."""
-
-
 PADDING = 1.5
 """Zeros for the transients of a high-pass, before and after the motion, each times its corner. [-]"""
 

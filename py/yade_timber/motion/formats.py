@@ -7,7 +7,6 @@ Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), 
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
 Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows.
 """
-
 from __future__ import annotations
 
 import re
@@ -23,7 +22,6 @@ AT2_HEADER_LINES = 20
 """Lines in which the number of samples of an AT2 file is searched."""
 JMA_HEADER_LINES = 30
 """Lines in which the row of column names of a JMA file is searched."""
-
 _PEKNOLD = "points at equal spacing of"
 
 

@@ -5,7 +5,6 @@ ASCII: "About K-NET ASCII format" (17 header lines, whole counts, scale factor).
 trigger delay: the first sample is 15 s earlier (DELAY). CSV: a header behind '#', each row of labels followed by a row
 of values, the names of the columns last.
 """
-
 from __future__ import annotations
 
 import re

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s and cm."""
-
 from __future__ import annotations
 
 import math
@@ -14,18 +13,14 @@ from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 
 CM = 0.01
 """One centimetre in metres."""
-
 VELOCITY_CORNER = 0.05
 """Default high-pass of velocities and displacements. [Hz] Below it accelerographs record baseline errors, not motion.
 """
-
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
-
 MOST_SAMPLES = 2_000_000
 """Samples of one component that are integrated, transients included: 100 s at 1e-4 s. Resampled motions may have more.
 """
-
 STEPS_PER_PERIOD = 20
 """Smallest number of steps per oscillator period; sampling then underestimates a peak by at most 1.2 %."""
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Formats of other networks and other kinds of files, which are not read: their names, and what to do instead."""
-
 from __future__ import annotations
 
 import struct
@@ -10,7 +9,6 @@ PLAIN_CSV = ("a plain CSV: a line '# dt: 0.01' (time step in s), a line 'ns [gal
 """What every record can be converted to."""
 HEAD_LINES = 12
 """Lines in which the words of a format are searched."""
-
 TEXTS = (("COSMOS", ("(format v", "cosmos")),
          ("GeoNet V1 to V3", ("geonet", "institute of geological and nuclear sciences")),
          ("SMC (USGS)", ("1 uncorrected accelerogram", "2 corrected accelerogram")),
@@ -20,7 +18,6 @@ TEXTS = (("COSMOS", ("(format v", "cosmos")),
          ("CWA (Taiwan)", ("stationcode:", "station code:")), ("GSE2", ("wid2 ",)),
          ("SLIST or TSPAIR", ("timeseries ",)), ("SAC in letters", ("-12345.0",)))
 """Name of a format, words of its header in lower case. The first that fits counts."""
-
 BINARIES = (
     (*("archive or workbook", "unpack it and give the files in it, or save the sheet as CSV"),
      (b"\x1f\x8b", b"PK\x03\x04", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf")),

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Processing of ground motions; every function returns a new GroundMotion."""
-
 from __future__ import annotations
 
 import math
@@ -17,7 +16,6 @@ from .record import GAL, RecordError, interpolated, peaks_gal
 
 PAD_SECONDS = 5.0
 """Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
-
 LARGEST_RATIO = 100_000
 """Largest numerator or denominator of old step / new step for band-limited resampling."""
 

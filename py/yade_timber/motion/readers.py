@@ -4,7 +4,6 @@
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
 from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
 """
-
 from __future__ import annotations
 
 import re
@@ -23,7 +22,6 @@ from .text import DOWN, UP, direction_of, read_lines
 
 RIGHT_ANGLE_TOLERANCE = 1.0
 """Largest deviation of two horizontal components from a right angle. [degrees] (PEER prints whole degrees)"""
-
 SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
             ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
             ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
@@ -31,8 +29,6 @@ SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
              "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"))
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
-
-
 MAX_COMPONENTS = 3
 SURPRISING = 5 * STANDARD_GRAVITY
 """Acceleration above which a warning is given. [m/s2]"""

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A three-component ground acceleration in the axes of the house, and its units."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -13,16 +12,11 @@ from ..base.input_file import shown
 
 GAL = 0.01
 """One gal (cm/s2) in m/s2."""
-
 STANDARD_GRAVITY = 9.80665
 """One g in m/s2 (the unit of PEER records)."""
-
-
 UNITS = {"gal": GAL, "cm/s2": GAL, "cm/s/s": GAL, "cm/s^2": GAL, "cm/sec2": GAL, "cm/sec/sec": GAL, "m/s2": 1.0,
          "m/s/s": 1.0, "m/s^2": 1.0, "g": STANDARD_GRAVITY}
 """Known spellings of acceleration units and their size in m/s2."""
-
-
 MAX_ACCELERATION = 1e3
 """Largest acceleration of a ground motion. [m/s2] The largest recorded ones are below 50."""
 

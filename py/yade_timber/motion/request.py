@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Request for a ground motion: source and processing as options."""
-
 from dataclasses import dataclass
 
 import numpy as np

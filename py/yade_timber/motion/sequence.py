@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sequences: several ground motions one after the other, as a foreshock and a main shock, with quiet between them."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass

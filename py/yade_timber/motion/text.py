@@ -3,7 +3,6 @@
 
 String methods instead of regular expressions keep the time of a line proportional to its length.
 """
-
 from __future__ import annotations
 
 import re
@@ -30,7 +29,6 @@ MIN_STEP, MAX_STEP = 1e-4, 1.0
 """Time steps of accelerographs. [s]"""
 YEARS = range(1800, 2200)
 """Years of records."""
-
 UP = "up"
 """Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
 DOWN = "down"

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Writes a ground motion as the plain CSV that `read_motion` reads."""
-
 from __future__ import annotations
 
 from pathlib import Path

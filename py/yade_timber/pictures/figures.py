@@ -31,7 +31,6 @@ POINT_LETTERS = 140.0
 LONGEST_TEXT = 400
 """Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
-
 PNG_LEVEL = 1
 """Of zlib: Pillow's fastest."""
 METADATA = {"CreationDate": None}

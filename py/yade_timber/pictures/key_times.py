@@ -16,8 +16,6 @@ FARTHEST = 1.0
 """Largest displacement that counts for one element, so that one that rolls away does not outweigh the house. [m]"""
 ONSET = 0.1
 """Ground acceleration at which the shaking begins. [m/s2]"""
-
-
 AT_REST = 1e-3
 """Before the shaking a house with smaller storey drifts is at rest. [-]"""
 LEAD = 1.0

@@ -29,7 +29,6 @@ from .packing import pack, times
 from .provenance import provenance
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
-
 POSITION_STEP = 0.5e-3
 """Of positions of elements. [m]"""
 ORIENTATION_STEP = 1 / 32767

@@ -64,7 +64,6 @@ class Snapshot:
 FRONT = View("front", "Front, seen from the east", (0, 1, 0), (1, 0, 0), "south", "north")
 SIDE = View("side", "Side, seen from the north", (-1, 0, 0), (0, 1, 0), "east", "west")
 VIEWS = (FRONT, SIDE)
-
 BORDER = 0.8
 """Around everything drawn. [m]"""
 DEPTH_BELOW = 0.5
@@ -79,7 +78,6 @@ HIDDEN_BEHIND = 0.25
 """A mark this far behind the visible face is hidden: half the width of a member, rounded up. [m]"""
 MARK_SIZE = 7.5
 """Mark of a broken joint in a large picture. [pt]"""
-
 INK = "#444444"
 MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in grey
     "broken": (1.0, dict(marker="X", markerfacecolor=colors.ORANGE, markeredgecolor="white")),

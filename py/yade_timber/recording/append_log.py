@@ -3,9 +3,8 @@
 result. Needs no YADE.
 
 A record: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content
-(uint32), content; little-endian.
-The first one has the kind RUN and the fingerprint of the run's identity. What follows the last complete record, as
-after a kill, is not read.
+(uint32), content; little-endian. The first one has the kind RUN and the fingerprint of the run's identity. What follows
+the last complete record, as after a kill, is not read.
 """
 import os
 import struct

@@ -2,10 +2,9 @@
 """Events of a run: time, kind, facts. Their phrases: text/.
 
 FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they
-happen;
-OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the main
-one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins, StrongestShaking,
-LevelPassed: of the player, not recorded.
+happen; OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the
+main one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins,
+StrongestShaking, LevelPassed: of the player, not recorded.
 """
 from dataclasses import dataclass, field
 

@@ -17,7 +17,6 @@ Drifts = dict[str, dict[str, float | None]]
 """{storey: {direction: drift [-], None where there is none}}"""
 Components = dict[str, float]
 """{direction: value}"""
-
 Weight = table("Weight", total_kn=float, snow_kn=float, floor_area_m2=float, per_floor_area_kn_m2=float | None,
                storeys=dict[str, dict[str, Components]])
 Diagnosis = table(

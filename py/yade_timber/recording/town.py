@@ -10,7 +10,6 @@ from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
 """Elements times frames of a town, above which frames are left out. [-] A player of that size has 30 MB."""
-
 SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
 

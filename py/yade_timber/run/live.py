@@ -15,7 +15,6 @@ from .runner import Run
 
 TAG = "yade-timber run"
 """Tag of the scene: the run that it belongs to."""
-
 O = yw.Omega()
 live = None
 """The LiveRun of this session that records frames."""

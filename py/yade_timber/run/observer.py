@@ -24,10 +24,8 @@ from .modal import modes_now
 
 SETTLED = 1.0
 """Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
-
 BREAKS = ("time", "joint", "spring", "cause", "force")
 """Attributes of a JointBreak, columns of frames.h5's /breaks."""
-
 O = yw.Omega()
 
 

@@ -22,7 +22,6 @@ from .modal import modes_now
 NAMES = (quantities.NAME, JOINTS, COLUMNS)
 """Files that `Tables.write` makes."""
 AXES = quantities.AXES
-
 O = yw.Omega()
 
 

@@ -26,7 +26,6 @@ from .samples import Samples
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
 """Files of the frames, and of what a resumed run continues from."""
-
 O = yw.Omega()
 
 

@@ -10,7 +10,6 @@ from ..scene.engines import find_engine
 NAME = "samples.log"
 MONITORS = {b"H": yw.HouseMonitor, b"M": yw.StructureMonitor}
 """Kind of the records, and the engine whose `rows` they hold, float64."""
-
 O = yw.Omega()
 
 

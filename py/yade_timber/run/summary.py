@@ -28,7 +28,6 @@ CREATED, NEGLIGIBLE = 1e-4, 1e-3
 BREAKS = "breaks.csv"
 NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 """Files that `write` makes."""
-
 O = yw.Omega()
 
 

@@ -26,22 +26,18 @@ REGISTERED = re.compile(r":yattrtype:`(.*?)`")
 """In the documentation of an attribute that is saved with the scene; other properties have none."""
 CONVERSION_ERRORS = (TypeError, OverflowError)
 """Of Boost.Python for a value of another type."""
-
 GEOMETRY = ("vertices", "radius")
 """Attributes of a shape that the geometry of a body follows from."""
 VALIDATED_OF_YADE = ("density",)
 """Attributes of YADE's base classes on which the package's classes depend."""
-
 RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel")}
 """Attributes of YADE's classes whose assignment `background` guards."""
-
 FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
 """Classes of YADE's own whose numbers must be finite, too."""
 NOT_ZERO = dict.fromkeys(("ori", "refOri", "se3"), ", and the norm of a quaternion > 0")
 """Attributes that YADE divides by their norm: end of the message."""
 MEASURED = ("rows",)
 """Attributes that a monitor fills: in a scene that fails, they are not finite."""
-
 _guarded = set()
 _update_attributes = yw.Serializable.updateAttrs
 

@@ -20,7 +20,6 @@ INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
 SCENE_METHODS = ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp",
                  "switchScene", "switchToScene")
 BODY_PARTS = ("shape", "material", "state")
-
 O = yw.Omega()
 
 

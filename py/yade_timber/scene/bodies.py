@@ -8,10 +8,8 @@ from . import arguments
 from .queries import imposed_velocities
 
 O = yw.Omega()
-
 LEAST_RADIUS = 1e-4
 """Smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]"""
-
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 

@@ -12,7 +12,6 @@ GRAVITY = tuple(yw.UniformGravity().gravity)
 """[m/s2]"""
 BOUND_MARGIN = 5e-3
 """Distance that bodies may move before the collider runs again [m]; results do not depend on it."""
-
 _FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().dampingRatio  # with their defaults
 O = yw.Omega()
 

@@ -12,7 +12,6 @@ from .engines import find_engine
 
 PER_JOINT = {"spring": False, "joint": True}
 """Owner of stiffness and strength -> TimberJoint.perJoint."""
-
 O = yw.Omega()
 
 

@@ -13,7 +13,6 @@ from .engines import find_engine
 
 TAG = f"yade-timber {IMPOSED}"
 """Tag of the scene: energy that velocities have brought in which `set_velocity` imposed. [J]"""
-
 O = yw.Omega()
 
 

@@ -24,10 +24,9 @@ class Scenario:
     None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
-    collapse ends the run;
-    joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier, None for both: the
-    house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`; other_walls:
-    OtherWalls of the summary, verdict with walls of the other level.
+    collapse ends the run; joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier,
+    None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`;
+    other_walls: OtherWalls of the summary, verdict with walls of the other level.
     """
 
     name: str

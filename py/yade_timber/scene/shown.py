@@ -2,7 +2,6 @@
 """One line about each object of the package's classes, and a table of a joint's springs, for the prompt: units, four
 digits.
 """
-
 ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),
               "GroundMotionEngine": (("start", "s"), ("scale", "")), "HouseMonitor": (("interval", "s"),),

@@ -9,7 +9,6 @@ DIRECTION = (0.72, 0.64, 0.30)
 """Direction from the house to the camera: north-east, above. [-]"""
 DISTANCE = 1.15
 """Distance of the camera over the diagonal of the house. [-]"""
-
 O = yw.Omega()
 
 

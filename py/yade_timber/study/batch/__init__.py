@@ -5,7 +5,6 @@
     tasks.py    row -> task of the driver, after all rows have been checked
     collect.py  results of the runs -> runs.csv
 """
-
 from .collect import RUNS, write_runs
 from .table import BatchError, Row, read_table
 from .tasks import check_rows, run_rows

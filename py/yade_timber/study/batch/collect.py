@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of a batch in one CSV file, one row per run."""
-
 from ...base.atomic_write import write_text
 from ...base.json_types import encode
 from ...base.table import csv_text

@@ -2,12 +2,9 @@
 """Parameter tables: a line with the names of the columns, then one line per run. Two formats are read.
 
 Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the
-line above;
-columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty cell is the
-default.
-Relative paths are relative to the table's folder.
+line above; columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty
+cell is the default. Relative paths are relative to the table's folder.
 """
-
 import csv
 import hashlib
 import json
@@ -28,7 +25,6 @@ from ...run.options import Door, RunOptions
 
 MAX_FILE_SIZE = 10_000_000
 """[bytes]"""
-
 NO_EARTHQUAKE = "none"
 """Value of the column `record` for a run without an earthquake."""
 
@@ -47,9 +43,7 @@ CHANGES = options(HouseChanges)
 DECISIVE = {name: each for name, each in options(RunOptions).items() if each.metadata["decides"] and name != "quake"}
 COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
 """{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
-
 DESCRIPTION = "description"
-
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
          " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of a table as tasks of the driver: runs of scripts/house.py, all checked before the first run."""
-
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
