@@ -7,28 +7,52 @@
 A run is kept if its folder holds a summary.json made from the same options, files and package; otherwise it is done.
 Writes claims.md, claims.csv, claims.json and runs.csv. Needs no YADE itself.
 """
+import argparse
+
 from timber_research import SCRIPTS, report
 from timber_research.claims import RUNS, judge, parse_run
 from yade_timber.base.errors import RunError
+from yade_timber.base.options import add_options, options, read_arguments
+from yade_timber.motion import MotionRequest
+from yade_timber.run.options import RunOptions, scripted
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, add_run_options, run_of, run_options, run_script
+from yade_timber.study.options import Parser, add_driver_options, record, run_script
+
+SHARED = ("record", "seed", "scale", "start", "end", "dt", "duration")
+"""Options that are passed to the fourteen runs."""
 
 
 def main():
     parser = Parser(__doc__)
     add_driver_options(parser, "results")
-    add_run_options(parser)
-    options = parser.parse_args()
-    given = run_options(options)
-    tasks = [Task(run, options.out / run, run_of(run, *parse_run(run), given)) for run in RUNS]
-    summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, options.jobs).items()
+    add_options(parser, [options(RunOptions)[name] for name in SHARED])
+    arguments = parser.parse_args()
+    shared = run_options(arguments)
+    tasks = [Task(run, arguments.out / run, run_of(run, *parse_run(run), shared)) for run in RUNS]
+    summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, arguments.jobs).items()
                  if summary is not None}
     results = judge(summaries)
     print(report.markdown(results, summaries))
-    for path in report.write(options.out, results, summaries):
+    for path in report.write(arguments.out, results, summaries):
         print(f"written: {path}")
     if len(summaries) < len(RUNS):
         raise RunError("some runs failed; run.json in their folders contains the error")
+
+
+def run_options(arguments):
+    """{option: value}, checked, of parsed arguments. Raises RunError, RecordError."""
+    values = read_arguments(RunOptions, argparse.Namespace(**{name: getattr(arguments, name) for name in SHARED}))
+    RunOptions(**values, quake=True).check()
+    if "record" in values:
+        record(values["record"])
+    return values
+
+
+def run_of(script, house, earthquake, snow, values):
+    """RunOptions of a run script with values of `run_options`; those of the motion only with an earthquake."""
+    motion = () if earthquake else options(MotionRequest)
+    return scripted(script, house, earthquake, snow,
+                    **{name: value for name, value in values.items() if name not in motion})
 
 
 if __name__ == "__main__":

@@ -72,8 +72,7 @@ def check_value(place: str, expected, actual, record: dict, host: dict) -> None:
 
 
 def _sentinel(wrapper, default, pointee: str, number: int):
-    """A value of the type of an attribute's default (of class `pointee` for a pointer), different for each attribute.
-    """
+    """A value of the type of a default (of class `pointee` for a pointer), different for each attribute."""
     if pointee:
         return getattr(wrapper, pointee)()
     if isinstance(default, bool):
@@ -88,8 +87,7 @@ def _sentinel(wrapper, default, pointee: str, number: int):
 
 
 def _store(wrapper, owner: str, attribute: str, value):
-    """An instance of a YADE class with one attribute set by YADE itself; only the constructor can set read-only ones.
-    """
+    """An instance of a YADE class with one attribute set by YADE itself, as read-only ones need."""
     try:
         return getattr(wrapper, owner)(**{attribute: value})
     except AttributeError:  # shorthands (State.pos) are no keywords of the constructor

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Runs of the driver: only missing ones are done, and none is taken that was made from something else."""
-import argparse
 import os
 import sys
 
@@ -13,7 +12,6 @@ from yade_timber.run.identity import made_from
 from yade_timber.run.options import RunOptions
 from yade_timber.study import driver
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import run_of, run_options
 
 
 def fake_script(folder, body):
@@ -80,10 +78,3 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     task = Task("run", tmp_path / "a", RunOptions(house=str(house), record=str(record), scale=2.0))
     assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
     assert task.status == "failed" and "another yade_timber" in task.error and task.error in said[-1]
-
-
-def test_only_runs_with_an_earthquake_get_motion_options():
-    given = run_options(argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None, dt="1e-4", duration=None))
-    assert given == {"dt": 1e-4, "seed": 3, "scale": 0.5}
-    assert run_of("modelA_quake", "A", True, False, given).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
-    assert run_of("modelA_snow", "A", False, True, given).words() == ["--dt=0.0001"]

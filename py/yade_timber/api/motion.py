@@ -43,10 +43,8 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     >>> kobe = yt.motion("RSN1106_KOBE_KJM", pga=400)
     """
     record, measured = source_of(source)
-    request = MotionRequest(
-        **{**read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"}),
-           "record": record}
-    )
+    keywords = read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"})
+    request = MotionRequest(**{**keywords, "record": record})
     request.check("motion: {}".format)
     if measured is not None and request.seed is not None:
         raise RecordError("motion: seed: a GroundMotion is given; leave one of them out")

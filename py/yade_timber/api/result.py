@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The results of a finished run as an object. Needs no YADE."""
-import csv
 from functools import cached_property
 from pathlib import Path
 
 from ..base.atomic_write import make_folder
 from ..base.errors import os_errors
-from ..base.input_file import require_regular
-from ..recording import ensemble, frames
+from ..recording import ensemble, frames, peaks
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.summary import Summary
@@ -95,10 +93,7 @@ class RunResult:
     @cached_property
     def breaks(self):
         """Each spring that broke, in order: dictionaries of texts with the columns of ``breaks.csv`` as keys."""
-        path = self.folder / BREAKS
-        require_regular(path)
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        return peaks.rows(self.folder / BREAKS)
 
     @cached_property
     def frames(self):

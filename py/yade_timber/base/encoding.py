@@ -1,23 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Paths and output in any encoding: names of files are bytes, and a terminal may have ASCII only."""
-import os
+"""Output in any encoding: a terminal may have ASCII only."""
 import sys
-from contextlib import contextmanager
-from pathlib import Path
-
-
-@contextmanager
-def encodable(path):
-    """Path of the same file that has an encoding, for YADE: through a descriptor of its folder if need be."""
-    path = Path(path)
-    if str(path).isprintable():  # lone surrogates, which stand for undecodable bytes, are not
-        yield str(path)
-        return
-    folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        yield f"/proc/self/fd/{folder}/{path.name}"
-    finally:
-        os.close(folder)
 
 
 def print_anything():

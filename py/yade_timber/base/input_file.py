@@ -62,8 +62,7 @@ def read_bytes(path, limit):
 
 
 def require_regular(path, remedy=""):
-    """Raise RunError unless `path` is a regular file, or a link to one. remedy: end of the message for a missing file.
-    """
+    """Raise RunError unless `path` is a regular file, or a link to one. remedy: for a missing file"""
     try:
         mode = Path(path).stat().st_mode
     except FileNotFoundError:

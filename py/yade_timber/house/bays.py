@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bays that can take a brace or a wall, between neighbouring columns on a line of beams; for `changed_house`."""
-from .members import DIRECTION, column_plan
+from .members import DIRECTION, column_plan, nodes_on_line
 from .structure import ACROSS, Structure
 
 
@@ -44,8 +44,7 @@ def _bays(structure, storey):
     for line in structure.table["lines"]:
         along = line["along"]
         for at in line["at"]:
-            nodes = sorted(node[along == "y"] for node in plan
-                           if node[along == "x"] == at and line["from"] <= node[along == "y"] <= line["to"])
+            nodes = [node for node in nodes_on_line(plan, along, at) if line["from"] <= node <= line["to"]]
             for low, high in zip(nodes, nodes[1:]):
                 yield line, at, low, high
 

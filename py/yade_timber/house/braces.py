@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .members import DIRECTION, column_plan
+from .members import DIRECTION, column_plan, nodes_on_line, require_column
 from .structure import ACROSS
 
 
@@ -52,15 +52,11 @@ def _brace(structure, layer, diagonal, plan):
 def _clear_bay(structure, diagonal, plan):
     """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
     along, foot, head = diagonal.along, diagonal.foot, diagonal.head
-    on_line = {(x if along == "x" else y): section for (x, y), (section, _) in plan.items()
-               if (y if along == "x" else x) == diagonal.at}
+    on_line = nodes_on_line(plan, along, diagonal.at)
     place = (f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node"
              f" {diagonal.at:g}, storey {diagonal.storey}")
     for node in (foot, head):
-        if node not in on_line:
-            nodes = ", ".join(f"{n:g}" for n in sorted(on_line)) or "none"
-            raise HouseError(f"{place} has no bay: no column at node {node:g}; nodes with columns on this line:"
-                             f" {nodes}")
+        require_column(on_line, node, f"{place} has no bay")
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:
         reason = f"a column stands between, at node {between[0]:g}" if between else "foot and head are the same column"

@@ -75,8 +75,7 @@ def judgement(iw):
 
 
 def sentence(diagnosis):
-    """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...', for people.
-    """
+    """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...'."""
     if diagnosis["iw"] is None:
         return "no seismic index: the rules are for one to three storeys with a floor area"
     return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"

@@ -25,5 +25,4 @@ MAX_LINES = 400
 MAX_ELEMENTS = 1000
 """Elements of a house. The paper's houses have up to 187."""
 MAX_PAIRS = 10_000
-"""Pairs of elements whose bounding boxes touch. House C has 541; more than 10 per element point to overlapping members.
-"""
+"""Pairs of elements whose bounding boxes touch. House C has 541; more than 10 per element point to overlaps."""

@@ -76,10 +76,8 @@ def lay_floors(structure, layer):
     for number, area in enumerate(areas, 1):
         low, high = structure.area(area, [other for other in areas if other is not area])
         name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
-        elements.append(
-            structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table, layer.table.where,
-                            storey=layer.storey)
-        )
+        elements.append(structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table,
+                                        layer.table.where, storey=layer.storey))
     return elements
 
 
@@ -87,12 +85,10 @@ def lay_columns(structure, layer):
     """Square columns of one storey on their nodes, in the order of the column groups."""
     elements = []
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
-        centre = np.array([structure.axes["x"](x), structure.axes["y"](y)])
-        elements.append(
-            structure.block("column", f"column{layer.storey}.x{x:g}y{y:g}", [*(centre - section / 2), layer.z0],
-                            [*(centre + section / 2), layer.z1], layer.table, where, storey=layer.storey,
-                            side=structure.sides(x=x, y=y), section=(section, section))
-        )
+        centre, name = np.array([structure.axes["x"](x), structure.axes["y"](y)]), f"column{layer.storey}.x{x:g}y{y:g}"
+        low, high = [*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1]
+        elements.append(structure.block("column", name, low, high, layer.table, where, storey=layer.storey,
+                                        side=structure.sides(x=x, y=y), section=(section, section)))
     return elements
 
 
@@ -111,6 +107,19 @@ def column_plan(structure, storey):
                 raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey"
                                  f" {storey} (first in {plan[x, y][1]}); remove one of them")
     return plan
+
+
+def nodes_on_line(plan, along, at):
+    """{node along a grid line at node `at`: section [m]} of the columns of a plan, in order."""
+    axis = "xy".index(along)
+    return {node[axis]: section for node, (section, _) in sorted(plan.items()) if node[1 - axis] == at}
+
+
+def require_column(on_line, node, place):
+    """HouseError for a node without a column. on_line: from `nodes_on_line`; place: beginning of the message"""
+    if node not in on_line:
+        nodes = ", ".join(f"{other:g}" for other in on_line) or "none"
+        raise HouseError(f"{place}: no column at node {node:g}; nodes with columns on this line: {nodes}")
 
 
 def _group_nodes(structure, group):

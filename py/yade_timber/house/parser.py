@@ -147,8 +147,7 @@ class _Parser(yaml.SafeLoader):
         return self._number(kind, text, node, where)
 
     def _number(self, kind, text, node, where):
-        """Decimal numbers only: 010 (octal), 0x10 and 1:30 (base 60) of YAML 1.1 are refused, as few users know them.
-        """
+        """Decimal numbers only: few users know 010 (octal), 0x10 and 1:30 (base 60) of YAML 1.1."""
         digits = text.lstrip("+-")
         other_base = ":" in text or kind == "int" and len(digits) > 1 and digits[0] == "0"
         try:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One structure of a house (main house, entrance): its grid, its position, and the levels of the layers of its stack.
-"""
+"""One structure of a house (main house, entrance): its grid, its position, the levels of its layers."""
 from dataclasses import dataclass
 
 import numpy as np

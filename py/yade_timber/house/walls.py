@@ -17,7 +17,7 @@ import numpy as np
 from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
-from .members import DIRECTION, column_plan
+from .members import DIRECTION, column_plan, nodes_on_line, require_column
 from .model import JointSpec
 from .structure import ACROSS
 from .wall_types import envelope
@@ -100,14 +100,10 @@ def _bays(structure, line, by_name):
 def _nodes(structure, line, storey, at):
     """Nodes with columns on a line from its first to its last node, which must be among them."""
     along = line["along"]
-    on_line = sorted(x if along == "x" else y for x, y in column_plan(structure, storey)
-                     if (y if along == "x" else x) == at)
+    on_line = nodes_on_line(column_plan(structure, storey), along, at)
+    place = f"{structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
     for key in ("from", "to"):
-        if line[key] not in on_line:
-            columns = ", ".join(f"{node:g}" for node in on_line) or "none"
-            raise HouseError(f"{line.at(key)}: {structure.name}: walls along {along} at {ACROSS[along]} node {at:g},"
-                             f" storey {storey}: no column at node {line[key]:g}; nodes with columns on this line:"
-                             f" {columns}")
+        require_column(on_line, line[key], f"{line.at(key)}: {place}")
     if line["from"] >= line["to"]:
         raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g};"
                          " 'from' must be below 'to'")

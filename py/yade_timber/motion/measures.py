@@ -14,8 +14,7 @@ from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 CM = 0.01
 """One centimetre in metres."""
 VELOCITY_CORNER = 0.05
-"""Default high-pass of velocities and displacements. [Hz] Below it accelerographs record baseline errors, not motion.
-"""
+"""Default high-pass of velocities and displacements. [Hz] Below it records have baseline errors, not motion."""
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
 MOST_SAMPLES = 2_000_000
@@ -248,8 +247,7 @@ def arias(motion):
 
 
 def significant_duration(motion, start=0.05, end=0.95):
-    """Time in which the Arias intensity (three components together) grows from `start` to `end` of its final value. [s]
-    """
+    """Time in which the Arias intensity of all components grows from `start` to `end` of its final value. [s]"""
     growth = _energy(motion).sum(axis=1)
     if growth[-1] <= 0.0:
         return 0.0

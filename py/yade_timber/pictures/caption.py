@@ -78,9 +78,8 @@ class Caption:
         """'storey drift 1/85', or '42 of 90 columns fallen, 49 of 206 joints broken' once a column has fallen."""
         run, shown = self.run, min(time, self.run.time[-1])
         frame = frame_before(run, shown)
-        fallen = self.survey.fallen_columns(
-            State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken)))
-        )
+        state = State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken)))
+        fallen = self.survey.fallen_columns(state)
         broken = run.joint_states(frame) == "broken"
         parts = [broken_of(*count_apart(run.joints, broken))] if broken.any() else []
         if fallen.any():

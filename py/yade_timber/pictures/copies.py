@@ -43,8 +43,7 @@ def ahead(make):
 
 
 def _send_all(make, sender, receiver, original):
-    """In the copy: send all items. Ctrl-C ends it with the process `original` only, a kill of that one ends it at once.
-    """
+    """In the copy: send all items. It ends with the process `original`, not by Ctrl-C."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != original:  # killed before
         return

@@ -106,8 +106,7 @@ def draw_levels(axis, largest):
 
 
 def draw_breaks(axis, frames):
-    """Numbers of joints broken during the run by kind, of broken wall sheets, and of partly broken joints and sheets.
-    """
+    """Numbers of joints broken during the run by kind, of broken wall sheets, of partly broken ones."""
     kinds = np.array(frames.joints.kind)
     states = frames.joint_states(slice(None))
     sheets = [sheet_states(frames.joints, row == "broken") for row in states]

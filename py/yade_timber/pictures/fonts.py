@@ -13,8 +13,7 @@ from .style import default_style
 OWN = "DejaVu Sans"
 EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic",
               "Noto Sans CJK JP", "WenQuanYi Zen Hei")
-"""Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's fonts do not have.
-"""
+"""Families with Japanese letters, the preferred first: a PDF embeds TrueType outlines, which Noto's lack."""
 PACKAGE = "fonts-ipafont-gothic"
 FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
 """How their files' names begin."""

@@ -98,8 +98,7 @@ def of_sheets(sheets):
 
 
 def axis_ends(start, corners):
-    """((3,) foot, (3,) head) of a column's axis. start, corners: its corners (n, 3) before the first step and now [m].
-    """
+    """((3,) foot, (3,) head) of a column's axis. start, corners: (n, 3) before the first step and now [m]."""
     height = start[:, 2]
     return corners[height < height.mean()].mean(0), corners[height > height.mean()].mean(0)
 

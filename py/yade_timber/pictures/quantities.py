@@ -141,9 +141,8 @@ def draw_joints(axis, results):
 def draw_uplift(axis, results):
     """Plan of the first storey's columns with the largest uplift of their feet [mm]; grey: lost at the end."""
     rows = [row for row in results.columns if row["storey"] == "1"]
-    places = np.array([[float(row[key]) for key in ("east [m]", "north [m]", "uplift [m]")] for row in rows]).reshape(
-        -1, 3
-    )
+    keys = ("east [m]", "north [m]", "uplift [m]")
+    places = np.array([[float(row[key]) for key in keys] for row in rows]).reshape(-1, 3)
     stands = np.array([row["state"] == "standing" for row in rows], bool)
     for shown, color in ((stands, colors.BLUE), (~stands, colors.GREY)):
         axis.plot(*places[shown, :2].T, "s", ms=3, color=color)

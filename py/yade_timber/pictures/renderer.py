@@ -18,8 +18,7 @@ LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
 
 def once_per_thread(make):
-    """A function that keeps its results: an OpenGL context and all that belongs to it can be used by one thread only.
-    """
+    """A function that keeps its results: one thread only can use an OpenGL context and all that belongs to it."""
     own = threading.local()
 
     @wraps(make)

@@ -191,11 +191,10 @@ def others(frames, results):
     failed = len(rows) - len(loads)
     losses = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
     about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {losses}"
-    used = (
-        f"{(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more than {np.median(loads):.2f}"
-        if len(loads) else "none is left"
-    )
-    return f"{about}; of the others {used}."
+    if not len(loads):
+        return f"{about}; of the others none is left."
+    return (f"{about}; of the others {(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more"
+            f" than {np.median(loads):.2f}.")
 
 
 def joint_name(name):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of the report: plans of the house, the motion with its spectrum, key times of the run."""
 import numpy as np
-from matplotlib.patches import Polygon
+from matplotlib.patches import Polygon, Rectangle
 from matplotlib.transforms import Bbox
 
 from ..base import colors
@@ -50,12 +50,10 @@ def draw_plan(axis, frames, storey):
             continue
         corners = frames.corners_at_start(k)
         (x0, y0), (x1, y1) = corners[:, :2].min(0), corners[:, :2].max(0)
-        box = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
         if kind == "column":
             thick = max(x1 - x0, y1 - y0) >= THICK
-            axis.add_patch(
-                Polygon(box, closed=True, facecolor="black" if thick else "white", edgecolor="black", lw=0.5, zorder=3)
-            )
+            axis.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="black" if thick else "white",
+                                     edgecolor="black", lw=0.5, zorder=3))
         else:
             axis.add_patch(wedge(corners))
     for panel in panels(frames, 0):

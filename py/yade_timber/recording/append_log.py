@@ -49,8 +49,7 @@ class AppendLog:
             return file.tell()
 
     def cut(self, time):
-        """Drop records after a time [s] and what is incomplete; returns the size of the file. Raises RunError, OSError.
-        """
+        """Drop records after a time [s] and incomplete ones; returns the file's size. Raises RunError, OSError."""
         self.pending = [record for record in self.pending if record[1] <= time]
         if not os.path.lexists(self.path):
             return 0

@@ -150,9 +150,8 @@ class DamageSurvey:
         for level in self.levels:
             marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
             if level.structure == structure and marks:
-                moves.append(
-                    ((state.position[marks] - self.elements.position[marks]).sum(0) / len(marks), level.height)
-                )
+                move = (state.position[marks] - self.elements.position[marks]).sum(0) / len(marks)
+                moves.append((move, level.height))
         return moves
 
     def fallen_structures(self, state):
@@ -168,8 +167,7 @@ class DamageSurvey:
                    default=0.0)
 
     def by_structure(self, state, peaks):
-        """{name: verdict.Structure}, the main one first, on which verdicts rest. peaks: {name: peak drift so far [-]}
-        """
+        """{name: verdict.Structure}, the main one first. peaks: {name: peak drift so far [-]}"""
         broken, partly = self._broken_joints(state)
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
@@ -188,9 +186,8 @@ class DamageSurvey:
             roofs = [j for j, kind in enumerate(e.kind) if kind == "roof" and e.group[j] == e.group[k]]
             if roofs:
                 roof = min(roofs, key=lambda j: np.linalg.norm(e.position[j] - e.position[k]))
-                layers.append(
-                    (k, roof, rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof]))
-                )
+                place = rotated(e.orientation[roof] * [1, -1, -1, -1], e.position[k] - e.position[roof])
+                layers.append((k, roof, place))
         return layers
 
     def fallen_snow(self, state):

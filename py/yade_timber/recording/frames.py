@@ -3,30 +3,26 @@
 
 Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
 
-attributes   format, title (house and loads), scenario, model, version (of the package), run (fingerprint of the run's
-identity), ended (bool);
-             of an ended run also summary: the text of summary.json
+attributes   format, title (house and loads), scenario, model, version (of the package), ended (bool), run (fingerprint
+             of the run's identity); of an ended run also summary: the text of summary.json
 /elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the
-first; fixed (N,) bool;
-             position (N, 3) [m], orientation (N, 4) w, x, y, z: before the first step;
+             first; fixed (N,) bool; position (N, 3) [m], orientation (N, 4) w, x, y, z: before the first step;
              vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] :
-             vertex_start[k + 1];
-             faces (C,): vertex numbers within the element, counter-clockwise from outside, those of face m in
-             face_start[m] : face_start[m + 1];
-             the faces of element k are element_start[k] : element_start[k + 1]
+             vertex_start[k + 1]; faces (C,): vertex numbers within the element, counter-clockwise from outside, those
+             of face m in face_start[m] : face_start[m + 1]; the faces of element k are element_start[k] :
+             element_start[k + 1]
 /joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,)
-strings;
-             a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a; springs
-             (J,): their number;
-             damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
+             strings; a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a;
+             springs (J,): their number; damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
 /frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32:
-largest spring
-             force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of broken springs
-/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are start[k]
-: start[k + 1];
-             pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second element, float32
+             largest spring force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of
+             broken springs
+/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are
+             start[k] : start[k + 1]; pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second
+             element, float32
 /motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement
-(M, 3) [m] of the ground /history     of an ended run: columns (names with units), rows; the table of history.csv
+             (M, 3) [m] of the ground
+/history     of an ended run: columns (names with units), rows; the table of history.csv
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
@@ -54,6 +50,8 @@ NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
+FAULTS = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError)
+"""Of h5py, numpy or json, for a file that is none of ours."""
 STRINGS = {"elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind",
            "joints/storey", "joints/side"}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
@@ -296,9 +294,7 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
         _check_shapes(loaded)
     except RunError:
         raise
-    except (
-        OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError,
-    ) as problem:  # of h5py, numpy or json
+    except FAULTS as problem:
         raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}; {ANEW}") from None
     return loaded
 

@@ -34,8 +34,7 @@ class History(Series):
                      if name.startswith("drift_ns"))
 
     def drift(self, storey, direction):
-        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0) over its height. [-] Raises KeyError.
-        """
+        """(F,) drift of a storey in direction 'ns' (north > 0) or 'ew' (east > 0). [-] Raises KeyError."""
         if storey not in self.storeys or direction not in DIRECTIONS:
             raise KeyError(f"drift({storey!r}, {direction!r}): storeys are {', '.join(map(str, self.storeys))};"
                            f" directions {', '.join(DIRECTIONS)}")

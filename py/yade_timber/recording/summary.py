@@ -95,9 +95,8 @@ class Summary(Values):
     @classmethod
     def sample(cls, **changes):
         """For tests: House A with these changes. Verdicts follow from them, the main structure from the totals."""
-        summary = replace(default(cls), record=default(Record) if changes.get("record") else None).changed(
-            **{"model": "A", **changes, "structures": {}}
-        )
+        blank = replace(default(cls), record=default(Record) if changes.get("record") else None)
+        summary = blank.changed(**{"model": "A", **changes, "structures": {}})
         main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
         main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
                  "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}

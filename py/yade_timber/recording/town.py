@@ -34,10 +34,8 @@ def town_frames(name, lots):
     count = sum(len(lot.kept) for lot in placed)
     stride = -(-count * len(longest.time) // MOST_PLACEMENTS)
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
-    offsets, first_joints = (
-        [0, *np.cumsum(sizes)]
-        for sizes in ([len(lot.kept) for lot in placed], [len(lot.run.joints.name) for lot in placed])
-    )
+    offsets = frames.starts([lot.kept for lot in placed])
+    first_joints = frames.starts([lot.run.joints.name for lot in placed])
     town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
     town.time = [longest.time[k] for k in numbers]
     for k in numbers:

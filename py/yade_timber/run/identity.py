@@ -34,8 +34,7 @@ def made_from(options):
 
 
 def identity(origin):
-    """{property: value} that a checkpoint and the run that continues it have in common. origin: `made_from` of the run
-    """
+    """{property: value} that a checkpoint and the run that continues it share. origin: `made_from` of the run"""
     options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
     return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"],
             "package": origin["package"]}

@@ -84,8 +84,7 @@ class LiveRun(Run):
 
 
 def show_below(text):
-    """Show a text below IPython's prompt, or nothing with None; without effect where no prompt controls the terminal.
-    """
+    """Show a text below IPython's prompt, or nothing with None; no effect without a prompt."""
     shell = getattr(builtins, "get_ipython", lambda: None)()  # there while the prompt is in use
     session = getattr(shell, "pt_app", None)
     if session is not None:

@@ -109,8 +109,7 @@ def break_row(entry, model):
 
 
 def placements():
-    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a body that was removed.
-    """
+    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a removed one."""
     position, orientation = compiled.packed_placements()
     return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
 

@@ -83,10 +83,8 @@ def joint_peaks(observed):
         state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
                  else "whole")
         place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
-        rows.append(
-            (joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength), joint.per, int(springs),
-             state)
-        )
+        rows.append((joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength), joint.per,
+                     int(springs), state))
     return sorted(rows, key=lambda row: -row[4])
 
 

@@ -41,7 +41,32 @@ class PhysicsError(RunError):
     """The numbers of the scene are not those of a physical motion any more."""
 
 
-class Run:
+class Stoppable:
+    """Base of what a signal ends after the present chunk. options: RunOptions; signal: number of the signal, or None"""
+
+    signal = None
+
+    def report(self, text):
+        """Print a line, unless the run is quiet."""
+        if not self.options.quiet:
+            print(text, flush=True)
+
+    @contextmanager
+    def _stop_signals(self):
+        """Stop signals end the run after the present chunk; further ones have no effect."""
+        before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
+        try:
+            yield
+        finally:
+            if not self.signal:
+                for number, handler in before.items():
+                    signal.signal(number, handler)
+
+    def _on_signal(self, number, _frame):
+        self.signal = number
+
+
+class Run(Stoppable):
     """A scenario in YADE, its RunOptions, its progress: duration / dt steps, fewer after a collapse."""
 
     def __init__(self, scenario, options):
@@ -51,7 +76,6 @@ class Run:
         self.chunk = frames.steps_between(scenario.dt)  # steps between frames, and checks of signals and checkpoints
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
-        self.signal = None
         self.summary = None  # once the results are written
         self.only_export = options.export is not None and self.steps == 0  # results in the folder are left alone
         self.checkpoint_path, self.frames_path = options.folder / checkpoint.NAME, options.folder / frames.NAME
@@ -117,11 +141,6 @@ class Run:
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
-    def report(self, text):
-        """Print a line, unless the run is quiet."""
-        if not self.options.quiet:
-            print(text, flush=True)
-
     # --- steps --------------------------------------------------------------------------------------------------------
 
     def complete(self):
@@ -136,20 +155,6 @@ class Run:
             self.write(cut_off=str(problem))
             raise
         self.write()
-
-    @contextmanager
-    def _stop_signals(self):
-        """Stop signals end the run after the present chunk; further ones have no effect."""
-        before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
-        try:
-            yield
-        finally:
-            if not self.signal:
-                for number, handler in before.items():
-                    signal.signal(number, handler)
-
-    def _on_signal(self, number, _frame):
-        self.signal = number
 
     def _chunk(self):
         """The steps to the next frame, and a checkpoint when it is due."""

@@ -4,7 +4,6 @@
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
 stay in the processor's cache: time and memory per element do not depend on the number of houses.
 """
-import signal
 import time
 from contextlib import contextmanager
 
@@ -21,7 +20,7 @@ from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
 from .progress import Bar
-from .runner import STOP_SIGNALS, Interrupted, Run, removing, unwritten
+from .runner import Interrupted, Run, Stoppable, removing, unwritten
 
 HOUSES = "houses.csv"
 NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
@@ -29,12 +28,11 @@ NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
 O = yw.Omega()
 
 
-class TownRun:
+class TownRun(Stoppable):
     """Runs of a town's lots in step, frame by frame. plans: (Scenario, RunOptions) of each lot; options: the town's"""
 
     def __init__(self, town, plans, options):
         self.town, self.options = town, options
-        self.signal = None
         self.wall_s = 0.0  # [s] of all steps since the start of this process
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(town.lots, plans):
@@ -65,19 +63,13 @@ class TownRun:
 
     def complete(self):
         """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
-        handlers = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
         mean_end = sum(run.steps * run.scenario.dt for run in self.runs) / len(self.runs)
-        with Bar(self.town.name, mean_end, 0, self.options.quiet) as progress:
+        with self._stop_signals(), Bar(self.town.name, mean_end, 0, self.options.quiet) as progress:
             active = self._first_steps()
             while active:
                 active = self._chunk(active)
                 progress.advance(sum(scene.time for scene in self.scenes) / len(self.scenes))
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
         self.write()
-
-    def _on_signal(self, number, _frame):
-        self.signal = number
 
     def _first_steps(self):
         """The first step of each lot, which checks the scene; returns the numbers of the lots that have more."""
@@ -132,11 +124,6 @@ class TownRun:
         self.report(sentence(recording.summary(self.town.name,
                                                {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
         self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
-
-    def report(self, text):
-        """Print a line, unless the run is quiet."""
-        if not self.options.quiet:
-            print(text, flush=True)
 
     def _results(self):
         folder = self.options.folder

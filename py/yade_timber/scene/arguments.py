@@ -17,8 +17,7 @@ def shown(value):
 
 
 def refuse(error, name, value, form):
-    """Raise an error such as "snow: density = 'heavy': it must be a finite number [kg/m3]". name: "function: argument".
-    """
+    """Raise "snow: density = 'heavy': it must be a finite number [kg/m3]". name: 'snow: density'"""
     raise error(f"{name} = {shown(value)}: it must be {form}") from None
 
 

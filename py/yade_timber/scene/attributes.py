@@ -170,8 +170,7 @@ def _initialiser(construct):
 
 @contextmanager
 def _named_errors(cls, attributes):
-    """Context in which several attributes are set: errors of YADE and Boost name the attribute and its admissible form.
-    """
+    """Context for setting attributes: errors of YADE and Boost name the attribute and its admissible form."""
     try:
         yield
     except (AttributeError, *CONVERSION_ERRORS):

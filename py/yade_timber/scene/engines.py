@@ -35,8 +35,7 @@ class ContactOptions:
         arguments.positive("engines: tolerance", self.tolerance)
 
     def loop(self):
-        """ContactLoop with the functors of all laws. YADE ends the process for a pair of materials without a functor.
-        """
+        """ContactLoop with the functors of all laws: YADE ends the process for a pair of materials without."""
         geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge,
                                                                            flushSupports=self.flush_supports)
         physics = [getattr(yw, ip2)(dampingRatio=self.damping_ratio) for ip2, _, _ in compiled.contact_laws()]
@@ -128,9 +127,8 @@ def ground_motion_engine(motion, scale=1.0, start=0.0):
     if not (hasattr(motion, "dt") and hasattr(motion, "acceleration")):
         arguments.refuse(TypeError, "ground_motion", motion, "a GroundMotion, a GroundMotionEngine or None")
     acceleration = [Vector3(*a) for a in motion.acceleration]
-    scale, start = arguments.number("ground_motion_engine: scale", scale), arguments.number(
-        "ground_motion_engine: start", start, "s"
-    )
+    scale = arguments.number("ground_motion_engine: scale", scale)
+    start = arguments.number("ground_motion_engine: start", start, "s")
     return yw.GroundMotionEngine(step=motion.dt, acceleration=acceleration, scale=scale, start=start)
 
 

@@ -106,8 +106,7 @@ def energy_residual(terms=None):
 
 @contextmanager
 def imposed_velocities():
-    """Context between two steps; what velocities that are set in it change in the energy balance is booked as imposed.
-    """
+    """Context between two steps: energy that velocities bring when they are set is booked as imposed."""
     with between_steps():
         before = energy_residual()
         yield

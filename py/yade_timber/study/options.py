@@ -9,14 +9,9 @@ from pathlib import Path
 from ..base.atomic_write import make_folder
 from ..base.encoding import print_anything
 from ..base.errors import InputError, RunError
-from ..base.options import add_options, options, read_arguments
 from ..base.time_step import DEFAULT_DT
 from ..house import HouseError, load_house
 from ..motion import MotionRequest, RecordError
-from ..run.options import RunOptions, scripted
-
-SHARED = ("record", "seed", "scale", "start", "end", "dt", "duration")
-"""Options of a run that a study of the run scripts passes on."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -109,27 +104,6 @@ def add_driver_options(parser, folder):
     parser.add_argument("--out", type=results_folder, default=folder, metavar="DIR",
                         help="folder that holds a folder for each run (default %(default)s)")
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
-
-
-def add_run_options(parser):
-    """Options that are passed to every run; `run_options` reads them."""
-    add_options(parser, [options(RunOptions)[name] for name in SHARED])
-
-
-def run_options(arguments):
-    """{option: value}, checked, of parsed arguments. Raises RunError, RecordError."""
-    values = read_arguments(RunOptions, argparse.Namespace(**{name: getattr(arguments, name) for name in SHARED}))
-    RunOptions(**values, quake=True).check()
-    if "record" in values:
-        record(values["record"])
-    return values
-
-
-def run_of(script, house, earthquake, snow, values):
-    """RunOptions of a run script with options of `run_options`; those of the motion only with an earthquake."""
-    motion = () if earthquake else options(MotionRequest)
-    return scripted(script, house, earthquake, snow,
-                    **{name: value for name, value in values.items() if name not in motion})
 
 
 def selected(text, choices, option):

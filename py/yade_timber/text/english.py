@@ -85,9 +85,8 @@ def place_in_ensemble(place):
 def town(summary):
     """'Town harbour: 6 houses, 3 undamaged, 2 unsafe, 1 collapsed'."""
     counts = [f"{summary.verdicts.count(state)} {state}" for state in verdict.STATES if state in summary.verdicts]
-    return "; ".join(
-        filter(None, (f"Town {summary.model}: {len(summary.verdicts)} houses, {', '.join(counts)}", record(summary)))
-    )
+    houses = f"Town {summary.model}: {len(summary.verdicts)} houses, {', '.join(counts)}"
+    return "; ".join(filter(None, (houses, record(summary))))
 
 
 def outcome(summary):

@@ -3,6 +3,7 @@
 """Checks of the claims on constructed summaries: each holds at the paper's result and fails when one number is wrong.
 Robustness.
 """
+import argparse
 import json
 import runpy
 from pathlib import Path
@@ -200,3 +201,11 @@ def test_robustness_study(tmp_path):
     assert text == (tmp_path / "robustness.md").read_text() and "| E1" in text and "| KOBE | recorded motion | falls N-S" in text
     assert "E1: " in (tmp_path / "motions.csv").read_text() and "KOBE,recorded motion" in (tmp_path / "sways.csv").read_text()
     assert (tmp_path / "seed-0" / "claims.md").is_file()
+
+
+def test_only_runs_with_an_earthquake_get_motion_options():
+    script = runpy.run_path(str(Path(__file__).resolve().parents[2] / "paper_table.py"))
+    values = script["run_options"](argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None, dt="1e-4", duration=None))
+    assert values == {"dt": 1e-4, "seed": 3, "scale": 0.5}
+    assert script["run_of"]("modelA_quake", "A", True, False, values).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
+    assert script["run_of"]("modelA_snow", "A", False, True, values).words() == ["--dt=0.0001"]

@@ -106,9 +106,8 @@ class Row:
     def name(self):
         """Name of the run and its folder: it follows from the content of the row, its house and its record."""
         label = self.description or Path(self.cells["house"]).stem
-        content = json.dumps(
-            [sorted(self.cells.items()), _house_text(self.house), _record_digest(self.record), *self._then_digests()]
-        )
+        digests = [_record_digest(self.record), *self._then_digests()]
+        content = json.dumps([sorted(self.cells.items()), _house_text(self.house), *digests])
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
 
     def _then_digests(self):

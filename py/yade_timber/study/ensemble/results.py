@@ -33,8 +33,7 @@ COLUMNS = "{:<20}{:>13}   {:<30}{}"
 
 
 def content(done, errors):
-    """Content of ensemble.json. done: {number: summary} of the finished runs; errors: {number: message} of the others.
-    """
+    """Content of ensemble.json. done: {number: summary} of finished runs; errors: {number: message} of others."""
     summaries, count = list(done.values()), len(done)
     frequency = statistics.outcomes(summaries)
     return {"runs": count + len(errors), "finished": list(done), "errors": errors, "disturbance_m": LARGEST,
@@ -68,8 +67,7 @@ def table_text(content, done, planned):
 
 
 def draw(content, done):
-    """The entry `ensemble` in the summary of the run that is shown: its number, the outcomes, the ranges over all runs.
-    """
+    """The entry `ensemble` in the summary of the run that is shown: its number, outcomes and ranges of all."""
     standing = [summary.largest_drift()[0] for summary in done.values() if not summary.collapsed]
     failed = {"failed": len(content["errors"])} if content["errors"] else {}
     outcomes = {**{state: share["runs"] for state, share in content["outcomes"].items()}, **failed}

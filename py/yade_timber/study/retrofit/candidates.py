@@ -58,8 +58,7 @@ def fittings(description, model):
 
 
 def _doubled(name, group):
-    """Value of the column `set`: twice the number of fittings, and of the strength where the group has one of its own.
-    """
+    """Value of the column `set`: twice the number of fittings, and the strength where the group has its own."""
     strength = "" if group.get("strength") is None else f";joints.{name}.strength={2 * group['strength']:g}"
     return f"joints.{name}.number={2 * group.get('number', 1):g}{strength}"
 
@@ -93,8 +92,7 @@ def bay_text(model, name):
 
 
 def line_text(model, name, bays=1):
-    """'brace: main, storey 1, south wall' of a brace or wall by name; 'braces in 4 bays: ...' of several in one line.
-    """
+    """'brace: main, storey 1, south wall' of a brace or wall; 'braces in 4 bays: ...' of several in one line."""
     structure, storey, along, *_ = bay_parts(name)
     measure = f"{SHEATHING} wall" if wall_parts(name) else "brace"
     number = f"s in {bays} bays" if bays > 1 else ""

@@ -197,10 +197,8 @@ def ranking(entries, house, tests):
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
     results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry)))
                for entry in entries]
-    return sorted(
-        results,
-        key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf), result.comparison.mean),
-    )
+    return sorted(results, key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf),
+                                               result.comparison.mean))
 
 
 def _result(entry, comparison, p):

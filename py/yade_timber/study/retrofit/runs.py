@@ -83,8 +83,7 @@ class Ranking:
         return sum(bool(run["collapsed"]) for run in house.runs.values())
 
     def run(self, report=print):
-        """All rounds. report: called with one line after each. Raises RunError when a run of the house as it is fails.
-        """
+        """All rounds. report: called with a line after each. Raises RunError when a run of the house as it is fails."""
         racing, pairs, before = self.entries, [], 0
         for number, (done, count) in enumerate(self.plan, 1):
             racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
