@@ -62,34 +62,19 @@ class House:
         return free_bays(self._description)
 
     def model(self, snow=None):
-        """Elements and joints of the house.
+        """HouseModel with elements and joints, the same object for each depth of snow.
 
         Parameters
         ----------
         snow : float, optional
             Depth of snow on the roofs [m]; by default the house file's.
-
-        Returns
-        -------
-        HouseModel
-            The same object for each call with the same depth.
         """
         if snow not in self._models:
             self._models[snow] = build_house(self._description, snow)
         return self._models[snow]
 
     def counts(self, snow=None):
-        """Numbers of elements, columns, braces and joints, and masses [kg].
-
-        Parameters
-        ----------
-        snow : float, optional
-            Depth of snow on the roofs [m]; by default the house file's.
-
-        Returns
-        -------
-        dict
-        """
+        """Dictionary of numbers of elements, columns, braces and joints, and masses [kg]. snow: as in `model`"""
         return self.model(snow).counts()
 
     def draw(self, path=None, snow=None):

@@ -175,9 +175,8 @@ def _clip_edge(polygon, a, b):
             points.append(polygon[i])
         if height[i] * height[j] < 0:
             points.append(polygon[i] + (polygon[j] - polygon[i]) * height[i] / (height[i] - height[j]))
-    return np.array(
-        [p for i, p in enumerate(points) if np.abs(p - points[i - 1]).max() > SAME or len(points) == 1]
-    ).reshape(-1, 2)
+    apart = [p for i, p in enumerate(points) if np.abs(p - points[i - 1]).max() > SAME or len(points) == 1]
+    return np.array(apart).reshape(-1, 2)
 
 
 def contact_polygon(a, b, tolerance):

@@ -54,9 +54,7 @@ def _joint(a, b, rule, contact, data):
     polygon, normal, area = contact
     points = spring_points(polygon, normal)
     end_joined = a.kind in END_JOINED
-    at_end = end_joined and (
-        a.kind != "column" or abs(normal[2]) > LYING
-    )  # columns of two wings have joints between their sides
+    at_end = end_joined and (a.kind != "column" or abs(normal[2]) > LYING)  # columns of two wings: joints at the sides
     end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if at_end else ""
     return JointSpec(a.name, b.name, points, normal, area=area, storey=a.storey,
                      side=a.side if end_joined else a.side or b.side, end=end, group=a.group,

@@ -72,10 +72,9 @@ layer = Variants("layer", {
     "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
     "roof": roof
 })
-wall_line = Record(
-    {"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "type": ListOf(word(), scalar=True, most=5),
-     "opening": Choice(("none", "window", "door"), "none"), "storeys": storeys}
-)
+wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node,
+                    "type": ListOf(word(), scalar=True, most=5), "opening": Choice(("none", "window", "door"), "none"),
+                    "storeys": storeys})
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
 place = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
@@ -86,17 +85,13 @@ structure = Record({"place": place, "grid": Record({"x": axis, "y": axis}), "mar
                     "lines": ListOf(line, most=MAX_LINES), "stack": ListOf(layer, most=MAX_LAYERS),
                     "columns": ListOf(column_group), "braces": braces, "walls": ListOf(wall_line, default=()),
                     "loads": loads})
-material = Variants(
-    "law",
-    {
-        "timber": Record(
-            {"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000), "young": Number("Pa", 1e6, 1e12),
-             "poisson": Number("", 0.0, 0.49)}
-        ),  # of known materials; TimberMat takes (-1, 0.5]
-        "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
-                        "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)}),
-    },
-)
+material = Variants("law", {
+    "timber": Record({"law": Choice(("timber",)), "density": Number("kg/m3", 20, 30000),
+                      "young": Number("Pa", 1e6, 1e12),
+                      "poisson": Number("", 0.0, 0.49)}),  # of known materials; TimberMat takes (-1, 0.5]
+    "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
+                    "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)})
+})
 _stretch = Number("m", 1e-5, 10.0, default=None)
 joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number("N/m", 1e3, 1e12),
                      "ks": Number("N/m", 1e3, 1e12), "strength": Number("N", 10.0, infinite=True),
@@ -113,23 +108,20 @@ nails = Record({"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv"
                 "du": length(1e-4, 0.5), "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None),
                 "board": board, "height": length(0.1, 20.0, default=None)},
                default=None)
-wall_type = Record(
-    {"multiplier": Number("", 0.1, 20.0, default=None), "strength": Number("N/m", 10.0, 1e6, default=None),
-     "stiffness": Number("N/m per rad", 1e3, 1e9, default=None),
-     "envelope": ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None),
-     "nails": nails, "friction_share": Number("", 0.0, 1.0, default=0.2), "softening_drift": _drift,
-     "ultimate_drift": _drift}
-)
-joint_rule = Record(
-    {"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(), "kind": word(),
-     "across": Flag(False), "number": Number("fittings", 1, 100, whole=True, default=1),
-     "share": Number("", 0.01, 1.0, default=1.0), "strength": Number("N", 10.0, infinite=True, default=None)}
-)
+envelope = ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None)
+wall_type = Record({"multiplier": Number("", 0.1, 20.0, default=None),
+                    "strength": Number("N/m", 10.0, 1e6, default=None),
+                    "stiffness": Number("N/m per rad", 1e3, 1e9, default=None), "envelope": envelope, "nails": nails,
+                    "friction_share": Number("", 0.0, 1.0, default=0.2), "softening_drift": _drift,
+                    "ultimate_drift": _drift})
+joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
+                     "kind": word(), "across": Flag(False),
+                     "number": Number("fittings", 1, 100, whole=True, default=1),
+                     "share": Number("", 0.01, 1.0, default=1.0), "strength": Number("N", 10.0, infinite=True, default=None)})
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
-damage_region = Record(
-    {"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken, "brace_beam": _broken}
-)
+damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,
+                        "brace_beam": _broken})
 HOUSE = Record({
     "name": word(),
     "description": Text(""),

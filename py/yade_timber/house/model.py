@@ -22,9 +22,7 @@ class Element:
     density: float          # mass over volume, with what it carries and without hollows [kg/m3]
     fixed: bool = False
     storey: int = 0  # storey of the columns below it (columns, braces: their own); 0 below the first
-    side: frozenset = (
-        frozenset()
-    )  # walls of which it is a part: 'north', 'south', 'east', 'west'; empty inside the house
+    side: frozenset = frozenset()  # walls that it is part of: 'north', 'south', 'east', 'west'; empty inside the house
     section: tuple = ()  # (width, depth) [m] where the member has a section
     group: str = ""  # structure, e.g. 'main', 'entrance'
     source: str = ""  # file:line of its description

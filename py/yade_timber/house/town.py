@@ -56,10 +56,8 @@ class Lot:
     def outline(self, model):
         """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
         low, high = plan(model)
-        corners = (
-            np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]]) - (low + high) / 2
-        )
-        return corners @ self.axes[:2, :2].T + (self.x, self.y)
+        corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
+        return (corners - (low + high) / 2) @ self.axes[:2, :2].T + (self.x, self.y)
 
     def origin(self, model):
         """(3,) place of the origin of its HouseModel in the town [m]."""

@@ -56,18 +56,9 @@ def pgd(motion, component="h", corner=VELOCITY_CORNER):
 
 
 def velocity(motion, corner=VELOCITY_CORNER):
-    """Ground velocity from rest: trapezoidal integral of the acceleration.
+    """Ground velocity from rest: trapezoidal integral of the acceleration. (n, 3) [m/s]
 
-    Parameters
-    ----------
-    motion : GroundMotion
-    corner : float or None
-        Zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none.
-
-    Returns
-    -------
-    (n, 3) array
-        [m/s]
+    corner: of a zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none
     """
     return _integral(motion, corner, 1)
 
@@ -99,16 +90,8 @@ def _integral(motion, corner, times):
 
 @dataclass(frozen=True)
 class JmaIntensity:
-    """JMA instrumental intensity.
-
-    Parameters
-    ----------
-    raw : float
-        I = 2 log10(a0) + 0.94, not rounded; -inf for a motion of zeros.
-    official : float
-        The same rounded to two decimals, then cut to one.
-    a0 : float
-        Filtered vector acceleration that is reached or exceeded for 0.3 s in total. [gal]
+    """JMA instrumental intensity. raw: I = 2 log10(a0) + 0.94, not rounded, -inf for a motion of zeros; official:
+    rounded to two decimals, then cut to one; a0: filtered vector acceleration reached for 0.3 s in total [gal].
     """
 
     raw: float
@@ -153,18 +136,8 @@ def jma_intensity(motion):
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Response spectrum of linear oscillators.
-
-    Parameters
-    ----------
-    periods : (m,) array
-        [s]
-    sa : (m,) array
-        Largest absolute acceleration of the mass. [gal]
-    psv : (m,) array
-        Pseudo-velocity, 2 pi / T times sd. [cm/s]
-    sd : (m,) array
-        Largest displacement relative to the ground. [cm]
+    """Response spectrum of linear oscillators, arrays (m,). periods [s]; sa: largest absolute acceleration of the mass
+    [gal]; psv: pseudo-velocity, 2 pi / T times sd [cm/s]; sd: largest displacement relative to the ground [cm].
     """
 
     periods: np.ndarray

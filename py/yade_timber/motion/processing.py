@@ -67,9 +67,8 @@ def scaled(motion, factor):
     """All components times one factor (finite; it may be negative)."""
     if not np.isfinite(factor):
         raise RecordError(f"{motion.name}: scale factor {factor}; it must be finite")
-    note = motion.source if factor == 1.0 else None
     changed = _changed(motion, motion.acceleration * factor, f"scaled by {factor:.6g}", factor=factor)
-    return replace(changed, source=note) if note is not None else changed
+    return replace(changed, source=motion.source) if factor == 1.0 else changed
 
 
 def scaled_to_pga(motion, gal, component="h"):

@@ -175,10 +175,8 @@ def draw_wall(ax, model, joint):
     start, end = (model.element(name).solid.centroid[:2] for name in (joint.a, joint.b))
     aside = WALL_WIDTH / 2 * np.array([start[1] - end[1], end[0] - start[0]]) / np.linalg.norm(end - start)
     has_opening = any(f".{opening}." in joint.name for opening in ("window", "door"))
-    ax.add_patch(
-        Polygon([start + aside, end + aside, end - aside, start - aside], closed=True,
-                facecolor="white" if has_opening else WALL, edgecolor=WALL, lw=0.8, zorder=1 if has_opening else 1.5)
-    )
+    ax.add_patch(Polygon([start + aside, end + aside, end - aside, start - aside], closed=True, edgecolor=WALL, lw=0.8,
+                         facecolor="white" if has_opening else WALL, zorder=1 if has_opening else 1.5))
 
 
 def finish_plan(ax, columns):
@@ -224,10 +222,8 @@ def legend(figure, solids, model):
     if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
-        entries.append(
-            Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white", markeredgecolor="black",
-                   label="joint broken before the start")
-        )
+        entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white",
+                              markeredgecolor="black", label="joint broken before the start"))
     columns = -(-len(entries) // 2) if len(entries) > 8 else len(entries)
     figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=8, handletextpad=0.5,
                   columnspacing=1.4)

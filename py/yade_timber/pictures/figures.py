@@ -113,9 +113,8 @@ def heading_height(width, subtitle=""):
 
 def _wrapped(subtitle, width):
     """Subtitle in lines for a figure of this width [inch]; each line of the text begins a new one."""
-    units_kept = (
-        re.sub(r"(?<=\d) (?=[a-z]\b)", "\u00a0", drawable(line)) for line in subtitle.splitlines()
-    )  # a number and its unit stay together
+    # a number and its unit stay together
+    units_kept = (re.sub(r"(?<=\d) (?=[a-z]\b)", "\u00a0", drawable(line)) for line in subtitle.splitlines())
     return "\n".join(fill(line, int(SUBTITLE_LETTERS * (width - 2 * MARGIN))) for line in units_kept)
 
 

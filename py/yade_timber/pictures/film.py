@@ -178,9 +178,8 @@ class Reel(Image.Image):
         """Take the next image. Pillow asks for each once, in order, and for the first one again at the end."""
         if frame > self.number:
             image = next(self.images)
-            self.__dict__.update(
-                image.__dict__
-            )  # pixels, size and mode, which are read-only properties since Pillow 10.1
+            # pixels, size and mode, which are read-only properties since Pillow 10.1
+            self.__dict__.update(image.__dict__)
             self.number = frame
 
     def tell(self):

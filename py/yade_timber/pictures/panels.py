@@ -61,10 +61,8 @@ def panels(frames, frame):
         k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)
         bay = joints.a[k], joints.b[k]
         ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
-        sheets.append(
-            Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], int(frames.elements.storey[joints.a[k]]),
-                  list(broken[halves]))
-        )
+        storey = int(frames.elements.storey[joints.a[k]])
+        sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], storey, list(broken[halves])))
     return of_sheets(sheets)
 
 
@@ -90,10 +88,8 @@ def of_sheets(sheets):
         (foot, head), (other_foot, other_head) = layers[0].ends
         broken = [half for sheet in layers for half in sheet.broken]
         opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        walls.append(
-            Panel(np.array([foot, other_foot, other_head, head]), layers[0].storey, layers[0].sides, state(broken),
-                  opening)
-        )
+        corners = np.array([foot, other_foot, other_head, head])
+        walls.append(Panel(corners, layers[0].storey, layers[0].sides, state(broken), opening))
     return walls
 
 

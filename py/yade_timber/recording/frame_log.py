@@ -9,9 +9,8 @@ FRAME, CONTACTS = b"F", b"C"
 def frame_type(frames):
     """Data type of a frame: the content of its record, and the types of the file's tables."""
     n, j = len(frames.elements.name), len(frames.joints.name)
-    return np.dtype(
-        [("position", "f4", (n, 3)), ("orientation", "f4", (n, 4)), ("load", "f4", (j,)), ("broken", "u1", (j,))]
-    )
+    return np.dtype([("position", "f4", (n, 3)), ("orientation", "f4", (n, 4)), ("load", "f4", (j,)),
+                     ("broken", "u1", (j,))])
 
 
 def add_frames(frames, records):

@@ -29,14 +29,10 @@ class Limit:
         return f"1/{round(1 / self.drift)} {self.name}"
 
 
-DAMAGE = Limit(
-    1 / 120, "damage limit",
-    "Building Standard Law of Japan, Enforcement Order, Article 82-2: 1/200, eased to 1/120 where finishes allow it"
-)
-SAFETY = Limit(
-    1 / 30, "safety limit",
-    "Japan Building Disaster Prevention Association, seismic diagnosis of wooden houses; limit strength calculation"
-)
+DAMAGE = Limit(1 / 120, "damage limit", "Building Standard Law of Japan, Enforcement Order, Article 82-2: 1/200, eased"
+               " to 1/120 where finishes allow it")
+SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Association, seismic diagnosis of wooden"
+               " houses; limit strength calculation")
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to pull the house over")
 LIMITS = (DAMAGE, SAFETY, TILT)
 

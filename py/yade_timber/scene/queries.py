@@ -63,10 +63,8 @@ def contacts(id1, id2):
     for position, normal, overlap, feature in interaction.geom.points:
         elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
         along = dashpot.dot(normal)
-        points.append(
-            {"position": position, "normal": sign * normal, "overlap": overlap, "normal_force": elastic + along,
-             "shear_force": sign * (shear + dashpot - along * normal)}
-        )
+        points.append({"position": position, "normal": sign * normal, "overlap": overlap,
+                       "normal_force": elastic + along, "shear_force": sign * (shear + dashpot - along * normal)})
     return points
 
 
