@@ -117,7 +117,8 @@ wall_type = Record({"multiplier": Number("", 0.1, 20.0, default=None),
 joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
                      "kind": word(), "across": Flag(False),
                      "number": Number("fittings", 1, 100, whole=True, default=1),
-                     "share": Number("", 0.01, 1.0, default=1.0), "strength": Number("N", 10.0, infinite=True, default=None)})
+                     "share": Number("", 0.01, 1.0, default=1.0),
+                     "strength": Number("N", 10.0, infinite=True, default=None)})
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,
