@@ -11,7 +11,7 @@ public; the plan here is that of tiled_house (wall_grades.py).
 
 Levels: those of walls of a rated multiplier (docs/house_files.md).
 The runs take half a minute of computing each and can be stopped; the same command continues. Table and figure have the
-name of the folder of the runs. Peaks compare best where no storey is lost, at half of the motion:
+name of the folder of the runs. Peaks compare best where no storey fails, at half of the motion:
 
     scripts/validation/graded_houses.py --record PREFIX --start 6 --end 18 --scale 0.5 --seeds 1 --out results/half_kobe
 """
@@ -70,11 +70,11 @@ def motion_of(given, folder):
     return processing.scaled(motion, given.scale), stated
 
 
-def before_loss(drifts):
+def before_failure(drifts):
     """Peak of each column (n, storeys) before the first column passes LIMIT, and whether one does."""
-    lost = (np.abs(drifts) > LIMIT).any(1)
-    end = int(np.argmax(lost)) if lost.any() else len(lost)
-    return np.abs(drifts[:end]).max(0), bool(lost.any())
+    beyond = (np.abs(drifts) > LIMIT).any(1)
+    end = int(np.argmax(beyond)) if beyond.any() else len(beyond)
+    return np.abs(drifts[:end]).max(0), bool(beyond.any())
 
 
 def compare(grade, level, results, path, motion):
@@ -93,21 +93,21 @@ def compare(grade, level, results, path, motion):
 
 
 def drifts_of_runs(results, direction):
-    """Peaks before a storey is lost in either direction, medians over the runs; runs that lose one; largest drift."""
+    """Peaks before a storey fails in either direction, medians over the runs; runs in which one fails; largest drift."""
     places = [(storey, d) for d in sorted(AXES, key=direction.__ne__) for storey in (1, 2)]
     histories = [np.column_stack([run.history.drift(*place) for place in places]) for run in results]
-    peaks, lost = zip(*map(before_loss, histories))
+    peaks, failed = zip(*map(before_failure, histories))
     first, second = np.median(peaks, axis=0)[:2]
     largest = max(float(np.abs(drifts[:, :2]).max()) for drifts in histories)
-    return {"storey1": float(first), "storey2": float(second), "lost": sum(lost), "largest": largest}
+    return {"storey1": float(first), "storey2": float(second), "failed": sum(failed), "largest": largest}
 
 
 def drifts_of_model(storeys, motion, direction, damping):
     """The same of the lumped-mass model, and its first period."""
     times, drifts = response(storeys, getattr(motion, direction), motion.dt, damping)
-    (first, second), lost = before_loss(drifts)
+    (first, second), failed = before_failure(drifts)
     peaks = {"storey1_model": float(first), "storey2_model": float(second)}
-    return {**peaks, "lost_model": int(lost), "period_model_s": first_period(storeys)}
+    return {**peaks, "failed_model": int(failed), "period_model_s": first_period(storeys)}
 
 
 def draw(rows, path):
@@ -119,12 +119,12 @@ def draw(rows, path):
     for row in rows:
         color = "C0" if row["direction"] == "ew" else "C1"
         marker = "s" if row["level"] == "design" else "o"
-        filling = "none" if row["lost"] or row["lost_model"] else color
+        filling = "none" if row["failed"] or row["failed_model"] else color
         axes.plot(row["storey1_model"], row["storey1"], marker, ms=6 + 8 * (row["grade"] - 1), mec=color, mfc=filling)
     axes.set(xlabel="lumped-mass model", ylabel="package", xlim=ends, ylim=ends)
-    axes.set_title("peak drift of storey 1 before a storey is lost\n"
+    axes.set_title("peak drift of storey 1 before a storey fails\n"
                    "square: design walls, circle: mean; blue: E-W, orange: N-S;\n"
-                   "size: wall quantity; hollow: a storey is lost, by definition at 1/10", fontsize=8)
+                   "size: wall quantity; hollow: a storey fails, by definition at 1/10", fontsize=8)
     axes.legend(loc="upper left")
     with written_whole(path) as part:
         figure.savefig(part, dpi=130)

@@ -29,7 +29,7 @@ ROCKING_DRIFT = 2e-3
 """Drift at which a column end of 0.12 m has lifted off its far edge: Hertz overlap of its points, 0.08 mm under its
 share of the weight (paper, Eq. 37), twice over the distance of the edges, 0.096 m. [rad]"""
 LIMIT = 0.1
-"""Drift at which a storey counts as lost and the calculation ends. [rad]"""
+"""Drift at which a storey fails and the calculation ends. [rad]"""
 
 
 class SlipSpring:

@@ -80,7 +80,7 @@ def test_response_is_that_of_an_oscillator(weight):
     assert np.abs(drifts[:, 0] * HEIGHT - expected).max() < 2e-3 * np.abs(expected).max()
 
 
-def test_a_storey_is_lost_where_its_weight_overcomes_its_walls():
+def test_a_storey_fails_where_its_weight_overcomes_its_walls():
     storey = shear.Storey(1e4, HEIGHT, 3e5, 0.1, [wall()])
     times, drifts = shear.response([storey], np.full(400, 4.0), 0.01, 0.03)
     assert times[-1] < 3.9 and abs(drifts[-1, 0]) > shear.LIMIT
@@ -139,11 +139,11 @@ def test_column_ends_by_hand():
     assert spring.drifts[2:] == pytest.approx([0.01 / 0.09, 0.04 / 0.09])
 
 
-def test_peaks_count_until_a_storey_is_lost():
+def test_peaks_count_until_a_storey_fails():
     drifts = np.array([[0.01, 0.0], [-0.05, 0.02], [0.2, 0.03], [0.5, 0.9]])
-    peak, lost = graded.before_loss(drifts)
-    assert peak.tolist() == [0.05, 0.02] and lost
-    assert graded.before_loss(drifts[:2])[1] is False
+    peak, failed = graded.before_failure(drifts)
+    assert peak.tolist() == [0.05, 0.02] and failed
+    assert graded.before_failure(drifts[:2])[1] is False
 
 
 # --- motion -----------------------------------------------------------------------------------------------------------
