@@ -93,7 +93,7 @@ def compare(grade, level, results, path, motion):
 
 
 def drifts_of_runs(results, direction):
-    """Peaks before a storey fails in either direction, medians over the runs; runs in which one fails; largest drift."""
+    """Peaks before a storey fails in either direction, medians over the runs; failed runs; largest drift."""
     places = [(storey, d) for d in sorted(AXES, key=direction.__ne__) for storey in (1, 2)]
     histories = [np.column_stack([run.history.drift(*place) for place in places]) for run in results]
     peaks, failed = zip(*map(before_failure, histories))
