@@ -114,7 +114,7 @@ def energy_balance(terms):
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
     the input, None without input.
-    created: negative dissipation of single contact points and joints, as a positive number; contained in `dissipated`.
+    created: energy that contact points and joints returned beyond what they had stored; contained in `residual`.
     Raises RunError for numbers that are not finite.
     """
     terms = {"ground_motion": 0.0, IMPOSED: 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
