@@ -191,10 +191,10 @@ void ContactForces::action()
 	collectPairs();
 	checkPlacements();
 	collectBodies();
-	Real lost = 0;
+	JointEnergies lost;
 	findImplicitJoints(*scene, bodies, sweeps > 0, joints, lost);
-	jointDashpot += math::max(Real(0), lost);
-	created += math::max(Real(0), Real(-lost));
+	jointDashpot += lost.dissipated;
+	created += lost.created;
 	findIslands();
 	solveAll();
 	sumResults();

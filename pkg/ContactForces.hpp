@@ -68,7 +68,7 @@ public:
 		"(TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
 		"the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
-		((int, sweeps, 2500, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
+		((int, sweeps, 10000, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
 			"springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's "
 			"explicit springs and dashpots, stable only for very small steps. [-]"))
 		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its "
@@ -78,9 +78,9 @@ public:
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
 		((int, sweepsMax, 0, , "Largest number of sweeps of a step. [-]"))
 		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still "
-			"changed. [-]"))
-		((Real, worstChange, 0, , "Largest change of a pair's or joint's impulses in the last sweep of such a "
-			"step, as twice its kinetic energy. [J]"))
+			"changed, or points had returned too much energy. [-]"))
+		((Real, worstChange, 0, , "Largest last change of a pair's or joint's impulses in such a step, as "
+			"twice its kinetic energy. [J]"))
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding. [J]"))

@@ -27,7 +27,6 @@ namespace {
 	void setProperties(ManifoldPhys& phys, const Body& b1, const Body& b2, Real friction1, Real friction2,
 	        Real shearRatio, Real dampingRatio)
 	{
-		phys.mass = timber::reduced(massOf(b1), massOf(b2));
 		phys.friction = std::min(friction1, friction2);
 		phys.shearRatio = shearRatio;
 		phys.dampingRatio = dampingRatio;
@@ -42,30 +41,40 @@ namespace {
 		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
 	}
 
-	/// The IPhys of a pair, if it is new or its materials or masses have changed since it was set; else null.
-	template <class Phys> Phys* physToUpdate(Interaction& I, const Material& m1, const Material& m2)
+	/// The IPhys of a pair, made if it is new, with the mass of now: bodies may be fixed, freed or get another mass
+	/// in a session.
+	template <class Phys> Phys& updatePhys(Interaction& I, const Body& b1, const Body& b2)
 	{
-		const long changes
-		        = static_cast<const ElementMat&>(m1).changes + static_cast<const ElementMat&>(m2).changes;
-		const bool isNew = !I.phys;
+		// Of another class after a material of another law was assigned to a loaded body
+		const bool isNew = !I.phys || I.phys->getClassIndex() != Phys::getClassIndexStatic();
 		if (isNew) I.phys = shared_ptr<Phys>(new Phys);
 		Phys& phys = *static_cast<Phys*>(I.phys.get());
-		const bool isKnown = phys.materialChanges >= 0;
-		if (!isNew && phys.materialChanges == changes) return nullptr;
-		phys.materialChanges = changes;
-		return isNew || isKnown ? &phys : nullptr;
+		const Real mass = timber::reduced(massOf(b1), massOf(b2));
+		// Infinite: both are fixed, no contact force acts
+		if (isNew || math::isfinite(mass)) phys.mass = mass;
+		return phys;
 	}
 
-	/// Relative speed below which a new pair in contact was placed there, and has not flown there: it would get the
-	/// energy of its overlap. [m/s]
+	/// Whether the numbers of the materials and of the functor are not those from which the attributes were
+	/// computed. Attributes set by hand stay while they are the same.
+	bool haveChanged(ManifoldPhys& phys, std::initializer_list<Real> numbers)
+	{
+		if (std::equal(numbers.begin(), numbers.end(), phys.source.begin(), phys.source.end())) return false;
+		phys.source = numbers;
+		return true;
+	}
+
+	/// Relative speed below which the points of a new pair were placed in contact, and have not flown there. [m/s]
 	constexpr Real restSpeed = 0.1;
 
-	/// Bodies may be fixed, freed or get another mass in a session.
-	void updateMass(Interaction& I, const Body& b1, const Body& b2)
+	bool isPlaced(const ManifoldGeom& geom, const State& a, const State& b)
 	{
-		const Real mass = timber::reduced(massOf(b1), massOf(b2));
-		// Else both are fixed: no contact force acts
-		if (math::isfinite(mass)) static_cast<ManifoldPhys*>(I.phys.get())->mass = mass;
+		return std::all_of(geom.contactPoints.begin(), geom.contactPoints.end(), [&](const auto& p) {
+			return timber::relativeVelocity<double>(
+			               p.position - a.pos, p.position - b.pos, a.vel, a.angVel, b.vel, b.angVel)
+			               .norm()
+			        < restSpeed;
+		});
 	}
 
 	bool boundsOverlap(const Body& b1, const Body& b2)
@@ -87,12 +96,12 @@ namespace {
 		}
 		phys.power = Law::power;
 		const timber::PairProperties pair = phys.properties();
-		const bool isPlaced = I->isFresh(scene) && (b1.state->vel - b2.state->vel).norm() < restSpeed;
+		const bool placed = I->isFresh(scene) && isPlaced(geom, *b1.state, *b2.state);
 		phys.releasedEnergy = timber::elasticPair(law,
-		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, isPlaced },
+		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
 		        geom.contactPoints, phys.records);
 		phys.placedEnergy = phys.placedOverlap = 0;
-		for (size_t k = 0; isPlaced && k < phys.records.size(); ++k) {
+		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
 			phys.placedEnergy += phys.records[k].normalStored;
 			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
@@ -161,29 +170,28 @@ boost::python::list ManifoldPhys::pyPoints() const
 void Ip2_TimberMat_TimberMat_TimberPhys::go(
         const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
-	TimberPhys* phys = physToUpdate<TimberPhys>(*I, *m1, *m2);
 	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-	updateMass(*I, b1, b2);
-	if (!phys) return;
+	TimberPhys& phys = updatePhys<TimberPhys>(*I, b1, b2);
+	if (!haveChanged(phys, { t1.friction, t1.young, t1.poisson, t2.friction, t2.young, t2.poisson, dampingRatio }))
+		return;
 	const Real poisson = (t1.poisson + t2.poisson) / 2;
-	setProperties(*phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
-	phys->modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
-	phys->radius = timber::reduced(
+	setProperties(phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
+	phys.modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);
+	phys.radius = timber::reduced(
 	        timber::equivalentRadius(shapeOf(b1).volume), timber::equivalentRadius(shapeOf(b2).volume));
 }
 
 void Ip2_ElementMat_ElementMat_SnowPhys::go(
         const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& I)
 {
-	SnowPhys* phys = physToUpdate<SnowPhys>(*I, *m1, *m2);
+	const Real friction1 = static_cast<ElementMat*>(m1.get())->friction,
+	           friction2 = static_cast<ElementMat*>(m2.get())->friction;
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
-	updateMass(*I, b1, b2);
-	// With the masses of now
-	static_cast<SnowPhys*>(I->phys.get())->stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2));
-	if (phys)
-		setProperties(*phys, b1, b2, static_cast<ElementMat*>(m1.get())->friction,
-		        static_cast<ElementMat*>(m2.get())->friction, 1, dampingRatio);
+	SnowPhys& phys = updatePhys<SnowPhys>(*I, b1, b2);
+	phys.stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // with the masses of now
+	if (haveChanged(phys, { friction1, friction2, dampingRatio }))
+		setProperties(phys, b1, b2, friction1, friction2, 1, dampingRatio);
 }
 
 bool Law2_ManifoldGeom_TimberPhys_Hertz::go(shared_ptr<IGeom>& g, shared_ptr<IPhys>& p, Interaction* I)

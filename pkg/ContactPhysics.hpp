@@ -35,8 +35,6 @@ class ManifoldPhys : public IPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
-	/// Sum of ElementMat::changes when the attributes were taken from the materials; -1: unknown, they were loaded.
-	long materialChanges = -1;
 	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	Real placedEnergy = 0, placedOverlap = 0;
 	/// No contact points, and no energy released in the last step.
@@ -61,6 +59,8 @@ public:
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))
+		((vector<Real>, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "
+			"attributes were computed."))
 		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded "
 			"points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,

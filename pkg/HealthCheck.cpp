@@ -15,9 +15,21 @@ void HealthCheck::validate() const
 	require(turnLimit > 0, "HealthCheck.turnLimit", turnLimit, "> 0");
 }
 
+namespace {
+	constexpr Real defaultStep = 1e-8; ///< of a YADE scene whose O.dt was not set [s]
+
+	int classOf(const shared_ptr<Material>& m) { return m ? m->getClassIndex() : -1; }
+
+	template <class Part> bool areSame(const boost::weak_ptr<Part>& checked, const shared_ptr<Part>& now)
+	{
+		return !checked.owner_before(now) && !now.owner_before(checked);
+	}
+}
+
 HealthCheck::CheckedBody::CheckedBody(const Body& b)
         : shape(b.shape)
         , material(b.material)
+        , materialClass(classOf(b.material))
         , state(b.state)
         , rounded(roundedShape(b))
         , geometry(rounded ? rounded->geometry : nullptr)
@@ -31,25 +43,17 @@ HealthCheck::CheckedBody::CheckedBody(const Body& b)
 {
 }
 
-namespace {
-	constexpr Real defaultStep = 1e-8; ///< of a YADE scene whose O.dt was not set [s]
-
-	template <class Part> bool areSame(const boost::weak_ptr<Part>& checked, const shared_ptr<Part>& now)
-	{
-		return !checked.owner_before(now) && !now.owner_before(checked);
-	}
-}
-
-bool HealthCheck::CheckedBody::hasPartsOf(const Body& b) const
+bool HealthCheck::CheckedBody::canKeepContacts(const Body& b) const
 {
-	return areSame(shape, b.shape) && areSame(material, b.material);
+	return areSame(shape, b.shape) && materialClass == classOf(b.material);
 }
 
 bool HealthCheck::CheckedBody::isCurrent(const Body& b) const
 {
-	return hasPartsOf(b) && areSame(state, b.state) && id == b.id && clumpId == b.clumpId && flags == b.flags
-	        && mask == b.groupMask && (!rounded || rounded->geometry == geometry)
-	        && blockedDOFs == b.state->blockedDOFs && mass == b.state->mass && inertia == b.state->inertia;
+	return areSame(shape, b.shape) && areSame(material, b.material) && areSame(state, b.state) && id == b.id
+	        && clumpId == b.clumpId && flags == b.flags && mask == b.groupMask
+	        && (!rounded || rounded->geometry == geometry) && blockedDOFs == b.state->blockedDOFs
+	        && mass == b.state->mass && inertia == b.state->inertia;
 }
 
 bool HealthCheck::haveBodiesChanged() const
@@ -74,7 +78,7 @@ bool HealthCheck::hasSceneChanged()
 void HealthCheck::checkGeometry(const Body& b) const
 {
 	const size_t id = b.getId();
-	if (id >= checkedBodies.size() || !checkedBodies[id] || !checkedBodies[id]->hasPartsOf(b)) return;
+	if (id >= checkedBodies.size() || !checkedBodies[id] || !areSame(checkedBodies[id]->shape, b.shape)) return;
 	const CheckedBody& before = *checkedBodies[id];
 	if (before.rounded && before.rounded->geometry != before.geometry)
 		throw std::runtime_error("body " + std::to_string(id)
@@ -95,8 +99,8 @@ void HealthCheck::checkBodies() const
 	}
 }
 
-/// Removes the contacts of bodies whose shape or material was replaced, and those of an earlier list of bodies. The
-/// collider finds the present ones.
+/// Removes the contacts of bodies whose shape, or class of material, is another one, and those of an earlier list of
+/// bodies. The collider finds the present ones.
 void HealthCheck::forgetContacts()
 {
 	InteractionContainer& contacts = *scene->interactions;
@@ -108,7 +112,7 @@ void HealthCheck::forgetContacts()
 	if (std::any_of(contacts.begin(), contacts.end(), isOfEarlierList)) contacts.clear();
 	for (size_t id = 0; id < math::min(checkedBodies.size(), scene->bodies->size()); ++id) {
 		const Body* b = bodyAt(*scene, Body::id_t(id));
-		if (!b || !checkedBodies[id] || checkedBodies[id]->hasPartsOf(*b)) continue;
+		if (!b || !checkedBodies[id] || checkedBodies[id]->canKeepContacts(*b)) continue;
 		const auto ofBody = b->intrs; // a copy: `erase` changes it
 		for (const auto& contact : ofBody)
 			contacts.erase(contact.second->getId1(), contact.second->getId2(), contact.second->linIx);

@@ -12,6 +12,7 @@ class HealthCheck : public GlobalEngine {
 		// weak: the last owner of an object of Python must not be released in a step, without Python's lock
 		boost::weak_ptr<Shape> shape;
 		boost::weak_ptr<Material> material;
+		int materialClass; ///< index; -1: no material
 		boost::weak_ptr<State> state;
 		const RoundedPolyhedron* rounded; ///< the shape; null for another one
 		shared_ptr<const timber::RoundedPolyhedron> geometry; ///< its geometry
@@ -22,7 +23,8 @@ class HealthCheck : public GlobalEngine {
 		Vector3r inertia;
 
 		explicit CheckedBody(const Body&);
-		bool hasPartsOf(const Body&) const;
+		/// Whether its contacts are still valid: same shape, material of the same class.
+		bool canKeepContacts(const Body&) const;
 		bool isCurrent(const Body&) const;
 	};
 	std::vector<boost::optional<CheckedBody>> checkedBodies; ///< by id, as those of the scene at the last check

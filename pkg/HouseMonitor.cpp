@@ -11,10 +11,6 @@ namespace yade {
 YADE_PLUGIN((HouseMonitor));
 
 namespace {
-	/// Names of energies(), in the same order.
-	const char* const energyTerms[] = { "kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion",
-		"dashpot_normal", "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_dashpot",
-		"joint_yield" };
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[]
 	        = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
@@ -61,19 +57,50 @@ namespace {
 		        engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
-	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
-	std::vector<Real> energies(const Scene& scene)
+	/// Scene and the engines that store energies; null if there is none.
+	struct EnergySources {
+		const Scene& scene;
+		const ContactForces* contacts;
+		const JointEngine* joints;
+		const GroundMotionEngine* motion;
+	};
+
+	/// Elastic energy of joints after a whole step. [J]
+	Real jointEnergy(const EnergySources& s)
 	{
-		const ContactForces* c = findEngine<ContactForces>(scene);
-		const JointEngine* j = findEngine<JointEngine>(scene);
-		const GroundMotionEngine* g = findEngine<GroundMotionEngine>(scene);
-		const Real half = scene.dt / 2;
-		return { kineticEnergy(scene), gravityEnergy(scene),
-			c ? c->elasticNormal + c->elasticShear - c->placed : 0,
-			(j ? j->elastic + half * j->elasticPower(scene) : 0) + (c ? c->newmark : 0),
-			g ? g->workUntilNow(scene) : 0, c ? c->dashpotNormal : 0, c ? c->dashpotShear : 0,
-			c ? c->friction : 0, j ? j->released : 0, c ? c->released : 0, c ? c->jointDashpot : 0,
-			j ? j->yielded : 0 };
+		return (s.joints ? s.joints->elastic + s.scene.dt / 2 * s.joints->elasticPower(s.scene) : 0)
+		        + (s.contacts ? s.contacts->newmark : 0);
+	}
+
+	/// A term of the energy balance after a whole step, see ``yade_timber.energy``.
+	struct EnergyTerm {
+		const char* name;
+		Real (*value)(const EnergySources&); ///< [J]
+	};
+	using Sources = const EnergySources&;
+	const EnergyTerm energyTerms[] = {
+		{ "kinetic", [](Sources s) { return kineticEnergy(s.scene); } },
+		{ "gravity", [](Sources s) { return gravityEnergy(s.scene); } },
+		{ "elastic_contacts",
+		        [](Sources s) {
+		                const ContactForces* c = s.contacts;
+		                return c ? c->elasticNormal + c->elasticShear - c->placed : 0;
+		        } },
+		{ "elastic_joints", jointEnergy },
+		{ "ground_motion", [](Sources s) { return s.motion ? s.motion->workUntilNow(s.scene) : 0; } },
+		{ "dashpot_normal", [](Sources s) { return s.contacts ? s.contacts->dashpotNormal : 0; } },
+		{ "dashpot_shear", [](Sources s) { return s.contacts ? s.contacts->dashpotShear : 0; } },
+		{ "friction", [](Sources s) { return s.contacts ? s.contacts->friction : 0; } },
+		{ "broken_springs", [](Sources s) { return s.joints ? s.joints->released : 0; } },
+		{ "lost_contacts", [](Sources s) { return s.contacts ? s.contacts->released : 0; } },
+		{ "joint_dashpot", [](Sources s) { return s.contacts ? s.contacts->jointDashpot : 0; } },
+		{ "joint_yield", [](Sources s) { return s.joints ? s.joints->yielded : 0; } },
+	};
+
+	EnergySources energySources(const Scene& scene)
+	{
+		return { scene, findEngine<ContactForces>(scene), findEngine<JointEngine>(scene),
+			findEngine<GroundMotionEngine>(scene) };
 	}
 }
 
@@ -101,16 +128,17 @@ Vector3r HouseMonitor::meanDisplacement(int level) const
 		sum += s.pos - s.refPos;
 		++count;
 	}
-	return count > 0 ? Vector3r(sum / count) : sum;
+	if (count == 0) throw std::runtime_error("HouseMonitor: level " + std::to_string(level) + " has no body");
+	return sum / count;
 }
 
 /// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
 boost::python::dict HouseMonitor::pyEnergy() const
 {
 	boost::python::dict terms;
-	const std::vector<Real> values = energies(*Omega::instance().getScene());
-	for (size_t k = 0; k < values.size(); ++k)
-		terms[energyTerms[k]] = values[k];
+	const EnergySources sources = energySources(*Omega::instance().getScene());
+	for (const EnergyTerm& term : energyTerms)
+		terms[term.name] = term.value(sources);
 	return terms;
 }
 
@@ -123,8 +151,8 @@ boost::python::list HouseMonitor::pyColumns() const
 			names.append(name + std::to_string(level) + unit);
 	for (const char* name : { "broken_joints [-]", "broken_springs [-]" })
 		names.append(name);
-	for (const char* name : energyTerms)
-		names.append(string(name) + " [J]");
+	for (const EnergyTerm& term : energyTerms)
+		names.append(string(term.name) + " [J]");
 	return names;
 }
 
@@ -150,8 +178,9 @@ void HouseMonitor::record()
 	const JointEngine* joints = findEngine<JointEngine>(*scene);
 	rows.push_back(brokenJoints(*scene));
 	rows.push_back(joints ? joints->breaks.size() : 0);
-	const std::vector<Real> terms = energies(*scene);
-	rows.insert(rows.end(), terms.begin(), terms.end());
+	const EnergySources sources = energySources(*scene);
+	for (const EnergyTerm& term : energyTerms)
+		rows.push_back(term.value(sources));
 }
 
 void HouseMonitor::action()

@@ -31,7 +31,7 @@ namespace {
 }
 
 void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& implicit, Real& lost)
+        std::vector<TimberJoint*>& implicit, JointEnergies& energies)
 {
 	implicit.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
@@ -39,8 +39,8 @@ void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody
 	for (const shared_ptr<TimberJoint>& joint : engine->joints)
 		if (isImplicit(*joint, scene, bodies, alsoStiff)) implicit.push_back(joint.get());
 		else {
-			lost += joint->newmarkEnergy;
-			joint->newmarkEnergy = 0;
+			const Real energy = std::exchange(joint->newmarkEnergy, Real(0));
+			(energy > 0 ? energies.dissipated : energies.created) += math::abs(energy);
 		}
 }
 

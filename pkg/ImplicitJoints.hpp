@@ -10,14 +10,15 @@ namespace yade {
 struct JointEnergies {
 	Real stored = 0; ///< by Newmark's term
 	Real dissipated = 0;
+	Real created = 0; ///< debt of Newmark's term of joints that are no longer implicit
 };
 
 /// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which
 /// at least one is free.
-/// bodies: by id, those of the scene; found: out, in the order of the joints; lost: energy of Newmark's term of the
-/// others, added to [J].
+/// bodies: by id, those of the scene; implicit: out, in the order of the joints; energies: those of Newmark's term of
+/// the others are added to.
 void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& implicit, Real& lost);
+        std::vector<TimberJoint*>& implicit, JointEnergies& energies);
 
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(timber::ContactSolver&, size_t k, TimberJoint&, const Scene&);

@@ -8,13 +8,8 @@ namespace yade {
 /// Common base: YADE dispatches a pair of different materials in either order only through a base class.
 class ElementMat : public Material {
 public:
-	void postLoad(ElementMat&)
-	{
-		validate();
-		++changes;
-	}
+	void postLoad(ElementMat&) { validate(); }
 	void validate() const;
-	long changes = 0; ///< number of times that attributes were set: contacts read them again (ContactPhysics.cpp)
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ElementMat, Material, "Base class of :yref:`TimberMat` and :yref:`SnowMat`; not "
 		"a material by itself.",
@@ -29,11 +24,7 @@ REGISTER_SERIALIZABLE(ElementMat);
 
 class TimberMat : public ElementMat {
 public:
-	void postLoad(TimberMat&)
-	{
-		validate();
-		++changes;
-	}
+	void postLoad(TimberMat&) { validate(); }
 	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TimberMat, ElementMat, "Timber, or any other stiff material in Hertz contact "
@@ -50,11 +41,7 @@ REGISTER_SERIALIZABLE(TimberMat);
 
 class SnowMat : public ElementMat {
 public:
-	void postLoad(SnowMat&)
-	{
-		validate();
-		++changes;
-	}
+	void postLoad(SnowMat&) { validate(); }
 	void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 "

@@ -21,28 +21,32 @@ namespace {
 		return name == base || Omega::instance().isInheritingFrom_recursive(name, base);
 	}
 
-	const char* const integrator = "an integrator (SymplecticIntegrator)";
-
-	/// Task of an engine. Engines of a lower rank come before those of a higher one.
+	/// Task of an engine.
 	struct Role {
+		/// Place in the list: engines of a lower rank come before those of a higher one.
+		enum Rank { beforeCollider, collision, contacts, forces, contactForces, integration, monitors, last };
+		enum Number { optional, required, repeatable };
 		const char* name;
-		int rank;
-		bool isRequired;
+		Rank rank;
+		Number number;
 		std::vector<const char*> classes;
 	};
 	const std::vector<Role> roles {
-		{ "HealthCheck", 0, false, { "HealthCheck" } },
-		{ "ForceResetter", 0, true, { "ForceResetter" } },
-		{ "a collider (CollisionTrigger)", 1, true, { "CollisionTrigger", "Collider" } },
-		{ "a contact loop (ContactLoop)", 2, true, { "ContactLoop", "InteractionLoop" } },
-		{ "JointEngine", 3, false, { "JointEngine" } },
-		{ "gravity", 3, false, { "UniformGravity", "FieldApplier" } },
-		{ "GroundMotionEngine", 3, false, { "GroundMotionEngine" } },
-		{ "ContactForces", 4, true, { "ContactForces" } },
-		{ integrator, 5, true, { "SymplecticIntegrator" } },
-		{ "HouseMonitor", 6, false, { "HouseMonitor" } },
-		{ "StructureMonitor", 6, false, { "StructureMonitor" } },
-		{ "RestSkipper", 7, false, { "RestSkipper" } },
+		{ "HealthCheck", Role::beforeCollider, Role::optional, { "HealthCheck" } },
+		{ "ForceResetter", Role::beforeCollider, Role::required, { "ForceResetter" } },
+		{ "a collider (CollisionTrigger)", Role::collision, Role::required,
+		        { "CollisionTrigger", "Collider" } },
+		{ "a contact loop (ContactLoop)", Role::contacts, Role::required,
+		        { "ContactLoop", "InteractionLoop" } },
+		{ "JointEngine", Role::forces, Role::optional, { "JointEngine" } },
+		{ "gravity", Role::forces, Role::optional, { "UniformGravity", "GravityEngine" } },
+		{ "GroundMotionEngine", Role::forces, Role::optional, { "GroundMotionEngine" } },
+		{ "ContactForces", Role::contactForces, Role::required, { "ContactForces" } },
+		{ "an integrator (SymplecticIntegrator)", Role::integration, Role::required,
+		        { "SymplecticIntegrator" } },
+		{ "HouseMonitor", Role::monitors, Role::repeatable, { "HouseMonitor" } },
+		{ "StructureMonitor", Role::monitors, Role::optional, { "StructureMonitor" } },
+		{ "RestSkipper", Role::last, Role::optional, { "RestSkipper" } },
 	};
 
 	/// Null for an engine that the rules do not concern.
@@ -206,31 +210,32 @@ namespace {
 void checkEngines(const Scene& scene)
 {
 	std::map<const Role*, int> count;
-	const Role* last = nullptr;
+	const Role* before = nullptr; // of the last engine with a role
 	const Engine* late = nullptr; // behind ContactForces, without a role
 	std::vector<const Engine*> live;
 	visitLive(scene.engines, [&](const Engine& engine) { live.push_back(&engine); });
 	for (const Engine* engine : live) {
 		const Role* role = roleOf(*engine);
-		if (!role && last && last->name == string("ContactForces")) late = engine;
+		if (!role && before && before->rank == Role::contactForces) late = engine;
 		if (!role) continue;
 		if (!isListed(scene, engine))
 			refuseEngines(
 			        engine->getClassName() + " stands in a ParallelEngine. Put it into the list itself");
-		if (late && role->name == integrator) {
+		if (late && role->rank == Role::integration) {
 			refuseForeign(*late);
 			refuseEngines(late->getClassName()
 			        + " stands between ContactForces and the integrator, so that contacts would not know "
 			          "its forces. Move it before ContactForces or to the end");
 		}
-		if (++count[role] > 1 && role->classes.front() != string("HouseMonitor"))
+		if (++count[role] > 1 && role->number != Role::repeatable)
 			refuseEngines(string(role->name) + " is there twice");
-		if (last && role->rank < last->rank)
-			refuseEngines(string(role->name) + " must come before " + last->name);
-		last = role;
+		if (before && role->rank < before->rank)
+			refuseEngines(string(role->name) + " must come before " + before->name);
+		before = role;
 	}
 	for (const Role& role : roles)
-		if (role.isRequired && count[&role] == 0) refuseEngines(string(role.name) + " is missing");
+		if (role.number == Role::required && count[&role] == 0)
+			refuseEngines(string(role.name) + " is missing");
 	for (const Engine* engine : live)
 		refuseForeign(*engine);
 }

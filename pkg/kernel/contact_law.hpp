@@ -146,9 +146,10 @@ template <class Law, class Point, class Number>
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) springs.normalForce = law.force(springs.overlap);
-	else
-		springs.normalForce
-		        = max(none, Number(springs.normalForce + springs.stiffness * (springs.overlap - before)));
+	else {
+		const Number sum = springs.normalForce + springs.stiffness * (springs.overlap - before);
+		springs.normalForce = select(springs.overlap > none, max(none, sum), none);
+	}
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);

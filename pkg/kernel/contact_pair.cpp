@@ -50,7 +50,6 @@ namespace {
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
-		// Its force is no function of the overlap
 		if (input.form == NormalForm::Increment) record.impact = ImpactState::over();
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
 		return record.normalStored;
@@ -175,14 +174,23 @@ namespace {
 		return p;
 	}
 
+	/// A point whose surfaces have separated may touch again. In the increment form its force is no function of the
+	/// overlap, and it has no impacts.
+	void rearmImpacts(NormalForm form, Records& records)
+	{
+		if (form == NormalForm::Increment) return;
+		for (PointRecord& r : records)
+			if (r.overlap == 0) r.impact = {};
+	}
+
 	/// Impacts of a pair's points: prepare phase. The history says that the surfaces have just touched, or are in
 	/// an impact.
-	void prepareImpacts(const SolverPair& points, const PairProperties& pair, double h)
+	void prepareImpacts(const SolverPair& solverPair, const PairProperties& pair, double h)
 	{
-		for (size_t i = 0; i < points.count; ++i) {
-			PointRecord& r = points.points[i];
-			if (r.overlap == 0) r.impact = {};
-			else if (r.impact.isPending() && r.normalForce > 0 && r.step.before[0] < 0)
+		for (size_t i = 0; i < solverPair.count; ++i) {
+			PointRecord& r = solverPair.points[i];
+			const bool closes = r.step.response() > 0 && r.step.before[0] < 0;
+			if (r.impact.isPending() && r.normalForce > 0 && closes)
 				r.impact = startImpact({ r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio,
 				        pair.mass, r.step.response(), -r.step.before[0], h);
 			r.step.rebound = r.impact.rebound;
@@ -198,10 +206,10 @@ namespace {
 	}
 
 	/// Impacts of a pair's points after a step. impulse: of the pair, with angular impulses [N s, N m s].
-	void followImpacts(const SolverPair& points, const SolverBodies& bodies, const PairForce& impulse, double h)
+	void followImpacts(const SolverPair& solverPair, const SolverBodies& bodies, const PairForce& impulse, double h)
 	{
-		for (size_t i = 0; i < points.count; ++i) {
-			PointRecord& r = points.points[i];
+		for (size_t i = 0; i < solverPair.count; ++i) {
+			PointRecord& r = solverPair.points[i];
 			if (!r.impact.isActive()) continue;
 			const double change = bodies.velocity<double>(r.step.armA, r.step.armB).dot(r.step.axes[0])
 			        - r.step.before[0];
@@ -270,42 +278,44 @@ template <class Law>
 double elasticPair(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 {
 	assert(isValid(input) && isValid(points));
-	if (!haveSameFeatures(points, records)) return stepChangedFeatures(law, input, points, records);
-	stepSameFeatures(law, input, points, records);
-	return 0;
+	double released = 0;
+	if (haveSameFeatures(points, records)) stepSameFeatures(law, input, points, records);
+	else released = stepChangedFeatures(law, input, points, records);
+	rearmImpacts(input.form, records);
+	return released;
 }
 template double elasticPair(const HertzLaw&, const ElasticInput&, const Points&, Records&);
 template double elasticPair(const LinearLaw&, const ElasticInput&, const Points&, Records&);
 
 void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair, const Points& points)
 {
-	const SolverPair& records = solver.pair(k);
-	assert(points.size() == records.count);
+	const SolverPair& solverPair = solver.pair(k);
+	assert(points.size() == solverPair.count);
 	assert(pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0 && pair.power >= 1);
-	const SolverBodies bodies = solver.bodiesOf(records);
+	const SolverBodies bodies = solver.bodiesOf(solverPair);
 	inLanes(points.size(), [&](auto number, size_t i) {
 		using Number = decltype(number);
 		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
-		const Group<Number, const PointRecord> record(records.points + i, points.size() - i);
+		const Group<Number, const PointRecord> record(solverPair.points + i, points.size() - i);
 		solver.prepare<Number>(k, i, stepInput<Number>(bodies, pair, solver.stepLength(), point, record));
 	});
-	if (!solver.isExplicit()) prepareImpacts(records, pair, solver.stepLength());
+	if (!solver.isExplicit()) prepareImpacts(solverPair, pair, solver.stepLength());
 }
 
 PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, PairEnergies& energies)
 {
-	const SolverPair& points = solver.pair(k);
-	const SolverBodies bodies = solver.bodiesOf(points);
+	const SolverPair& solverPair = solver.pair(k);
+	const SolverBodies bodies = solver.bodiesOf(solverPair);
 	const double h = solver.stepLength();
 	Sums<9> impulses;
 	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
 	        energies.elasticShear);
-	inLanes(points.count, [&](auto number, size_t i) {
+	inLanes(solverPair.count, [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
-		const size_t count = points.count - i;
-		const Group<Number, PointRecord> record(points.points + i, count);
-		const Group<Number, PointStep> step(count, [&](size_t n) { return &points.points[i + n].step; });
+		const size_t count = solverPair.count - i;
+		const Group<Number, PointRecord> record(solverPair.points + i, count);
+		const Group<Number, PointStep> step(count, [&](size_t n) { return &solverPair.points[i + n].step; });
 		const Vec armA = step.get(&PointStep::armA), armB = step.get(&PointStep::armB);
 		Vec axes[3];
 		Number p[3];
@@ -349,7 +359,7 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 	});
 	energies = { sums[0], sums[1], sums[2], sums[3], sums[4] };
 	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6) };
-	followImpacts(points, bodies, impulse, h);
+	followImpacts(solverPair, bodies, impulse, h);
 	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h };
 }
 

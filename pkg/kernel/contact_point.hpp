@@ -40,7 +40,8 @@ struct PointStep {
 	Quad shearResponse; ///< a_tt, a_tu, a_uu: by tangential impulses [1/kg]
 	double friction; ///< mu
 	double rebound, energy, shearEnergy; ///< w, A_n, A_s
-	double hardening, power, overlap, room, damping; ///< c n_0^q, q, n_0, overlap left to the limit, C_n
+	double hardening, power, overlap, room,
+	        damping; ///< c n_0^q, q, n_0, overlap left to the limit (> 0 if the point hardens), C_n
 	double length; ///< h
 	bool bounded; ///< whether (6) limited the impulse in the last visit
 	Vec3 axes[3]; ///< unit: normal from A to B, tangent, second tangent

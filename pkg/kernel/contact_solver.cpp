@@ -35,7 +35,7 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
 	++solveCount;
-	momentum = 0;
+	twiceKinetic = 0;
 }
 
 /// Starts a body of the island, once a step.
@@ -49,14 +49,14 @@ void ContactSolver::startBody(int k)
 	weighted[k].step = solveCount;
 	if (body.inverseMass == 0) return;
 	freeBodies.push_back(k);
-	momentum += body.newVelocity.squaredNorm() / body.inverseMass
+	twiceKinetic += body.newVelocity.squaredNorm() / body.inverseMass
 	        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
 }
 
 size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t count)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	pairs.push_back({ bodyA, bodyB, points, count, 0, 0 });
+	pairs.push_back({ bodyA, bodyB, points, count, 0 });
 	startBody(bodyA);
 	startBody(bodyB);
 	return pairs.size() - 1;
@@ -87,7 +87,7 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 	const SolverBodies both = bodiesOf(pair);
 	const size_t count = std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1;
 	const auto at = [&](size_t i) -> PointStep& { return pair.points[first + i].step; };
-	if (maxSweeps > 0) return prepareSteps<Number>(data, both, h, count, at);
+	if (!isExplicit()) return prepareSteps<Number>(data, both, h, count, at);
 	StepInput<Number> input = data;
 	input.impulse = explicitImpulse<Number>(data, both, h);
 	prepareSteps<Number>(input, both, h, count, at);
@@ -98,20 +98,12 @@ template void ContactSolver::prepare(size_t, size_t, const StepInput<Lanes>&);
 /// Fixed bodies are not written: they may belong to several islands, which other threads solve.
 void ContactSolver::finishBodies()
 {
-	const auto finish = [&](int k) {
-		WeightedBody& w = weighted[k];
-		SolverBody& body = (*bodies)[k];
-		if (w.step != solveCount || body.inverseMass == 0) return;
+	for (const int k : freeBodies) {
 		const BodyMotion motion = motionOf(k);
 		const Vec3 velocity = motion.velocity(), spin = motion.spin();
-		body.newVelocity = velocity;
-		body.newSpin = spin;
-		w.step = -1; // finished
-	};
-	for (const SolverPair& pair : pairs)
-		finish(pair.bodyA), finish(pair.bodyB);
-	for (const ModalConstraint& joint : joints)
-		finish(joint.bodyA), finish(joint.bodyB);
+		(*bodies)[k].newVelocity = velocity;
+		(*bodies)[k].newSpin = spin;
+	}
 }
 
 /// Applies the impulses of a pair's points to its bodies.
@@ -133,7 +125,6 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 	for (size_t k = 0; k < pair.count; ++k)
 		squaredChange += visitPoint(pair.points[forwards ? k : pair.count - 1 - k].step, velocity);
 	pair.squaredChange = squaredChange * inverseMass(pair);
-	pair.sweep = sweepCount;
 	velocity.store(changeA, changeB);
 }
 
@@ -170,7 +161,7 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 	}
 	const double least = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
 	const double bySize = std::max(std::min(tolerance * tolerance * size, firstChanges), least * least * size);
-	return std::max(bySize, rounding * rounding * momentum) / std::max(1., double(count));
+	return std::max(bySize, rounding * rounding * twiceKinetic) / std::max(1., double(count));
 }
 
 /// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep
@@ -215,19 +206,16 @@ bool ContactSolver::sweepJoints(double threshold)
 	for (ModalConstraint& joint : joints) {
 		const double limit = threshold * joint.thresholdShare;
 		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), limit * double(joint.count));
-		joint.sweep = sweepCount;
 		changed = activateNeighbours(joint, limit) || changed;
 	}
 	return changed;
 }
 
-/// Of the pairs and joints that the last sweep visited. [J]
+/// Of the pairs and joints in their last visits. [J]
 double ContactSolver::largestChange() const
 {
 	double largest = 0;
-	const auto add = [&](const auto& c) {
-		if (c.sweep == sweepCount) largest = std::max(largest, c.squaredChange);
-	};
+	const auto add = [&](const auto& c) { largest = std::max(largest, c.squaredChange); };
 	std::for_each(pairs.begin(), pairs.end(), add);
 	std::for_each(joints.begin(), joints.end(), add);
 	return largest;
@@ -260,7 +248,7 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 /// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the accounts.
 bool ContactSolver::returnsTooMuch() const
 {
-	double excess = 0, energy = momentum / 2;
+	double excess = 0, energy = twiceKinetic / 2;
 	for (const SolverPair& pair : pairs) {
 		const PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 		for (size_t k = 0; k < pair.count; ++k) {
@@ -364,7 +352,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 		const double next = squaredThreshold(tolerance, firstChanges);
 		if (next < thresholdDrop * threshold) {
 			threshold = next;
-			changed = activateChanged(threshold);
+			changed = activateChanged(threshold) || sweepJoints(threshold);
 		}
 	}
 	result.converged = !changed && (result.sweeps < slowSweeps || !returnsTooMuch());
@@ -380,12 +368,14 @@ Convergence ContactSolver::solve(double tolerance)
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
 	Convergence result;
-	if (maxSweeps > 0) result = sweepToConvergence(tolerance);
-	else
+	if (isExplicit())
 		for (ModalConstraint& joint : joints)
 			applyExplicitModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
-	if (maxSweeps > 0)
-		std::for_each(pairs.begin(), pairs.end(), [this](const SolverPair& pair) { applyRestitution(pair); });
+	else {
+		result = sweepToConvergence(tolerance);
+		for (const SolverPair& pair : pairs)
+			applyRestitution(pair);
+	}
 	for (ModalConstraint& joint : joints)
 		finishModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	finishBodies();

@@ -121,14 +121,16 @@ struct SolverPair {
 	/// Of the impulses in the last visit, over the equivalent mass: changes matter by their effect on light members
 	/// [J]
 	double squaredChange;
-	long sweep; ///< of the last visit
 };
 
 /// How the sweeps of an island ended.
 struct Convergence {
 	int sweeps = 0;
-	bool converged = true; ///< false: after the last sweep that the limit allows, some impulses still changed
-	double change = 0; ///< then the largest change of a pair or joint in that sweep: twice its kinetic energy [J]
+	/// false: after the last sweep that the limit allows, some impulses still changed, or points had returned too
+	/// much energy
+	bool converged = true;
+	double change
+	        = 0; ///< then the largest change of a pair or joint in its last visit: twice its kinetic energy [J]
 };
 
 class ContactSolver {
@@ -153,8 +155,8 @@ public:
 	/// sweep's changes is smaller and takes its place, down to restTolerance times that of the impulses, or
 	/// roundingTolerance times that of the momenta. A joint counts as one point.
 	/// Accelerated sweeps (9) visit all pairs.
-	/// A small fixed number of sweeps would suffice for a standing house. In an impact between heavy and light
-	/// members the remaining error of the warm start would create energy.
+	/// A few sweeps are enough for a standing house. Where heavy and light members collide, the rest of the warm
+	/// start's error would create energy.
 	/// Fixed bodies are only read: they may belong to several islands, which other threads solve.
 	Convergence solve(double tolerance = 0);
 
@@ -188,8 +190,7 @@ private:
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
-	/// Sum of the squared mass-weighted velocities of the island's bodies after all other forces [J]
-	double momentum = 0;
+	double twiceKinetic = 0; ///< kinetic energy of the island's bodies after all other forces, times two [J]
 
 	void startBody(int k);
 	void finishBodies();

@@ -147,7 +147,7 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 	for (int i = 0; i < 3; ++i)
 		column[i] = product<Number>(rows, 0, i);
 	const Number half = (across[0] - across[2]) / Number(2.),
-	             // A_s
+	             // a_s
 	        largest = (across[0] + across[2]) / Number(2.) + sqrt(Number(half * half + across[1] * across[1]));
 	const ImplicitDirection<Number> normal(
 	        Number(h) * p.normalDamping, Number(h * h) * p.normalStiffness, column[0]);
@@ -188,7 +188,8 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 		s.rebound = noRebound;
 		s.energy = lane(p.energy, i);
 		s.shearEnergy = lane(p.shearEnergy, i);
-		s.hardening = lane(p.hardening, i);
+		// Without a way to close, or a response, (7) is (2)
+		s.hardening = lane(p.room, i) > 0 && lane(column[0], i) > 0 ? lane(p.hardening, i) : 0;
 		s.overlap = lane(p.overlap, i);
 		s.room = lane(p.room, i);
 		s.damping = lane(p.normalDamping, i);

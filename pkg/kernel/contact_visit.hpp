@@ -10,7 +10,7 @@ namespace timber {
 /// Normal impulse that returns the energy A_n: p_A of (5). base: b [m/s].
 inline double energyImpulse(const PointStep& c, double base)
 {
-	// P (sum + a p) = 2 A_n
+	// p (sum + a p) = 2 A_n
 	const double sum = c.before[0] + base, root = std::sqrt(sum * sum + 8 * c.response() * c.energy);
 	return sum > 0 ? 4 * c.energy / (sum + root) : (root - sum) / (2 * c.response());
 }
@@ -26,7 +26,7 @@ inline double reboundImpulse(const PointStep& c, double base)
 /// Normal spring that hardens, F(n) = F_1(n) + c n^q with a linear F_1, and its dashpot, over a closing displacement d
 /// > 0. [m]
 struct Hardening {
-	/// C (n_0 + d)^q - c n_0^q (1 + q d / n_0): by which the force exceeds its linear extrapolation [N]
+	/// c (n_0 + d)^q - c n_0^q (1 + q d / n_0): by which the force exceeds its linear extrapolation [N]
 	double force;
 	double slope; ///< its derivative by d [N/m]
 	double damping; ///< C(n_0 + middle) - C_n [N s/m]
@@ -102,7 +102,7 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	const auto responseTo = [&](double t, double s) {
 		return PointStep::Quad { 0, a[0] * t + a[1] * s, a[1] * t + a[2] * s, 0 };
 	};
-	// V + velocity without the impulse
+	// v + velocity without the impulse
 	const PointStep::Quad own = responseTo(p[1], p[2]), sum = c.before + u - responseTo(before[1], before[2]);
 	// 2 work = share (linear + share square2)
 	const double square2 = p[1] * own[1] + p[2] * own[2], linear = p[1] * sum[1] + p[2] * sum[2];

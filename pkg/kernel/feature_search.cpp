@@ -10,9 +10,8 @@ namespace timber {
 // Search of the candidates:
 //   1. Find the axis of the largest gap between the cores. A pair far apart has no candidates; its margin is what
 //     remains of the gap.
-//   2. Rough search, with the motion bounded about the smaller body: where are features close? Vertices and faces alone
-//     answer this
-//      if there are any.
+//   2. Rough search for close features, with the motion bounded about the smaller body. Other kinds of
+//     contact are searched only where no vertex is close to a face.
 //   3. Centre the region of contact on these positions. The bound of the motion is smallest there.
 //   4. Final search with this region: all pairs of features that can come into contact within the margin.
 namespace {
@@ -126,11 +125,13 @@ namespace {
 			const std::vector<Vec3>& v = pair.a.core.vertices;
 			return cache.supportA + gap - std::max(v[ea.tail].dot(cache.axis), v[ea.head].dot(cache.axis));
 		}
+		/// Largest distance or depth of crossing edges in contact. [m]
+		double reach() const { return std::max(pair.contactDistance(), pair.depthLimit()); }
 		/// Distance within which an edge of B can be in contact with an edge of A within the margin, for nearly
 		/// parallel edges. [m]
 		double edgeRange(const Edge& ea) const
 		{
-			return std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation)
+			return reach() * (1 + maxRotation)
 			        + std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion);
 		}
 
@@ -160,8 +161,7 @@ namespace {
 			const Crossing<Lanes> c = crossing<Lanes>(tail, direction, b.tail, b.direction);
 			const auto nearlyParallel = c.sine < Lanes(crossingSine);
 			const Vec3s position = tail + c.alongA * direction;
-			const Lanes motion = motionBound<Lanes>(position),
-			            range = Lanes(std::max(pair.contactDistance(), pair.depthLimit())) + motion;
+			const Lanes motion = motionBound<Lanes>(position), range = Lanes(reach()) + motion;
 			// Shift of the crossing along the edges
 			const Lanes slack = Lanes(3.) * (motion + range * Lanes(maxRotation)) / c.sine;
 			const auto inside = [&](Lanes at, Lanes length) {
@@ -191,8 +191,7 @@ namespace {
 			const Vertex &tailB = verticesB[eb.tail], &headB = verticesB[eb.head];
 			const double motion = std::min(std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion),
 			        std::max(tailB.motion, headB.motion));
-			const double range
-			        = std::max(pair.contactDistance(), pair.depthLimit()) * (1 + maxRotation) + motion;
+			const double range = reach() * (1 + maxRotation) + motion;
 			const double distance = segmentDistance(
 			        tailA, headA - tailA, tailB.position, headB.position - tailB.position);
 			const Vec3 position = ea.length < eb.length ? Vec3((tailA + headA) / 2)

@@ -177,6 +177,7 @@ void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, do
 
 void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
+	c.newmark.setZero();
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, a, b, c.impulse);
 }

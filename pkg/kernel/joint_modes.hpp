@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Vibration modes of a joint in the solver: dashpots, with which its two bodies vibrate against each other with a
 /// given damping ratio, and Newmark's term of its springs, with which stiff joints set no limit to the step (as in
-/// contact_solver.hpp). Adapter: ContactForces.
+/// contact_solver.hpp). Adapter: ImplicitJoints.
 ///
 /// Two bodies that are connected by one joint, and free otherwise, have six vibration modes: translations and rotations
 /// of B relative to A.
@@ -117,7 +117,6 @@ struct ModalConstraint {
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
 	Vec6 newmark; ///< g
-	long sweep; ///< of the last visit
 	double stored; ///< N: in-out [J]
 	double dissipated; ///< in the step, after finishModes() [J]
 	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
@@ -132,7 +131,7 @@ void prepareModes(ModalConstraint& constraint, const SolverBody& a, const Solver
 /// One Gauss-Seidel visit: (3), (4). A squared change of at most `threshold` [J] is not applied.
 void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
 
-/// Impulse of explicit dashpots, of the velocities before the step.
+/// Impulse of explicit dashpots, of the velocities before the step, without Newmark's term.
 void applyExplicitModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
 /// Account and dissipated energy after the step. a, b: after the sweeps.

@@ -402,7 +402,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 		        displacement > 0)
 			return displacement;
 	updateCandidates(cache, pair); // 2.
-	// 3. a larger gap exceeds rounding errors
+	// 3. A larger gap is not due to rounding
 	if (cache.coresMayOverlap && gapAlongCachedAxis(pair, cache) < flushTolerance) findLeastOverlap(pair);
 	PointCollector collector(pair, rotationA, poseA.position, points);
 	testCandidates(pair, cache.candidates, collector); // 4.

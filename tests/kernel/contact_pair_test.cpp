@@ -198,3 +198,29 @@ TEST(InitialOverlap, IsTheWholeOverlapOfBodiesPlacedInContact)
 			        records[k], placedInContact ? double(k + 1) * overlap : 0, double(k + 1) * overlap);
 	}
 }
+
+/// A point with an excess separates and is loaded again. In the increment form its force starts at zero, and it has no
+/// impacts; in the closed form the next touch is one.
+TEST(Separation, EndsForceAndImpact)
+{
+	for (const NormalForm form : { NormalForm::Closed, NormalForm::Increment }) {
+		std::vector<PointRecord> records;
+		const auto place = [&](double at, double speed) {
+			const Vec3 none = Vec3::Zero(), approach(0, 0, -speed);
+			elasticPair(law, { pair, { none, none, none }, { none, approach, none }, h, form },
+			        { pointOf(vertex, at) }, records);
+		};
+		place(overlap, overlap / 2 / h); // half of the overlap is an excess
+		EXPECT_GT(records[0].excess, 0);
+		place(1.5 * overlap, 0);
+		EXPECT_GT(records[0].normalForce, 0);
+		place(0.4 * overlap, 0); // within the excess
+		EXPECT_EQ(records[0].overlap, 0);
+		EXPECT_EQ(records[0].normalForce, 0);
+		EXPECT_EQ(records[0].impact.isPending(), form == NormalForm::Closed);
+		place(0.5 * overlap, 0);
+		const double n = 0.1 * overlap,
+		             force = form == NormalForm::Closed ? law.force(n) : law.stiffness(n) * n;
+		EXPECT_NEAR(records[0].normalForce, force, 1e-12 * force);
+	}
+}

@@ -54,6 +54,36 @@ TEST(Stiff, ConvergenceIsJudgedByLightMembers)
 		EXPECT_NEAR(accelerated[k].newVelocity.z(), converged[k].newVelocity.z(), 1e-3) << k; // of 1 m/s
 }
 
+/// Normal impulse of one point of a hardening contact between these bodies. [N s]
+namespace {
+double hardenedPoint(std::vector<SolverBody> bodies, double room, double hardening)
+{
+	HeapPoint p = central(1e3, 2e4);
+	p.normalStiffness = 3e7;
+	p.overlap = 1e-3;
+	p.power = 1.5;
+	p.room = room;
+	p.hardening = hardening;
+	std::vector<PointRecord> records(1);
+	ContactSolver solver;
+	solver.begin(bodies, 1e-3, 100);
+	solver.prepare<double>(solver.addPair(0, 1, records.data(), 1), 0, p);
+	solver.solve();
+	return records[0].step.impulse[0];
+}
+} // namespace
+
+/// Beyond the overlap limit the force is constant, and no impulse moves two fixed bodies: the linear rule (2) is left.
+TEST(Stiff, HardensOnlyWithRoomAndResponse)
+{
+	const SolverBody ground = body(0, Vec3::Zero()), falling = body(20, { 0, 0, -8 }),
+	                 lowered = body(0, { 0, 0, -8 });
+	EXPECT_GT(hardenedPoint({ ground, falling }, 0.02, 2e4), 1.01 * hardenedPoint({ ground, falling }, 0.02, 0));
+	EXPECT_EQ(hardenedPoint({ ground, falling }, 0, 2e4), hardenedPoint({ ground, falling }, 0, 0));
+	EXPECT_EQ(hardenedPoint({ ground, lowered }, 0.02, 2e4), hardenedPoint({ ground, lowered }, 0.02, 0));
+	EXPECT_GT(hardenedPoint({ ground, lowered }, 0.02, 2e4), 0);
+}
+
 TEST(Stiff, MassRatioOfAMillion)
 {
 	for (const double light : { 1e-3, 1. }) {

@@ -412,6 +412,20 @@ TEST(Oscillator, ExplicitWithoutSweeps)
 	EXPECT_LT((assembly.velocities() - expected).norm(), 1e-11 * expected.norm());
 }
 
+/// Without sweeps there is no Newmark's term, also of a stiff joint: the dashpots dissipate what the bodies lose.
+TEST(Oscillator, ExplicitDashpotsStoreNoEnergy)
+{
+	Assembly assembly = oscillator(0.001);
+	Random random(14);
+	const double h = 0.1;
+	ASSERT_GT(assembly.newmark(h).norm(), 0);
+	assembly.setVelocities(randomFree(random, assembly));
+	const double before = kineticEnergy(assembly.bodies), dissipated = assembly.damp(h, 0);
+	EXPECT_EQ(assembly.stored[0], 0);
+	EXPECT_GT(dissipated, 0);
+	EXPECT_NEAR(dissipated, before - kineticEnergy(assembly.bodies), 1e-12 * before);
+}
+
 /// Modes depend on springs, masses, moments of inertia and the orientation of the bodies against each other.
 TEST(JointModes, FitWhatTheyWereComputedFor)
 {

@@ -168,6 +168,72 @@ def test_material_in_contact():
         O.bodies[column].shape.radius = 0.01
 
 
+def test_material_of_a_loaded_contact(tmp_path):
+    """Changed right after `O.load`, also the damping ratio of the functor. Attributes set by hand stay, and are saved.
+    """
+    plate, column = column_on_plate()
+    O.interactions[plate, column].phys.friction = 0.33
+    O.run(3, True)
+    O.save(str(tmp_path / "scene.xml"))
+    O.load(str(tmp_path / "scene.xml"))
+    O.run(3, True)
+    assert O.interactions[plate, column].phys.friction == 0.33
+    O.load(str(tmp_path / "scene.xml"))
+    O.bodies[column].material.friction = 0.2
+    O.run(3, True)
+    phys = O.interactions[plate, column].phys
+    assert phys.friction == pytest.approx(0.2)
+    functors = find_engine(yw.ContactLoop).loop.physDispatcher.functors
+    next(f for f in functors if isinstance(f, yw.Ip2_TimberMat_TimberMat_TimberPhys)).dampingRatio = 0.5
+    O.run(3, True)
+    assert phys.dampingRatio == 0.5
+
+
+def test_material_of_another_law_in_a_loaded_contact(tmp_path):
+    plate, column = column_on_plate()
+    O.save(str(tmp_path / "scene.xml"))
+    O.load(str(tmp_path / "scene.xml"))
+    O.bodies[column].material = yt.snow()
+    O.run(3, True)
+    assert isinstance(O.interactions[plate, column].phys, yw.SnowPhys)
+
+
+def test_material_replaced_in_a_deep_contact():
+    """Bodies that have sunk into each other were not placed there: the contact goes on."""
+    O.reset()
+    soft = dict(young=1e8, density=2000)
+    plate = O.bodies.append(yt.box((2, 2, 1), (0, 0, -0.5), fixed=True, material=yt.timber(**soft)))
+    block = O.bodies.append(yt.box((1, 1, 1), (0, 0, 0.5), material=yt.timber(**soft)))
+    O.dt, O.engines = 1e-4, yt.engines()
+    O.run(5000, True)
+    assert yt.contacts(plate, block)[0]["overlap"] > 1e-3
+    height = O.bodies[block].state.pos[2]
+    O.bodies[block].material = yt.timber(**soft, friction=0.1)
+    O.run(1000, True)
+    assert O.bodies[block].state.pos[2] == pytest.approx(height, abs=1e-5)
+    assert O.interactions[plate, block].phys.friction == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("spin", [0, 20])
+def test_spinning_body_was_not_placed(spin):
+    """Its points move fast, though its centre is at rest: the overlap brings no energy."""
+    O.reset()
+    O.bodies.append(yt.box((3, 3, 0.2), (0, 0, -0.1), fixed=True))
+    beam = O.bodies[O.bodies.append(yt.box((2, 0.1, 0.1), (0, 0, 0.05 - 5e-5)))]
+    O.dt, O.engines = 1e-4, yt.engines()
+    yt.set_velocity(beam, (0, 0, 0), (0, 0, spin))
+    O.step()
+    assert (find_engine(yw.ContactForces).placed > 0) == (spin == 0)
+
+
+def test_level_without_bodies():
+    _, column = column_on_plate()
+    O.engines = [*O.engines, yw.HouseMonitor(bodies=[column], levels=[1], heights=[1, 1])]
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    is_one_line(error, "HouseMonitor: level 2 has no body")
+
+
 def test_peaks_of_a_wall_are_shears():
     """A spring along its normal alone (ks = 0), pressed together: its force is a shear in the wall's plane, no pull."""
     O.reset()

@@ -118,7 +118,7 @@ def _checked(name, part):
             part.fset(body, value)
             if is_element and body.id >= 0:
                 try:
-                    _check(body, name)
+                    _check(body, name, before)
                 except (RuntimeError, ValueError) as error:
                     part.fset(body, before)
                     raise ValueError(str(error)) from None
@@ -138,12 +138,12 @@ def _with_momentum(part):
     return property(part.fget, set_velocity, doc=part.__doc__)
 
 
-def _check(body, name):
-    """Raise an error if an element of the scene cannot be computed with its new part."""
+def _check(body, name, before):
+    """Raise an error if an element of the scene cannot be computed with its new part. before: the old one."""
     if body.shape is None:
         raise ValueError(f"body {body.id}: shape None: it must be a shape; O.bodies.erase({body.id}) takes the body"
                          " out")
     compiled.check_replaced_part(body)
-    if name in ("shape", "material"):  # functors, stiffness and friction of its contacts are those of the old part
+    if name == "shape" or (name == "material" and type(body.material) is not type(before)):  # other functors
         for interaction in body.intrs():
             O.interactions.erase(interaction.id1, interaction.id2)
