@@ -33,7 +33,7 @@ DAMAGE = Limit(1 / 120, "damage limit", "Building Standard Law of Japan, Enforce
                " to 1/120 where finishes allow it")
 SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Association, seismic diagnosis of wooden"
                " houses; limit strength calculation")
-TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to pull the house over")
+TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to overturn the house")
 LIMITS = (DAMAGE, SAFETY, TILT)
 
 
