@@ -307,7 +307,11 @@ void ContactSolver::stepAlong(ConjugateDirection& d)
 bool ContactSolver::sweepAll(double threshold)
 {
 	++sweepCount;
-	bool changed = sweepJoints(threshold);
+	bool changed = false;
+	for (ModalConstraint& joint : joints) {
+		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
+		changed = changed || joint.squaredChange > threshold * joint.thresholdShare;
+	}
 	for (SolverPair& pair : pairs) {
 		solvePair(pair, true);
 		changed = changed || pair.squaredChange > threshold * double(pair.count);

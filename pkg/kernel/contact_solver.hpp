@@ -23,7 +23,10 @@
 ///     tangential  p_s = f_s p_s0 + b_s - M_s (u_s + a_ns (p_n - p_n0)), shortened to mu p_n        (4)
 /// A spring returns at most its account A, the work that the bodies have done on it as far as it is neither returned
 /// nor dissipated:
-///     energy      p (v + v') / 2 <= A,   p_A (v + b + a p_A) / 2 = A_n; p_s is shortened likewise   (5)
+///     energy      p (v + v') / 2 <= A,   p_A (v + b + a p_A) / 2 = A_n                             (5)
+/// Of the tangential impulses that (5) admits p_s is the closest to (4). A visit is then a step along the gradient of a
+/// convex function and projections on convex sets, which repeated visits lead to a fixed point. (Shortened in its own
+/// direction, p_s may alternate between two values for ever where the responses of the two tangents differ.)
 /// A new point has none: it never leaves faster than it came, however coarse the step. A point in an impact
 /// (impact.hpp) separates at most with the velocity w,
 ///     impact      p_w = (w - b + s (w - u_n0)) / (a (1 + s))                                    (6)

@@ -91,26 +91,75 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	return p;
 }
 
+/// Tangential impulse of a point, in the axes of its two tangents.
+struct Shear {
+	double t, u;
+
+	double dot(const Shear& o) const { return t * o.t + u * o.u; }
+	Shear operator*(double s) const { return { t * s, u * s }; }
+	Shear operator+(const Shear& o) const { return { t + o.t, u + o.u }; }
+};
+
+/// Work of a tangential impulse on the bodies, as far as it exceeds the account A_s of (5).
+struct ShearWork {
+	Shear velocity; ///< v + b [m/s]
+	double att, atu, auu; ///< R: velocity change by a unit impulse [1/kg]
+	double account; ///< A_s [J]
+
+	Shear responseTo(const Shear& p) const { return { att * p.t + atu * p.u, atu * p.t + auu * p.u }; }
+	/// 2 (p (v + b + R p) / 2 - A_s) [J]
+	double excess(const Shear& p) const { return p.dot(velocity + responseTo(p)) - 2 * account; }
+	/// The impulse closest to p, which exceeds the account, that does not: p(l) = (1 + 2 l R)^-1 (p - l (v + b)) with
+	/// excess(p(l)) = 0, which falls with l and is convex. Newton's method does not pass the root.
+	Shear closestTo(const Shear& p) const
+	{
+		Shear q = p;
+		double l = 0;
+		for (int k = 0; k < projectionSteps; ++k) {
+			const double tt = 1 + 2 * l * att, tu = 2 * l * atu, uu = 1 + 2 * l * auu,
+			             det = tt * uu - tu * tu;
+			const auto solved = [&](const Shear& x) {
+				return Shear { (uu * x.t - tu * x.u) / det, (tt * x.u - tu * x.t) / det };
+			};
+			q = solved(p + velocity * -l);
+			const double more = excess(q);
+			if (more <= projectionTolerance * q.dot(responseTo(q))) break;
+			const Shear slope = velocity + responseTo(q) * 2;
+			l += more / slope.dot(solved(slope));
+		}
+		return q * shareOf(q);
+	}
+	/// Share of p that returns the account.
+	double shareOf(const Shear& p) const
+	{
+		const double linear = p.dot(velocity), square = p.dot(responseTo(p));
+		if (linear + square <= 2 * account) return 1;
+		const double root = std::sqrt(linear * linear + 8 * square * account);
+		return linear > 0 ? 4 * account / (linear + root) : (root - linear) / (2 * square);
+	}
+};
+
+/// p, shortened to the length if it is longer.
+inline Shear clippedShear(const Shear& p, double length)
+{
+	const double square = p.dot(p);
+	return square > length * length ? p * (length / std::sqrt(square)) : p;
+}
+
 /// Tangential impulse within the limits (4) of friction and (5) of energy. p: by (2), in-out; before: impulse before
 /// the visit; u: velocity with that impulse and the new normal one [m/s].
 [[gnu::always_inline]] inline void limitShear(
         const PointStep& c, PointStep::Quad& p, const PointStep::Quad& before, const PointStep::Quad& u)
 {
-	const double limit = c.friction * p[0], square = p[1] * p[1] + p[2] * p[2];
-	double share = square > limit * limit ? limit / std::sqrt(square) : 1;
-	const PointStep::Quad& a = c.shearResponse;
-	const auto responseTo = [&](double t, double s) {
-		return PointStep::Quad { 0, a[0] * t + a[1] * s, a[1] * t + a[2] * s, 0 };
-	};
-	// v + velocity without the impulse
-	const PointStep::Quad own = responseTo(p[1], p[2]), sum = c.before + u - responseTo(before[1], before[2]);
-	// 2 work = share (linear + share square2)
-	const double square2 = p[1] * own[1] + p[2] * own[2], linear = p[1] * sum[1] + p[2] * sum[2];
-	if (square2 > 0 && share * (linear + share * square2) > 2 * c.shearEnergy) {
-		const double root = std::sqrt(linear * linear + 8 * square2 * c.shearEnergy);
-		share = linear > 0 ? 4 * c.shearEnergy / (linear + root) : (root - linear) / (2 * square2);
-	}
-	p *= PointStep::Quad { 1, share, share, 0 };
+	const double limit = c.friction * p[0];
+	ShearWork work { { c.before[1] + u[1], c.before[2] + u[2] }, c.shearResponse[0], c.shearResponse[1],
+		c.shearResponse[2], c.shearEnergy };
+	work.velocity = work.velocity + work.responseTo({ before[1], before[2] }) * -1;
+	Shear shear = clippedShear({ p[1], p[2] }, limit);
+	// Both limits are convex and contain 0: shortening keeps (5)
+	if (work.excess(shear) > 0) shear = clippedShear(work.closestTo(shear), limit);
+	p[1] = shear.t;
+	p[2] = shear.u;
 }
 
 /// One visit. velocity: change of the pair's weighted velocities, in-out. Returns the squared change of the impulse.

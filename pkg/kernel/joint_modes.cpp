@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace timber {
 namespace {
@@ -148,7 +149,7 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 	c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
 	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(), x = ratio * phase, y = phase.square();
 	const Eigen::Array<double, 6, 1> g = (phase > stiffPhase).select(y.square() / (4 * y + 2), 0.);
-	c.thresholdShare = g.maxCoeff() > 0 ? stiffJointShare * stiffJointShare : 1;
+	c.thresholdShare = std::pow(std::max(stiffPhase, phase.maxCoeff()), -4);
 	c.decay = x;
 	c.share = (x + g) / (1 + x + g);
 	c.shareBefore = (x - g) / (1 + x + g);

@@ -119,7 +119,8 @@ struct ModalConstraint {
 	Vec6 newmark; ///< g
 	double stored; ///< N: in-out [J]
 	double dissipated; ///< in the step, after finishModes() [J]
-	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it [-]
+	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it. (h omega)^-4
+	/// of the stiffest mode: errors change elastic forces by (h omega)^2 times as much [-]
 	double thresholdShare;
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
