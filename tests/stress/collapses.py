@@ -26,7 +26,7 @@ DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "
 """Terms of `yt.energy` that cannot fall. `lost_contacts` counts energy given to new points with the opposite sign."""
 CREATED, NEGATIVE, CHANGE = 1e-4, 1e-9, 1e-9
 """Bounds of a sound run over the energy put in [-]: negative dissipation of single points and joints, fall of a
-dissipated term within a SAMPLE, and change of a pair in the last sweep of a step that ended unconverged."""
+dissipated term within a SAMPLE, and last change of a pair in a step that ended unconverged."""
 SAMPLE = 0.05
 """Time between two samples of spins and energies. [s]"""
 DAMPINGS = (0.0, 0.01, 0.03, 0.1, 1.0)
@@ -115,7 +115,7 @@ class Outcome:
     input: float  # [J]
     sweeps: float  # mean of a step [-]
     unconverged: int  # steps
-    change: float  # largest of a pair in the last sweep of an unconverged step, share [-]
+    change: float  # largest of a pair in its last visit in an unconverged step, share [-]
     created: float  # share [-]
     negative: float  # largest fall of a dissipated term within a SAMPLE, share [-]
     term: str  # that fell so
