@@ -120,7 +120,7 @@ def energy_balance(terms):
     terms = {"ground_motion": 0.0, IMPOSED: 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
     supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
     residual = queries.energy_residual(terms)
-    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[term.name] for term in ELASTIC),
+    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[name] for name in ELASTIC),
                      dissipated={term.name: terms[term.name] for term in DISSIPATED},
                      created=find_engine(yw.ContactForces).created, residual=residual,
                      residual_fraction=abs(residual) / supplied if supplied > 0 else None,
