@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run: scene -> steps -> results. Command line: cli.py, launch.py; run in a live session: live.py."""
+"""A run: scene -> steps -> results. Command line: cli.py; run in a live session: live.py."""
 import math
 import signal
 import time
@@ -39,6 +39,15 @@ class Interrupted(Exception):
 
 class PhysicsError(RunError):
     """The numbers of the scene are not those of a physical motion any more."""
+
+
+@contextmanager
+def physics_errors():
+    """Context in which an error of YADE's engines becomes a PhysicsError."""
+    try:
+        yield
+    except RuntimeError as problem:
+        raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
 
 
 class Stoppable:
@@ -149,17 +158,13 @@ class Run(Stoppable):
             if not self.only_export:
                 with self._stop_signals(), Progress(self.scenario, self.observer.log, self.options.quiet) as progress:
                     while O.iter < self.steps:
-                        self._chunk()
+                        self.advance(self.next_stop())
+                        self.after_chunk()
                         progress.update()
         except PhysicsError as problem:
             self.write(cut_off=str(problem))
             raise
         self.write()
-
-    def _chunk(self):
-        """The steps to the next frame, and a checkpoint when it is due."""
-        self.advance(self.next_stop())
-        self.after_chunk()
 
     def next_stop(self):
         """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
@@ -171,7 +176,8 @@ class Run(Stoppable):
     def after_chunk(self):
         """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises
         PhysicsError, and Interrupted after a signal."""
-        self.check()
+        with physics_errors():
+            find_engine(yw.HealthCheck).check()
         if self.collapse_ends_it():
             self.steps = O.iter
         if O.iter == self.steps:
@@ -187,13 +193,6 @@ class Run(Stoppable):
         """Whether the run ends now because its house has collapsed."""
         return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
 
-    def check(self):
-        """Raises PhysicsError for bodies that have left the physical range."""
-        try:
-            find_engine(yw.HealthCheck).check()
-        except RuntimeError as problem:
-            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
-
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
         self.observer.observe(time)
@@ -203,11 +202,9 @@ class Run(Stoppable):
     def advance(self, step):
         """Advance to that step by `O.step`: unlike `O.run` it raises errors here and does not wait in slices."""
         since = time.perf_counter()
-        try:
+        with physics_errors():
             while O.iter < step:
                 O.step()
-        except RuntimeError as problem:
-            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
         self.wall_s += time.perf_counter() - since
 
     def _checkpoint_due(self):

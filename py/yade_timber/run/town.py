@@ -4,9 +4,11 @@
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
 stay in the processor's cache: time and memory per element do not depend on the number of houses.
 """
+import os
 import time
 from contextlib import contextmanager
 
+import yade.runtime
 import yade.wrapper as yw
 
 from ..base.atomic_write import remove, remove_parts, write_text
@@ -29,25 +31,27 @@ O = yw.Omega()
 
 
 class TownRun(Stoppable):
-    """Runs of a town's lots in step, frame by frame. plans: (Scenario, RunOptions) of each lot; options: the town's"""
+    """Runs of a town's lots in step, frame by frame, on all processors or YADE's -j. plan: TownPlan; options: its"""
 
-    def __init__(self, town, plans, options):
-        self.town, self.options = town, options
+    def __init__(self, plan, options):
+        if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
+            compiled.set_thread_count(len(os.sched_getaffinity(0)))
+        self.town, self.options = plan.town, options
         self.wall_s = 0.0  # [s] of all steps since the start of this process
         self.runs, self.scenes = [], []
-        for lot, (scenario, lot_options) in zip(town.lots, plans):
+        for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
             with named(lot):
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
-        check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
+        check_places([(lot, run.model) for lot, run in zip(self.town.lots, self.runs)])
         O.reset()
         self.idle = O._sceneObj
         with removing(options):
             for name in NAMES:
                 remove(options.folder / name)
-            for _, lot_options in plans:
-                remove_parts(lot_options.folder)
+            for run in self.runs:
+                remove_parts(run.options.folder)
 
     @contextmanager
     def _of(self, number):
@@ -101,15 +105,11 @@ class TownRun(Stoppable):
                 if O.iter < run.steps:
                     left.append(number)
         if self.signal:
-            self._stop(left)
+            for number in left:
+                with self._of(number) as run:
+                    run.save()
+            raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
         return left
-
-    def _stop(self, active):
-        """Save the lots that have more steps and end the run."""
-        for number in active:
-            with self._of(number) as run:
-                run.save()
-        raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
 
     # --- results ------------------------------------------------------------------------------------------------------
 
