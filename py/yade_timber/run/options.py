@@ -120,6 +120,11 @@ class RunOptions(MotionRequest):
         """An option as the user knows it: --joint-damping, run: joint_damping, table.txt:3, column joint_damping."""
         return self.door.name(name)
 
+    def say(self, text):
+        """Print a line, unless the run is quiet."""
+        if not self.quiet:
+            print(text, flush=True)
+
     def check(self):
         """Raise RunError for values out of range and contradictions."""
         super().check(self.named)

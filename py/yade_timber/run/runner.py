@@ -55,11 +55,6 @@ class Stoppable:
 
     signal = None
 
-    def report(self, text):
-        """Print a line, unless the run is quiet."""
-        if not self.options.quiet:
-            print(text, flush=True)
-
     @contextmanager
     def _stop_signals(self):
         """Stop signals end the run after the present chunk; further ones have no effect."""
@@ -111,7 +106,7 @@ class Run(Stoppable):
         if self.recorder:
             self.recorder.take(O.time)
         if self.options.resume:
-            self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
+            self.options.say(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
         """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
@@ -123,7 +118,7 @@ class Run(Stoppable):
             self.wall_s, self.last_saved = 0.0, 0
             return False
         clear(self.options, *([] if self.recorder else RECORDED))
-        self.report(f"resuming from {O.time:.2f} s")
+        self.options.say(f"resuming from {O.time:.2f} s")
         return True
 
     def _load(self):
@@ -146,7 +141,7 @@ class Run(Stoppable):
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
-        self.report(titled)
+        self.options.say(titled)
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
@@ -234,7 +229,7 @@ class Run(Stoppable):
     def write(self, cut_off=None):
         """Write results and pictures; print their names. cut_off: reason for an early end. Or PhysicsError."""
         if self.only_export:
-            self.report(f"written: {self.options.export}")
+            self.options.say(f"written: {self.options.export}")
             return
         if cut_off is None:
             self.take(O.time, last=True)
@@ -244,12 +239,12 @@ class Run(Stoppable):
         written = self._results(tables)
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
-            written += draw(self.options.folder, self.options.views, self.options.report)
+            written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
-        self.report(sentence(self.summary))
-        self.report("written: " + ", ".join(str(path) for path in written))
+        self.options.say(sentence(self.summary))
+        self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
-            self.report(f"next: {command_for_pictures(self.options)}")
+            self.options.say(f"next: {command_for_pictures(self.options)}")
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
@@ -266,16 +261,6 @@ def unwritten(options):
     """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
-
-
-def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
-    written = all_pictures.write(folder) if views else []
-    if page:
-        from ..pictures import report  # here: matplotlib takes 0.3 s
-
-        written += report.write(folder)
-    return written
 
 
 def command_for_pictures(options):

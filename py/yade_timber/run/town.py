@@ -119,11 +119,11 @@ class TownRun(Stoppable):
             with self._of(number) as run:
                 run.write()
         for lot, run in zip(self.town.lots, self.runs):
-            self.report(f"{lot.name}: {sentence(run.summary)}")
+            self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.report(sentence(recording.summary(self.town.name,
+        self.options.say(sentence(recording.summary(self.town.name,
                                                {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
-        self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
+        self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def _results(self):
         folder = self.options.folder

@@ -161,13 +161,17 @@ class _Process:
     def _error(self):
         """Error message of the run, or None."""
         if self.child.returncode:
-            lines = (self.task.folder / LOG).read_text(errors="replace").split("\n")
-            last = next((line for line in reversed(lines) if line.strip()), f"exit status {self.child.returncode}")
-            return last.strip().removeprefix("error: ")
+            return last_error((self.task.folder / LOG).read_text(errors="replace"), self.child.returncode)
         if self.task.summary is None:
             return (f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
                     " Python")
         return None
+
+
+def last_error(text, status):
+    """Error message of a script that has ended with an exit status. text: what it printed"""
+    lines = [line.strip() for line in text.split("\n") if line.strip()]
+    return lines[-1].removeprefix("error: ") if lines else f"exit status {status}"
 
 
 def _signal(status):

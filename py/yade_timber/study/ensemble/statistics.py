@@ -6,7 +6,7 @@ from numbers import Real
 import numpy as np
 from scipy import stats
 
-from ...base.json_types import encode
+from ...base.json_types import encode, leaves
 from ...recording.verdict import STATES
 
 CONFIDENCE = 0.95
@@ -18,13 +18,6 @@ NONE = "none"
 
 
 # --- of one summary ---------------------------------------------------------------------------------------------------
-
-
-def leaves(table, path=""):
-    """(path, value) of the entries of nested tables that are no tables: ('energy.dissipated.friction', 98605.2)."""
-    for key, value in table.items():
-        place = f"{path}.{key}".lstrip(".")
-        yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
 
 
 def numbers(summary):
