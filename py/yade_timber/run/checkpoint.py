@@ -83,6 +83,5 @@ def _require_same(path, saved, wanted):
     for key in sorted(saved.keys() | wanted.keys()):
         there, here = saved.get(key), wanted.get(key)
         if there != here:
-            difference = f"{key} is {there} there and {here} here"
-            raise RunError(f"{path}: checkpoint of another run: {difference}; use the same options, another --out, or"
-                           " no --resume")
+            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same"
+                           " options, another --out, or no --resume")

@@ -19,7 +19,7 @@ from ..text.english import loads, sentence
 from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
-from .progress import Progress
+from .progress import Bar, Status
 from .recorder import Recorder
 from .samples import Samples
 
@@ -151,11 +151,13 @@ class Run(Stoppable):
         """All steps, then the results, also of a run that is cut off. Raises RunError, Interrupted after a signal."""
         try:
             if not self.only_export:
-                with self._stop_signals(), Progress(self.scenario, self.observer.log, self.options.quiet) as progress:
+                bar = Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet,
+                          Status(self.observer.log))
+                with self._stop_signals(), bar:
                     while O.iter < self.steps:
                         self.advance(self.next_stop())
                         self.after_chunk()
-                        progress.update()
+                        bar.advance(O.time)
         except PhysicsError as problem:
             self.write(cut_off=str(problem))
             raise

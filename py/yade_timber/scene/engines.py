@@ -63,7 +63,12 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     collider = yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0)
     chain += [yw.ForceResetter(), yw.CollisionTrigger(collider=collider),
               contact_loop(vertex_edge, flush_supports, increment, damping_ratio)]
-    chain += external_forces(gravity, ground_motion, joints)
+    gravity = arguments.vector("engines: gravity", gravity, "m/s2")
+    joints = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
+    if ground_motion is not None and not isinstance(ground_motion, yw.GroundMotionEngine):
+        ground_motion = ground_motion_engine(ground_motion)
+    forces = (joints, yw.UniformGravity(gravity=gravity) if any(gravity) else None, ground_motion)
+    chain += [engine for engine in forces if engine is not None]
     chain += [yw.ContactForces(sweeps=sweeps, tolerance=tolerance), yw.SymplecticIntegrator(), *monitors(monitor)]
     if arguments.count("engines: skip_rest", skip_rest):
         chain.append(yw.RestSkipper(stride=skip_rest))
@@ -87,19 +92,6 @@ def monitors(stated):
     stated = [] if stated is None else stated if isinstance(stated, (list, tuple)) else [stated]
     kinds, form = (yw.HouseMonitor, yw.StructureMonitor), "a HouseMonitor, a StructureMonitor, a list of them, or None"
     return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in stated]
-
-
-def external_forces(gravity, ground_motion, joints):
-    """Engines of joints, gravity and ground motion, as far as there are any; arguments as in `engines`."""
-    gravity = arguments.vector("engines: gravity", gravity, "m/s2")
-    engine = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
-    chain = [engine] if engine is not None else []
-    if any(gravity):
-        chain.append(yw.UniformGravity(gravity=gravity))
-    if ground_motion is not None:
-        chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine)
-                     else ground_motion_engine(ground_motion))
-    return chain
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):
