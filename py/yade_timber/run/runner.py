@@ -246,7 +246,8 @@ class Run(Stoppable):
         self.options.say(sentence(self.summary))
         self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
-            self.options.say(f"next: {command_for_pictures(self.options)}")
+            show = f"xdg-open {quote(str(self.options.folder / all_pictures.PLAYER))}"
+            self.options.say(f"next: {show if self.options.views else self.options.door.pictures(self.options.folder)}")
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
@@ -263,12 +264,6 @@ def unwritten(options):
     """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
-
-
-def command_for_pictures(options):
-    """Command that shows a recorded run."""
-    page = options.folder / all_pictures.PLAYER
-    return f"xdg-open {quote(str(page))}" if options.views else options.door.pictures(options.folder)
 
 
 def clear(options, *more):

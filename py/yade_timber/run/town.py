@@ -44,7 +44,8 @@ class TownRun(Stoppable):
             with named(lot):
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
-        check_places([(lot, run.model) for lot, run in zip(self.town.lots, self.runs)])
+        self.lots = list(zip(self.town.lots, self.runs))
+        check_places([(lot, run.model) for lot, run in self.lots])
         O.reset()
         self.idle = O._sceneObj
         with removing(options):
@@ -118,11 +119,10 @@ class TownRun(Stoppable):
         for number in range(len(self.runs)):
             with self._of(number) as run:
                 run.write()
-        for lot, run in zip(self.town.lots, self.runs):
+        for lot, run in self.lots:
             self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.options.say(sentence(recording.summary(self.town.name,
-                                               {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
+        self.options.say(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in self.lots})))
         self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def _results(self):
@@ -132,8 +132,7 @@ class TownRun(Stoppable):
             write_text(written[0], self.table())
             if self.options.no_frames:
                 return written
-            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames)
-                        for lot, run in zip(self.town.lots, self.runs)]
+            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in self.lots]
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
@@ -141,7 +140,7 @@ class TownRun(Stoppable):
     def table(self):
         """Text of houses.csv."""
         rows = []
-        for lot, run in zip(self.town.lots, self.runs):
+        for lot, run in self.lots:
             summary, scenario = run.summary, run.scenario
             drift, residual = summary.largest_drift()[0], summary.largest_drift("residual_drift")[0]
             place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)

@@ -112,7 +112,8 @@ def _run_all(tasks, scripts, jobs, report):
 def _stop(processes):
     """Interrupt the runs and wait until they have saved their checkpoints."""
     for process in processes:
-        process.terminate()
+        if process.child is not None:
+            process.child.terminate()
     deadline = time.monotonic() + SAVE_TIME
     while any(not process.has_ended() for process in processes) and time.monotonic() < deadline:
         time.sleep(POLL)
@@ -139,10 +140,6 @@ class _Process:
 
     def has_ended(self):
         return self.child is None or self.child.poll() is not None
-
-    def terminate(self):
-        if not self.has_ended():
-            self.child.terminate()
 
     def outcome(self):
         """Record how the run ended; returns one line."""
