@@ -185,15 +185,14 @@ def close_servers():
     YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the
     other one lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
     """
-    handlers = {"PythonConsoleSocketEmulator"} | ({"SimpleXMLRPCRequestHandler"} if "PARAM_TABLE" not in os.environ
-                                                  else set())
-    servers = [o for o in gc.get_objects()
-               if issubclass(type(o), socketserver.BaseServer) and o.RequestHandlerClass.__name__ in handlers]
-    threads = [threading.Thread(target=_close, args=(server,), daemon=True) for server in servers]
-    for server, thread in zip(servers, threads):
-        with suppress(OSError):  # an earlier call closes it
-            server.socket.shutdown(socket.SHUT_RDWR)  # the port is closed at once
-        thread.start()
+    handlers = ["PythonConsoleSocketEmulator"] + ["SimpleXMLRPCRequestHandler"] * ("PARAM_TABLE" not in os.environ)
+    threads = []
+    for server in gc.get_objects():
+        if issubclass(type(server), socketserver.BaseServer) and server.RequestHandlerClass.__name__ in handlers:
+            with suppress(OSError):  # an earlier call closes it
+                server.socket.shutdown(socket.SHUT_RDWR)  # the port is closed at once
+            threads.append(threading.Thread(target=_close, args=(server,), daemon=True))
+            threads[-1].start()
     return threads
 
 

@@ -70,7 +70,7 @@ def single(options):
                  "0", "--quiet", "--no-views"]
         chosen = cli.read_town(given)
         plan = planned(chosen)
-        run = town.TownRun(plan.town, plan.lots, chosen)
+        run = town.TownRun(plan, chosen)
         active = run._first_steps()
         for _ in range(WARM_UP):
             active = run._chunk(active)

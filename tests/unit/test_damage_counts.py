@@ -11,7 +11,7 @@ from yade_timber.motion import GroundMotion, default_motion, onset
 from yade_timber.recording.events import Collapse, ColumnsLost, Tilt
 from yade_timber.recording.summary import Columns
 from yade_timber.run import observer
-from yade_timber.run.progress import Progress
+from yade_timber.run.progress import Bar, Status
 from yade_timber.run.summary import record
 from yade_timber.scene import engines, scenario
 
@@ -56,12 +56,11 @@ def test_lost_columns_are_an_event(house):
 
 def test_events_are_printed_once(house, capsys):
     """A line for each event of the log, unless the run is quiet; events known from a checkpoint are not repeated."""
-    case = scenario.Scenario("case", "A")
     house.log.add(0.5, Tilt("ns"))
-    with Progress(case, house.log) as shown, Progress(case, house.log, quiet=True) as quiet:
+    with Bar("A", 30.0, 0.0, False, Status(house.log)) as shown, Bar("A", 30.0, 0.0, True, Status(house.log)) as quiet:
         house.log.add(1.25, Collapse())
         for progress in (shown, shown, quiet):
-            progress.update()
+            progress.advance(1.25)
     lines = [line for line in capsys.readouterr().err.replace("\r", "\n").splitlines() if " s  " in line]
     assert lines == ["   1.25 s  collapse: a floor has come down by half a storey"]
 

@@ -228,7 +228,7 @@ def test_double_fittings_are_twice_as_strong(tmp_path):
     path = tmp_path / "own.yaml"
     path.write_text("extends: storehouse\nname: own\njoints:\n  column_ends: {strength: 20000}\n")
     double, = measures.candidates(path, 0.0, ("fitting",), ("column_ends",))
-    data = changed_house(path, dict(double.cells)["set"].split(";"))
+    data = changed_house(path, double.changes["set"].split(";"))
     assert data["joints"]["column_ends"]["strength"] == 40000 and data["joints"]["column_ends"]["number"] == 4
 
 
@@ -349,7 +349,7 @@ def test_a_failed_house_ends_the_ranking(tmp_path, monkeypatch):
 
 def test_bad_measures_are_found_before_the_first_run(tmp_path):
     """A measure that cannot be built is refused with its place, without a run."""
-    wrong = measures.Candidate("wrong", "wrong", (("braces", "main.brace1.EW.y0.3-40"),))
+    wrong = measures.Candidate("wrong", "wrong", {"braces": "main.brace1.EW.y0.3-40"})
     race_of = rounds.Ranking(tmp_path, [wrong], motions.seeds(10), {"house": "B", "snow": "0"}, ROOT / "scripts")
     with pytest.raises(RunError, match="table.csv:12"):
         race_of.check()

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The run scripts: `main`, `main_house` and `main_town` turn the command line into a run in this process, or into an
-ensemble of processes of the same script."""
+ensemble of processes of the same script.
+
+With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
+background, and the user has the prompt. Most modules are imported inside `_launch`, so that Ctrl-C during their import
+ends in a line, too.
+"""
 import signal
 import sys
 from pathlib import Path
 
-from ..run.launch import launch, leave
+from ..base.encoding import print_anything
+from ..base.interrupt import deferred_interrupt
+from ..host import has_prompt
 
 
 def main(house, earthquake=False, snow=False, argv=None):
@@ -27,39 +34,72 @@ def main_town(argv=None):
 
 
 def _launch(read, argv):
-    script = Path((sys.argv if argv is None else argv)[0])
-    return launch(
-        lambda cli, arguments: _planned(script, read(cli, arguments)),
-        lambda scenario, options: _ensemble(script, scenario, options),
-        argv,
-    )
+    """Run what `read(cli, argv)`, RunOptions, asks for; returns the Run or TownRun, of an ensemble the RunResult of the
+    run that it shows.
+
+    Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the
+    signal's number.
+    """
+    print_anything()
+    try:
+        with deferred_interrupt():
+            from ..base.errors import InputError
+            from ..run import cli, session
+            from ..run.plan import planned
+            from ..run.runner import Interrupted
+    except KeyboardInterrupt:
+        _leave("stopped by SIGINT before the run", 128 + signal.SIGINT)
+    argv, options = sys.argv if argv is None else argv, None
+    try:
+        with deferred_interrupt():
+            options = read(cli, argv)
+            scenario = planned(options)
+        return _run(session, Path(argv[0]), scenario, options)
+    except InputError as problem:
+        _leave(f"error: {problem}", 1)
+    except Interrupted as stop:
+        remedy = "continue with --resume" if options.checkpoint > 0 else "nothing was saved (--checkpoint 0)"
+        _leave(f"stopped by {signal.Signals(stop.number).name} at {stop.time:.2f} s; {remedy}", 128 + stop.number)
+    except KeyboardInterrupt:  # before the first step, or while results and pictures are written
+        remedy = (f"; the same command makes the results, scripts/show/show_run.py the pictures in {options.folder}"
+                  if options else "")
+        _leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 
-def _planned(script, options):
-    """(Scenario or TownPlan, options); with a report, after a run with walls of the other level. Raises InputError."""
-    from ..run.plan import planned
-    from ..study import other_walls
+def _run(session, script, scenario, options):
+    """Run to the end, or start a live run. Raises InputError, Interrupted."""
+    try:
+        if options.ensemble is not None:
+            return _ensemble(session, script, scenario, options)
+        if options.report:
+            from ..study import other_walls
 
-    scenario = planned(options)
-    if options.report and options.ensemble is None:
-        try:
             scenario.other_walls = other_walls.run(script, options)
-        except KeyboardInterrupt:
-            leave("stopped; the same command continues", 128 + signal.SIGINT)
-    return scenario, options
+    except KeyboardInterrupt:
+        _leave("stopped; the same command continues", 128 + signal.SIGINT)
+    if options.town or not has_prompt():
+        return session.complete(scenario, options)
+    started = session.start(scenario, options)
+    print(f"{started}: O.pause(), O.run(), yt.energy(), yt.contacts(id1, id2), run.write(); results are written to"
+          f" {options.folder} at the end")
+    return started
 
 
-def _ensemble(script, scenario, options):
+def _ensemble(session, script, scenario, options):
     """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
-    from ..run import runner, session
+    from ..run import runner
     from ..study import ensemble
     from .result import RunResult
 
     scenario.build_model()  # a fault of the house is reported once
-    try:
-        with session.reserved(options):
-            runner.clear(options, *runner.RECORDED, *runner.STATE)
-            ensemble.complete(script, options)
-    except KeyboardInterrupt:
-        leave("stopped; the same command continues", 128 + signal.SIGINT)
+    with session.reserved(options):
+        runner.clear(options, *runner.RECORDED, *runner.STATE)
+        ensemble.complete(script, options)
     return RunResult(options.folder)
+
+
+def _leave(line, status):
+    """End the process: one line on standard error and an exit status. Ctrl-C has no effect any more."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    print(" ".join(line.split()), file=sys.stderr, flush=True)
+    sys.exit(status)

@@ -45,6 +45,13 @@ def encode(value):
     return entries
 
 
+def leaves(table, path=""):
+    """(path, value) of the entries of nested tables that are no tables: ('energy.dissipated.friction', 98605.2)."""
+    for key, value in table.items():
+        place = f"{path}.{key}".lstrip(".")
+        yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
+
+
 def decode(kind, value, path="content"):
     """Value of a type from JSON. path: its place in messages. Raises ValueError for a missing or wrong entry."""
     if hasattr(kind, "decoded"):

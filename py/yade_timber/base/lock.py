@@ -3,7 +3,7 @@
 import fcntl
 import os
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from .atomic_write import make_folder
 from .errors import os_errors
@@ -27,18 +27,14 @@ def locked(folder):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
     _descriptors.add(descriptor)
     try:
-        yield _acquired(descriptor)
+        free = False
+        with suppress(BlockingIOError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            free = True
+        yield free
     finally:
         _descriptors.discard(descriptor)
         os.close(descriptor)
-
-
-def _acquired(descriptor):
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def _close_in_copy():

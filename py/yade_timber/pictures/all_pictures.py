@@ -28,6 +28,16 @@ def write(folder, results=None, pdf=False):
     return sorted(written, key=lambda path: NAMES.index(path.name))
 
 
+def draw(folder, views, page):
+    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
+    written = write(folder) if views else []
+    if page:
+        from . import report  # here: matplotlib takes 0.3 s
+
+        written += report.write(folder)
+    return written
+
+
 def _sheets(folder, recorded, path, endings):
     """Draw by OpenGL and write the player, in a copy of the process if possible; yields paths. path: of the frames"""
     from . import figures, player, sheets, views

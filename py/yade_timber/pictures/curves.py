@@ -131,7 +131,7 @@ def draw_energy(axis, history):
     dissipated = [term for term in DISSIPATED
                   if f"{term.name} [J]" in history.columns and history.energy(term.name).any()]
     parts = [history.energy(term.name) for term in dissipated]
-    parts += [sum(history.energy(term.name) for term in ELASTIC), history.energy("kinetic")]
+    parts += [sum(map(history.energy, ELASTIC)), history.energy("kinetic")]
     names = [*(term.label for term in dissipated), "elastic", "kinetic"]
     fills = [*(term.color for term in dissipated), colors.GREEN, colors.YELLOW]
     axis.stackplot(history.time, [part / 1e3 for part in parts], labels=names, colors=fills, lw=0)

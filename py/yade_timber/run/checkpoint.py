@@ -55,7 +55,9 @@ def load(path, identity):
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     _require_same(path, seal["identity"], identity)
-    _require_classes(path, body)
+    foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", body)} - CLASSES)
+    if foreign:
+        raise RunError(f"{path}: holds {foreign[0][:40]}, which no run of this package saves; {REMEDY}")
     try:
         _load(body)
     except Exception as problem:  # of Boost: written by other classes than those loaded now
@@ -72,17 +74,9 @@ def _load(content):
         O.load(f"/proc/self/fd/{descriptor}", quiet=True)
 
 
-def _require_classes(path, content):
-    """Raise RunError for a scene that names classes which no run writes."""
-    foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", content)} - CLASSES)
-    if foreign:
-        raise RunError(f"{path}: holds {foreign[0][:40]}, which no run of this package saves; {REMEDY}")
-
-
 def _require_same(path, saved, wanted):
     for key in sorted(saved.keys() | wanted.keys()):
         there, here = saved.get(key), wanted.get(key)
         if there != here:
-            difference = f"{key} is {there} there and {here} here"
-            raise RunError(f"{path}: checkpoint of another run: {difference}; use the same options, another --out, or"
-                           " no --resume")
+            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same"
+                           " options, another --out, or no --resume")

@@ -54,23 +54,18 @@ def read(house, earthquake, snow, argv):
     """RunOptions of a script that gives house and loads. argv: as sys.argv. Raises RunError, RecordError."""
     script = Path(argv[0]).stem
     loads = f"House {house}: {english.loads(earthquake, SNOW_DEPTH if snow else 0)}. "
-    return _checked(scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)))
+    return scripted(script, house, earthquake, snow, **parser(script, loads=loads).parse(argv)).check()
 
 
 def read_house(argv):
     """RunOptions of scripts/house.py, which runs any house. Raises RunError, RecordError."""
-    return _checked(RunOptions(**parser("house", "house").parse(argv)))
+    return RunOptions(**parser("house", "house").parse(argv)).check()
 
 
 def read_town(argv):
     """RunOptions of scripts/town.py, which runs a town. Raises RunError, RecordError."""
-    request = _checked(RunOptions(**parser("town", "town").parse(argv)))
+    request = RunOptions(**parser("town", "town").parse(argv)).check()
     for name in ("export", "ensemble", "disturb", "report"):
         if getattr(request, name):
             raise RunError(f"{command_option(name)}: not for towns; run a house with scripts/house.py")
-    return request
-
-
-def _checked(request):
-    request.check()
     return request

@@ -44,8 +44,7 @@ def _input_files(options):
     """Town file, house file with those that it extends, and records."""
     records = [options.record] if options.record else []
     records += [record for record, _ in following(options.then, "then")] if options.then else []
-    town = [options.town] if options.town else []
-    return [*town, *house_files(house_path(options.house)),
+    return [*filter(None, [options.town]), *house_files(house_path(options.house)),
             *(file for record in records for file in find_files(record))]
 
 

@@ -63,7 +63,7 @@ class LiveRun(Run):
     def tell(self, time):
         """Print new events, and show time [s], drift and broken joints below the prompt."""
         for line in self._status.events():
-            self.report(line)
+            self.options.say(line)
         if not self.options.quiet:
             show_below(f"{self.scenario.name} {time:.2f}/{self.scenario.duration:.2f} s, {self._status.numbers()}")
 

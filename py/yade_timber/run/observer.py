@@ -146,7 +146,7 @@ class Observer:
         self.shaking = own_weight.start_of_shaking(describe_motion())
 
     def progress(self):
-        """What a checkpoint must hold besides the scene: the argument `known`."""
+        """What a checkpoint must hold besides the scene: the argument `progress`."""
         return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright}
 
     @property

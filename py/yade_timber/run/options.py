@@ -120,8 +120,13 @@ class RunOptions(MotionRequest):
         """An option as the user knows it: --joint-damping, run: joint_damping, table.txt:3, column joint_damping."""
         return self.door.name(name)
 
+    def say(self, text):
+        """Print a line, unless the run is quiet."""
+        if not self.quiet:
+            print(text, flush=True)
+
     def check(self):
-        """Raise RunError for values out of range and contradictions."""
+        """Return these options. Raises RunError for values out of range and contradictions."""
         super().check(self.named)
         if not self.shaken:
             for name in self.given():
@@ -133,6 +138,7 @@ class RunOptions(MotionRequest):
             raise RunError(f"{self.named('jobs')} {self.jobs}: belongs to an ensemble; give {self.named('ensemble')} N")
         for name in filter(lambda each: self.ensemble is not None and is_given(self, each), ALONE):
             raise RunError(f"{self.named('ensemble')} and {self.named(name)} exclude each other: {ALONE[name]}")
+        return self
 
     def decisive(self):
         """{option: value} of those that decide the results and differ from their defaults, as JSON returns them."""

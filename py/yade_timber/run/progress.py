@@ -13,7 +13,6 @@ from ..text import english
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 """Shortest wall time between two states of the bar, on a terminal and in a log file. [s]"""
-O = yw.Omega()
 tqdm.monitor_interval = 0  # no thread that refreshes bars: a process with one thread can be copied (pictures/copies.py)
 
 
@@ -39,11 +38,12 @@ class Status:
 
 
 class Bar:
-    """A bar on standard error, a context. total: simulated time [s]; quiet: print nothing"""
+    """A bar on standard error, a context. total: simulated time [s]; quiet: print nothing; status: of a run, or None"""
 
-    def __init__(self, name, total, start, quiet):
+    def __init__(self, name, total, start, quiet, status=None):
         refresh = TERMINAL_REFRESH if sys.stderr.isatty() else LOG_REFRESH
         self.bar = tqdm(total=total, initial=start, desc=name, bar_format=BAR, mininterval=refresh, disable=quiet)
+        self.status = status
 
     def __enter__(self):
         return self
@@ -52,22 +52,9 @@ class Bar:
         self.bar.close()
 
     def advance(self, time):
-        """To a simulated time [s]."""
+        """To a simulated time [s]; new events are printed above the bar."""
+        if self.status and not self.bar.disable:
+            for line in self.status.events():
+                self.bar.write(line, file=sys.stderr)
+            self.bar.set_postfix_str(self.status.numbers(), refresh=False)
         self.bar.update(min(time, self.bar.total) - self.bar.n)
-
-
-class Progress(Bar):
-    """Bar and events of one run. log: EventLog"""
-
-    def __init__(self, scenario, log, quiet=False):
-        super().__init__(scenario.name, scenario.duration, O.time, quiet)
-        self.status = Status(log)
-
-    def update(self):
-        """Print new events and refresh the bar."""
-        if self.bar.disable:
-            return
-        for line in self.status.events():
-            self.bar.write(line, file=sys.stderr)
-        self.bar.set_postfix_str(self.status.numbers(), refresh=False)
-        self.advance(O.time)

@@ -102,10 +102,9 @@ def column_feet(observed):
         if joint.end == "bottom" and model.element(joint.a).kind == "column":
             feet[joint.a] = np.maximum(feet.get(joint.a, 0.0), (opening, pull, load))
     survey = observed.survey
-    columns = model.of_kind("column")
-    states = zip(columns, survey.fallen_columns(state), survey.loose_columns(state))
     rows = []
-    for element, fallen, loose in states:
+    for element, fallen, loose in zip(model.of_kind("column"), survey.fallen_columns(state),
+                                      survey.loose_columns(state)):
         uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
         x, y, _ = map(float, element.solid.centroid)
         rows.append((element.name, element.group, element.storey, x, y, uplift, pull, load,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run: scene -> steps -> results. Command line: cli.py, launch.py; run in a live session: live.py."""
+"""A run: scene -> steps -> results. Command line: cli.py; run in a live session: live.py."""
 import math
 import signal
 import time
@@ -19,7 +19,7 @@ from ..text.english import loads, sentence
 from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
-from .progress import Progress
+from .progress import Bar, Status
 from .recorder import Recorder
 from .samples import Samples
 
@@ -41,15 +41,19 @@ class PhysicsError(RunError):
     """The numbers of the scene are not those of a physical motion any more."""
 
 
+@contextmanager
+def physics_errors():
+    """Context in which an error of YADE's engines becomes a PhysicsError."""
+    try:
+        yield
+    except RuntimeError as problem:
+        raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
+
+
 class Stoppable:
     """Base of what a signal ends after the present chunk. options: RunOptions; signal: number of the signal, or None"""
 
     signal = None
-
-    def report(self, text):
-        """Print a line, unless the run is quiet."""
-        if not self.options.quiet:
-            print(text, flush=True)
 
     @contextmanager
     def _stop_signals(self):
@@ -102,7 +106,7 @@ class Run(Stoppable):
         if self.recorder:
             self.recorder.take(O.time)
         if self.options.resume:
-            self.report(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
+            self.options.say(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
     def _resume(self):
         """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
@@ -114,7 +118,7 @@ class Run(Stoppable):
             self.wall_s, self.last_saved = 0.0, 0
             return False
         clear(self.options, *([] if self.recorder else RECORDED))
-        self.report(f"resuming from {O.time:.2f} s")
+        self.options.say(f"resuming from {O.time:.2f} s")
         return True
 
     def _load(self):
@@ -137,7 +141,7 @@ class Run(Stoppable):
         run, folder = of_values(self.identity), self.options.folder
         self.samples = Samples(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
-        self.report(titled)
+        self.options.say(titled)
         self.recorder = (None if self.options.no_frames
                          else Recorder(self.frames_path, self.scenario, self.model, titled, run))
 
@@ -147,19 +151,17 @@ class Run(Stoppable):
         """All steps, then the results, also of a run that is cut off. Raises RunError, Interrupted after a signal."""
         try:
             if not self.only_export:
-                with self._stop_signals(), Progress(self.scenario, self.observer.log, self.options.quiet) as progress:
+                bar = Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet,
+                          Status(self.observer.log))
+                with self._stop_signals(), bar:
                     while O.iter < self.steps:
-                        self._chunk()
-                        progress.update()
+                        self.advance(self.next_stop())
+                        self.after_chunk()
+                        bar.advance(O.time)
         except PhysicsError as problem:
             self.write(cut_off=str(problem))
             raise
         self.write()
-
-    def _chunk(self):
-        """The steps to the next frame, and a checkpoint when it is due."""
-        self.advance(self.next_stop())
-        self.after_chunk()
 
     def next_stop(self):
         """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
@@ -171,7 +173,8 @@ class Run(Stoppable):
     def after_chunk(self):
         """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises
         PhysicsError, and Interrupted after a signal."""
-        self.check()
+        with physics_errors():
+            find_engine(yw.HealthCheck).check()
         if self.collapse_ends_it():
             self.steps = O.iter
         if O.iter == self.steps:
@@ -187,13 +190,6 @@ class Run(Stoppable):
         """Whether the run ends now because its house has collapsed."""
         return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
 
-    def check(self):
-        """Raises PhysicsError for bodies that have left the physical range."""
-        try:
-            find_engine(yw.HealthCheck).check()
-        except RuntimeError as problem:
-            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
-
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
         self.observer.observe(time)
@@ -203,11 +199,9 @@ class Run(Stoppable):
     def advance(self, step):
         """Advance to that step by `O.step`: unlike `O.run` it raises errors here and does not wait in slices."""
         since = time.perf_counter()
-        try:
+        with physics_errors():
             while O.iter < step:
                 O.step()
-        except RuntimeError as problem:
-            raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
         self.wall_s += time.perf_counter() - since
 
     def _checkpoint_due(self):
@@ -237,7 +231,7 @@ class Run(Stoppable):
     def write(self, cut_off=None):
         """Write results and pictures; print their names. cut_off: reason for an early end. Or PhysicsError."""
         if self.only_export:
-            self.report(f"written: {self.options.export}")
+            self.options.say(f"written: {self.options.export}")
             return
         if cut_off is None:
             self.take(O.time, last=True)
@@ -247,12 +241,13 @@ class Run(Stoppable):
         written = self._results(tables)
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
-            written += draw(self.options.folder, self.options.views, self.options.report)
+            written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
-        self.report(sentence(self.summary))
-        self.report("written: " + ", ".join(str(path) for path in written))
+        self.options.say(sentence(self.summary))
+        self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
-            self.report(f"next: {command_for_pictures(self.options)}")
+            show = f"xdg-open {quote(str(self.options.folder / all_pictures.PLAYER))}"
+            self.options.say(f"next: {show if self.options.views else self.options.door.pictures(self.options.folder)}")
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
@@ -269,22 +264,6 @@ def unwritten(options):
     """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
-
-
-def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
-    written = all_pictures.write(folder) if views else []
-    if page:
-        from ..pictures import report  # here: matplotlib takes 0.3 s
-
-        written += report.write(folder)
-    return written
-
-
-def command_for_pictures(options):
-    """Command that shows a recorded run."""
-    page = options.folder / all_pictures.PLAYER
-    return f"xdg-open {quote(str(page))}" if options.views else options.door.pictures(options.folder)
 
 
 def clear(options, *more):

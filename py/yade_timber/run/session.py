@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run in this session: computed to its end, or live in the background; one process for each folder."""
-import os
 from contextlib import ExitStack, contextmanager
 
 import yade.runtime
@@ -10,26 +9,19 @@ from ..base.atomic_write import remove_parts
 from ..base.errors import RunError
 from ..base.interrupt import deferred_interrupt
 from ..base.lock import locked, prepare_folder
-from ..plugin import compiled
 from .live import LiveRun
+from .plan import TownPlan
 from .runner import Run
 from .town import TownRun
 
+O = yw.Omega()
+
 
 def complete(scenario, options):
-    """Run a scenario to its end and write its results; returns the Run. Raises InputError, runner.Interrupted."""
-    with ExitStack() as stack:
-        run = _built(Run, scenario, options, stack)
-        run.complete()
-    return run
-
-
-def complete_town(plan, options):
-    """Run a town to its end, on all processors or YADE's -j; returns the TownRun. Raises InputError, Interrupted."""
-    if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
-        compiled.set_thread_count(len(os.sched_getaffinity(0)))
-    with ExitStack() as stack:
-        run = _built(lambda *_: TownRun(plan.town, plan.lots, options), plan, options, stack)
+    """Run a Scenario or a TownPlan to its end and write its results; returns the Run or TownRun. Raises InputError,
+    runner.Interrupted."""
+    with reserved(options):
+        run = _built(TownRun if isinstance(scenario, TownPlan) else Run, scenario, options)
         run.complete()
     return run
 
@@ -37,17 +29,17 @@ def complete_town(plan, options):
 def start(scenario, options):
     """Start a scenario in the background; returns the LiveRun. Raises InputError."""
     with ExitStack() as stack:
-        run = _built(LiveRun, scenario, options, stack)
+        stack.enter_context(reserved(options))
+        run = _built(LiveRun, scenario, options)
         run.start(stack.pop_all())
     return run
 
 
-def _built(kind, scenario, options, stack):
-    """A Run, LiveRun or TownRun with its scenes in YADE. stack: ExitStack that gets the lock of the folder."""
-    if yw.Omega().running and not yade.runtime.opts.exitAfter:  # a live run: the new one takes its place
-        yw.Omega().pause()
-        yw.Omega().wait()
-    stack.enter_context(reserved(options))
+def _built(kind, scenario, options):
+    """A Run, LiveRun or TownRun with its scenes in YADE. A live run ends: the new one takes its place."""
+    if O.running and not yade.runtime.opts.exitAfter:
+        O.pause()
+        O.wait()
     with deferred_interrupt():
         return kind(scenario, options)
 

@@ -81,20 +81,19 @@ def record(scenario):
     motion = scenario.motion
     if motion is None:
         return None
-    pga = {axis: round(scenario.scale * value, 6) for axis, value in motion.pga_gal.items()}
+    scale = scenario.scale
+    parts = [PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
+                          scale=scale * part.scale, pga_gal=_scaled(part.pga_gal, scale)) for part in motion.parts]
     error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
-    begin = onset(motion)  # None: no shaking
-    return Record(source=motion.source or motion.name, pga_gal=pga, scale=scenario.scale, dt=motion.dt,
-                  interpolation_error=round(error, 6), onset_s=None if begin is None else begin + scenario.delay,
-                  note=constant_note(motion, scenario.scale) or None,
-                  sequence=[part_of_record(part, scenario.scale) for part in motion.parts] or None)
+    begin = onset(motion)
+    begin = None if begin is None else begin + scenario.delay  # None: no shaking
+    return Record(source=motion.source or motion.name, pga_gal=_scaled(motion.pga_gal, scale), scale=scale,
+                  dt=motion.dt, interpolation_error=round(error, 6), onset_s=begin,
+                  note=constant_note(motion, scale) or None, sequence=parts or None)
 
 
-def part_of_record(part, scale):
-    """An entry of `record.sequence`. part: motion.sequence.Part; scale: of the whole sequence [-]."""
-    pga = {axis: round(scale * value, 6) for axis, value in part.pga_gal.items()}
-    return PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
-                        scale=scale * part.scale, pga_gal=pga)
+def _scaled(accelerations, scale):
+    return {axis: round(scale * value, 6) for axis, value in accelerations.items()}
 
 
 def recorded_history(monitor):
@@ -120,7 +119,7 @@ def energy_balance(terms):
     terms = {"ground_motion": 0.0, IMPOSED: 0.0, **{term.name: 0.0 for term in DISSIPATED}, **terms}
     supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
     residual = queries.energy_residual(terms)
-    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[term.name] for term in ELASTIC),
+    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[name] for name in ELASTIC),
                      dissipated={term.name: terms[term.name] for term in DISSIPATED},
                      created=find_engine(yw.ContactForces).created, residual=residual,
                      residual_fraction=abs(residual) / supplied if supplied > 0 else None,

@@ -4,9 +4,11 @@
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
 stay in the processor's cache: time and memory per element do not depend on the number of houses.
 """
+import os
 import time
 from contextlib import contextmanager
 
+import yade.runtime
 import yade.wrapper as yw
 
 from ..base.atomic_write import remove, remove_parts, write_text
@@ -29,25 +31,28 @@ O = yw.Omega()
 
 
 class TownRun(Stoppable):
-    """Runs of a town's lots in step, frame by frame. plans: (Scenario, RunOptions) of each lot; options: the town's"""
+    """Runs of a town's lots in step, frame by frame, on all processors or YADE's -j. plan: TownPlan; options: its"""
 
-    def __init__(self, town, plans, options):
-        self.town, self.options = town, options
+    def __init__(self, plan, options):
+        if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
+            compiled.set_thread_count(len(os.sched_getaffinity(0)))
+        self.town, self.options = plan.town, options
         self.wall_s = 0.0  # [s] of all steps since the start of this process
         self.runs, self.scenes = [], []
-        for lot, (scenario, lot_options) in zip(town.lots, plans):
+        for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
             with named(lot):
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
-        check_places([(lot, run.model) for lot, run in zip(town.lots, self.runs)])
+        self.lots = list(zip(self.town.lots, self.runs))
+        check_places([(lot, run.model) for lot, run in self.lots])
         O.reset()
         self.idle = O._sceneObj
         with removing(options):
             for name in NAMES:
                 remove(options.folder / name)
-            for _, lot_options in plans:
-                remove_parts(lot_options.folder)
+            for run in self.runs:
+                remove_parts(run.options.folder)
 
     @contextmanager
     def _of(self, number):
@@ -101,15 +106,11 @@ class TownRun(Stoppable):
                 if O.iter < run.steps:
                     left.append(number)
         if self.signal:
-            self._stop(left)
+            for number in left:
+                with self._of(number) as run:
+                    run.save()
+            raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
         return left
-
-    def _stop(self, active):
-        """Save the lots that have more steps and end the run."""
-        for number in active:
-            with self._of(number) as run:
-                run.save()
-        raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
 
     # --- results ------------------------------------------------------------------------------------------------------
 
@@ -118,12 +119,11 @@ class TownRun(Stoppable):
         for number in range(len(self.runs)):
             with self._of(number) as run:
                 run.write()
-        for lot, run in zip(self.town.lots, self.runs):
-            self.report(f"{lot.name}: {sentence(run.summary)}")
+        for lot, run in self.lots:
+            self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.report(sentence(recording.summary(self.town.name,
-                                               {lot.name: run.summary for lot, run in zip(self.town.lots, self.runs)})))
-        self.report("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
+        self.options.say(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in self.lots})))
+        self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
 
     def _results(self):
         folder = self.options.folder
@@ -132,8 +132,7 @@ class TownRun(Stoppable):
             write_text(written[0], self.table())
             if self.options.no_frames:
                 return written
-            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames)
-                        for lot, run in zip(self.town.lots, self.runs)]
+            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in self.lots]
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.town.name, recorded))
             return written + (all_pictures.write(folder) if self.options.views else [])
@@ -141,7 +140,7 @@ class TownRun(Stoppable):
     def table(self):
         """Text of houses.csv."""
         rows = []
-        for lot, run in zip(self.town.lots, self.runs):
+        for lot, run in self.lots:
             summary, scenario = run.summary, run.scenario
             drift, residual = summary.largest_drift()[0], summary.largest_drift("residual_drift")[0]
             place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)

@@ -55,9 +55,7 @@ def flag(name, value):
 
 def text(name, value):
     """A string."""
-    if not isinstance(value, str):
-        refuse(TypeError, name, value, "a string")
-    return value
+    return instance(name, value, str, "a string")
 
 
 def instance(name, value, kinds, form):

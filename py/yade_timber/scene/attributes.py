@@ -9,7 +9,7 @@ class's own value is not.
 import difflib
 import math
 import re
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import yade.wrapper as yw
@@ -45,12 +45,9 @@ _update_attributes = yw.Serializable.updateAttrs
 def guard(classes):
     """Install the rules of this module on classes of yade.wrapper."""
     _guarded.update(classes)
-    for cls in classes:
-        cls.__init__ = _initialiser(cls.__init__)
-        cls.__setattr__ = _set_attribute
-    for cls in FINITE:
-        cls.__init__ = _initialiser(cls.__init__)
-        cls.__setattr__ = _set_finite
+    for some, set_attribute in ((classes, _set_attribute), (FINITE, _set_finite)):
+        for cls in some:
+            cls.__init__, cls.__setattr__ = _initialiser(cls.__init__), set_attribute
     yw.Serializable.updateAttrs = _update
 
 
@@ -61,10 +58,7 @@ def _set_attribute(self, name, value):
         if cls.__module__ != yw.__name__ or name.startswith("__"):  # a Python subclass has attributes of its own
             return object.__setattr__(self, name, value)
         raise AttributeError(_unknown(cls, name))
-    if attribute.fset is None:
-        raise AttributeError(f"{cls.__name__}.{name} is read-only")
-    if name in GEOMETRY and isinstance(self, yw.RoundedPolyhedron):
-        _refuse_shape_in_scene(self, name)
+    _require_settable(self, name)
     with _restored(self):
         _assign(self, attribute, name, value)
         _require_finite(cls, {name: value})  # after the class's own check, which names its range
@@ -92,10 +86,14 @@ def _is_finite(value):
             or all(_is_finite(value[k]) for k in range(len(value))))
 
 
-def _refuse_shape_in_scene(shape, name):
-    """Boxes, contacts and mass of a body in the scene would remain those of the old geometry."""
-    for body in yw.Omega().bodies:
-        if body.shape == shape:
+def _require_settable(self, name):
+    """Raise an error for a read-only attribute, and for a shape in the scene: boxes, contacts and mass of its body
+    would remain those of the old geometry."""
+    attribute = getattr(type(self), name, None)
+    if isinstance(attribute, property) and attribute.fset is None:
+        raise AttributeError(f"{type(self).__name__}.{name} is read-only")
+    for body in yw.Omega().bodies if name in GEOMETRY and isinstance(self, yw.RoundedPolyhedron) else ():
+        if body.shape == self:
             raise ValueError(f"RoundedPolyhedron.{name}: the shape of body {body.id} in the scene; assign another shape"
                              " to the body")
 
@@ -119,10 +117,7 @@ def _update(self, attributes):
     if not isinstance(self, tuple(_guarded)):
         return _update_of_yade(self, attributes)
     for name in attributes:
-        if isinstance(getattr(cls, name, None), property) and getattr(cls, name).fset is None:
-            raise AttributeError(f"{cls.__name__}.{name} is read-only")
-        if name in GEOMETRY and isinstance(self, yw.RoundedPolyhedron):
-            _refuse_shape_in_scene(self, name)
+        _require_settable(self, name)
     with _restored(self), _named_errors(cls, attributes):
         _update_attributes(self, attributes)
         _require_finite(cls, attributes)
@@ -138,23 +133,17 @@ def _update_of_yade(self, attributes):
         setattr(self, name, value)
 
 
-class _restored:
+@contextmanager
+def _restored(target):
     """Context between two steps: an exception leaves the object's attributes as they were."""
-
-    def __init__(self, target):
-        self.target, self.pause = target, between_steps()
-
-    def __enter__(self):
-        self.pause.__enter__()
-        self.before = self.target.dict()
-
-    def __exit__(self, kind, error, trace):
-        if error is not None:
-            try:
-                _update_attributes(self.target, self.before)
-            except ValueError:  # the object was not complete before, either; its attributes are set all the same
-                pass
-        return self.pause.__exit__(kind, error, trace)
+    with between_steps():
+        before = target.dict()
+        try:
+            yield
+        except BaseException:
+            with suppress(ValueError):  # not complete before, either; its attributes are set all the same
+                _update_attributes(target, before)
+            raise
 
 
 def _initialiser(construct):
@@ -185,19 +174,18 @@ def _check_keyword(cls, name, value):
     if not isinstance(attribute, property):
         raise AttributeError(_unknown(cls, name)) from None
     try:
-        _update_attributes(cls(), {name: value})
+        with suppress(ValueError):  # of the right type
+            _update_attributes(cls(), {name: value})
     except CONVERSION_ERRORS:
         raise TypeError(_wrong_type(cls, attribute, name, value)) from None
-    except ValueError:  # of the right type
-        pass
 
 
 def _unknown(cls, name):
     """Message about a name that a class does not have."""
     attributes = [k for k in dir(cls) if isinstance(getattr(cls, k, None), property) and not k.startswith("_")]
     near = difflib.get_close_matches(name, attributes, 1, 0.5)
-    return f"{cls.__name__} has no attribute {name}" + (f"; did you mean {near[0]}?" if near
-                                                        else f"; it has {', '.join(attributes)}")
+    remedy = f"did you mean {near[0]}?" if near else f"it has {', '.join(attributes)}"
+    return f"{cls.__name__} has no attribute {name}; {remedy}"
 
 
 def _wrong_type(cls, attribute, name, value):

@@ -14,11 +14,6 @@ from yade.minieigenHP import Vector3
 
 from ..plugin import compiled
 
-BODY_METHODS = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase", "insertAtId", "replace",
-                "clear", "deleteClumpBody", "deleteClumpMember")
-INTERACTION_METHODS = ("erase", "eraseNonReal", "clear")
-SCENE_METHODS = ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load", "loadTmp",
-                 "switchScene", "switchToScene")
 BODY_PARTS = ("shape", "material", "state")
 O = yw.Omega()
 
@@ -44,67 +39,64 @@ def _computes_steps():
     return isinstance(threading.current_thread(), threading._DummyThread)
 
 
+def _finish_step():
+    """Wait for the end of the present step, unless this thread computes it."""
+    if not _computes_steps():
+        compiled.finish_step()
+
+
+@contextmanager
+def _after_step():
+    """Context for methods that replace the scene: the step is done; a run in the background ends."""
+    _finish_step()
+    yield
+
+
+@contextmanager
+def _until_step():
+    """Context in which `O.wait` also waits for the last step after `O.pause()`."""
+    yield
+    _finish_step()
+
+
+@contextmanager
+def _until_started():
+    """Context in which `O.run` returns when the first step is done: YADE must not end a run whose thread has not
+    started."""
+    before = O.iter
+    yield
+    if not _computes_steps():
+        compiled.await_step(before)
+
+
+METHODS = (
+    (yw.BodyContainer, between_steps, ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase",
+                                       "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember")),
+    (yw.InteractionContainer, between_steps, ("erase", "eraseNonReal", "clear")),
+    (yw.Omega, _after_step, ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load",
+                             "loadTmp", "switchScene", "switchToScene")),
+    (yw.Omega, _until_step, ("wait",)),
+    (yw.Omega, _until_started, ("run",)),
+)
+"""Class, context, methods that are called within it; which there are depends on YADE's version."""
+
+
 def guard():
     """Install the rules of this module on YADE's containers and bodies."""
-    for container, methods in ((yw.BodyContainer, BODY_METHODS), (yw.InteractionContainer, INTERACTION_METHODS)):
-        for name in methods:
-            if hasattr(container, name):  # it depends on YADE's version
-                setattr(container, name, _deferred(getattr(container, name)))
-    for name in SCENE_METHODS:
-        if hasattr(yw.Omega, name):
-            setattr(yw.Omega, name, _after_step(getattr(yw.Omega, name)))
-    yw.Omega.wait = _until_step(yw.Omega.wait)
-    yw.Omega.run = _until_started(yw.Omega.run)
+    for cls, context, names in METHODS:
+        for name in filter(lambda name: hasattr(cls, name), names):
+            setattr(cls, name, _within(context, getattr(cls, name)))
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
     yw.State.angVel = _with_momentum(yw.State.angVel)
 
 
-def _deferred(method):
-    """A container's method, called between two steps."""
-
+def _within(context, method):
     def call(self, *args, **options):
-        with between_steps():
+        with context():
             return method(self, *args, **options)
 
     call.__name__, call.__doc__ = method.__name__, method.__doc__
-    return call
-
-
-def _after_step(method):
-    """A method of Omega that replaces the scene, called when the step is done; a run in the background ends."""
-
-    def call(self, *args, **options):
-        if not _computes_steps():
-            compiled.finish_step()
-        return method(self, *args, **options)
-
-    call.__name__, call.__doc__ = method.__name__, method.__doc__
-    return call
-
-
-def _until_step(wait):
-    """`O.wait` that also waits for the last step after `O.pause()`."""
-
-    def call(self):
-        wait(self)
-        if not _computes_steps():
-            compiled.finish_step()
-
-    call.__name__, call.__doc__ = wait.__name__, wait.__doc__
-    return call
-
-
-def _until_started(run):
-    """`O.run` that returns when the first step is done: YADE must not end a run whose thread has not started."""
-
-    def call(self, *args, **options):
-        before = self.iter
-        run(self, *args, **options)
-        if not _computes_steps():
-            compiled.await_step(before)
-
-    call.__name__, call.__doc__ = run.__name__, run.__doc__
     return call
 
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The list of engines of a scene. Needs a running YADE."""
-from dataclasses import dataclass
-
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
@@ -14,40 +12,6 @@ BOUND_MARGIN = 5e-3
 """Distance that bodies may move before the collider runs again [m]; results do not depend on it."""
 _FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().dampingRatio  # with their defaults
 O = yw.Omega()
-
-
-@dataclass(frozen=True)
-class ContactOptions:
-    """Arguments of `engines` that concern contacts."""
-
-    vertex_edge: bool
-    flush_supports: bool
-    increment: bool
-    damping_ratio: float
-    sweeps: int
-    tolerance: float
-
-    def __post_init__(self):
-        for name in ("vertex_edge", "flush_supports", "increment"):
-            arguments.flag(f"engines: {name}", getattr(self, name))
-        arguments.number("engines: damping_ratio", self.damping_ratio)
-        arguments.count("engines: sweeps", self.sweeps)
-        arguments.positive("engines: tolerance", self.tolerance)
-
-    def loop(self):
-        """ContactLoop with the functors of all laws: YADE ends the process for a pair of materials without."""
-        geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=self.vertex_edge,
-                                                                           flushSupports=self.flush_supports)
-        physics = [getattr(yw, ip2)(dampingRatio=self.damping_ratio) for ip2, _, _ in compiled.contact_laws()]
-        laws = [getattr(yw, law2)() for _, _, law2 in compiled.contact_laws()]
-        for law in laws:
-            if hasattr(law, "increment"):
-                law.increment = self.increment
-        return yw.ContactLoop(loop=yw.InteractionLoop([geometry], physics, laws))
-
-    def forces(self):
-        """ContactForces with these options."""
-        return yw.ContactForces(sweeps=self.sweeps, tolerance=self.tolerance)
 
 
 def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vertex_edge=False, flush_supports=True,
@@ -89,17 +53,38 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     -------
     list of Engine
     """
-    contacts = ContactOptions(vertex_edge, flush_supports, increment, damping_ratio, sweeps, tolerance)
+    for name, value in (("vertex_edge", vertex_edge), ("flush_supports", flush_supports), ("increment", increment)):
+        arguments.flag(f"engines: {name}", value)
+    arguments.number("engines: damping_ratio", damping_ratio)
+    arguments.count("engines: sweeps", sweeps)
+    arguments.positive("engines: tolerance", tolerance)
     chain = [yw.HealthCheck(every=health_check)] if arguments.count("engines: health_check", health_check) else []
     # verletDist = 0: the margin of the boxes and CollisionTrigger replace it, without NewtonIntegrator
     collider = yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0)
-    chain += [yw.ForceResetter(), yw.CollisionTrigger(collider=collider), contacts.loop()]
-    chain += external_forces(gravity, ground_motion, joints)
-    chain += [contacts.forces(), yw.SymplecticIntegrator()]
-    chain += monitors(monitor)
+    chain += [yw.ForceResetter(), yw.CollisionTrigger(collider=collider),
+              contact_loop(vertex_edge, flush_supports, increment, damping_ratio)]
+    gravity = arguments.vector("engines: gravity", gravity, "m/s2")
+    joints = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
+    if ground_motion is not None and not isinstance(ground_motion, yw.GroundMotionEngine):
+        ground_motion = ground_motion_engine(ground_motion)
+    forces = (joints, yw.UniformGravity(gravity=gravity) if any(gravity) else None, ground_motion)
+    chain += [engine for engine in forces if engine is not None]
+    chain += [yw.ContactForces(sweeps=sweeps, tolerance=tolerance), yw.SymplecticIntegrator(), *monitors(monitor)]
     if arguments.count("engines: skip_rest", skip_rest):
         chain.append(yw.RestSkipper(stride=skip_rest))
     return chain
+
+
+def contact_loop(vertex_edge, flush_supports, increment, damping_ratio):
+    """ContactLoop with the functors of all laws: YADE ends the process for a pair of materials without."""
+    geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=vertex_edge,
+                                                                       flushSupports=flush_supports)
+    physics = [getattr(yw, ip2)(dampingRatio=damping_ratio) for ip2, _, _ in compiled.contact_laws()]
+    laws = [getattr(yw, law2)() for _, _, law2 in compiled.contact_laws()]
+    for law in laws:
+        if hasattr(law, "increment"):
+            law.increment = increment
+    return yw.ContactLoop(loop=yw.InteractionLoop([geometry], physics, laws))
 
 
 def monitors(stated):
@@ -107,19 +92,6 @@ def monitors(stated):
     stated = [] if stated is None else stated if isinstance(stated, (list, tuple)) else [stated]
     kinds, form = (yw.HouseMonitor, yw.StructureMonitor), "a HouseMonitor, a StructureMonitor, a list of them, or None"
     return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in stated]
-
-
-def external_forces(gravity, ground_motion, joints):
-    """Engines of joints, gravity and ground motion, as far as there are any; arguments as in `engines`."""
-    gravity = arguments.vector("engines: gravity", gravity, "m/s2")
-    engine = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
-    chain = [engine] if engine is not None else []
-    if any(gravity):
-        chain.append(yw.UniformGravity(gravity=gravity))
-    if ground_motion is not None:
-        chain.append(ground_motion if isinstance(ground_motion, yw.GroundMotionEngine)
-                     else ground_motion_engine(ground_motion))
-    return chain
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):

@@ -69,11 +69,11 @@ def describe_material(material):
 
 
 def material_name(material, materials):
-    """Name of a material; a new one is added to `known`. Bodies share a name when all values are equal."""
+    """Name of a material; a new one is added to `materials`. Bodies share a name when all values are equal."""
     described = describe_material(material)
-    same = next((name for name, other in materials.items() if other == described), None)
-    if same is not None:
-        return same
+    for name, other in materials.items():
+        if other == described:
+            return name
     name = material.label or described["law"]
     while name in materials:
         name += "'"

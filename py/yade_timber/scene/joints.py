@@ -77,7 +77,9 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
     require_near(springs.points, id1, id2)
     if slip is not None:
-        springs = yielding(springs, slip)
+        arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
+        numbers = {key: arguments.number(f"connect: slip.{key}", value) for key, value in vars(slip).items()}
+        springs = replace(springs, law="slip", **numbers)
     joint = make_joint(id1, id2, springs)
     (find_engine(yw.JointEngine) or add_joint_engine()).append(joint)
     return joint
@@ -109,17 +111,10 @@ def require_near(points, *ids):
     elements = [b for b in (O.bodies[k] for k in ids) if isinstance(b.shape, yw.RoundedPolyhedron)]
     reach = {b.id: max(v.norm() for v in b.shape.vertices) for b in elements}  # of the corners, from the centre
     for point in points if len(elements) == len(ids) else ():
-        gaps = [(b.state.pos - _vector(point)).norm() - reach[b.id] for b in elements]
+        gaps = [(b.state.pos - Vector3(*point)).norm() - reach[b.id] for b in elements]
         if all(gap > 2 * reach[b.id] for gap, b in zip(gaps, elements)):
             form = f"in the world frame [m] and near one of the bodies: it is {min(gaps):.3g} m away from both"
             arguments.refuse(ValueError, "connect: points", tuple(float(x) for x in point), form)
-
-
-def yielding(springs, slip):
-    """The JointSpec with a SlipLaw. Raises TypeError for another object; TimberJoint refuses wrong values."""
-    arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
-    numbers = {name: arguments.number(f"connect: slip.{name}", value) for name, value in vars(slip).items()}
-    return replace(springs, law="slip", **numbers)
 
 
 def add_joint_engine():
@@ -133,16 +128,11 @@ def add_joint_engine():
     return engine
 
 
-def _vector(numbers):
-    """Vector3, which itself refuses numpy.float32."""
-    return Vector3(*map(float, numbers))
-
-
 def make_joint(id1, id2, springs):
     """TimberJoint between two bodies of the scene in their present placement; springs: JointSpec."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
-    points = [_vector(p) for p in springs.points]
-    direction = _vector(springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    points = [Vector3(*p) for p in springs.points]
+    direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
     slip = {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
             "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],

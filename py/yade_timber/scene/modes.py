@@ -73,14 +73,6 @@ def natural_modes(share=0.05):
     """
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs]
     mass, linearised = sum(b.state.mass for b in free), springs()
-    if not len(linearised.body) or not free:
-        return []
-    heavy = [mode for mode in _lowest(linearised, free) if max(mode.mass[:2]) >= share * mass]
-    return sorted(heavy, key=lambda mode: mode.omega2)
-
-
-def _lowest(linearised, free):
-    """Modes of the lowest omega^2. free: bodies that are not fixed."""
     free = _held(linearised, free)
     if not free:
         return []
@@ -95,14 +87,14 @@ def _lowest(linearised, free):
             shape = np.zeros((len(O.bodies), 6))
             shape[list(rows)] = vector.reshape(-1, 6)
             modes.append(Mode(float(omega2[group].mean()), shape, (vector @ (M @ ground)) ** 2))
-    return modes
+    return sorted((mode for mode in modes if max(mode.mass[:2]) >= share * mass), key=lambda mode: mode.omega2)
 
 
 def _held(linearised, free):
     """Those of the free bodies that springs join to a fixed one, directly or through others."""
     rows = {b.id: k for k, b in enumerate(free)}
     ground = len(free)  # stands for all fixed bodies
-    one, two = np.array([[rows.get(body, ground) for body in pair] for pair in linearised.body.tolist()]).T
+    one, two = np.array([rows.get(body, ground) for body in linearised.body.flat], int).reshape(-1, 2).T
     links = sparse.coo_matrix((np.ones(len(one)), (one, two)), shape=(ground + 1, ground + 1))
     _, part = connected_components(links, directed=False)
     return [b for b, of in zip(free, part) if of == part[ground]]
@@ -158,9 +150,9 @@ def stiffness_matrix(linearised, rows, count):
     normal = linearised.normal[:, :, None] * linearised.normal[:, None, :]
     kn, ks = linearised.stiffness[:, 0, None, None], linearised.stiffness[:, 1, None, None]
     tangent = kn * normal + ks * (np.eye(3) - normal)
-    ends = [np.concatenate([np.tile(np.eye(3), (len(normal), 1, 1)), -cross_matrix(linearised.arm[:, e])], axis=2)
-            for e in (0, 1)]  # displacement = end @ x
-    number = np.array([[rows.get(body, -1) for body in pair] for pair in linearised.body.tolist()])
+    ends = [np.concatenate([np.broadcast_to(np.eye(3), normal.shape), np.cross(linearised.arm[:, e, None], np.eye(3))],
+                           axis=2) for e in (0, 1)]  # displacement = end @ x
+    number = np.array([rows.get(body, -1) for body in linearised.body.flat]).reshape(-1, 2)
     blocks, places = [], []
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
         sign = 1 if i == j else -1
@@ -188,10 +180,3 @@ def _assembled(blocks, places, count):
     row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
     column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
     return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
-
-
-def cross_matrix(v):
-    """(P, 3, 3) matrices of the cross products v x."""
-    zero = np.zeros(len(v))
-    x, y, z = v.T
-    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)

@@ -6,7 +6,7 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
-from ..base.energy_terms import IMPOSED, SIGNS
+from ..base.energy_terms import IMPOSED, SUPPLIED
 from . import arguments
 from .background import between_steps
 from .engines import find_engine
@@ -99,7 +99,8 @@ def energy_residual(terms=None):
     """
     terms = energy() if terms is None else terms
     arguments.instance("energy_residual: terms", terms, dict, "the dictionary that energy() returns")
-    supplied, others = (sum(value for name, value in terms.items() if SIGNS.get(name, 1) == sign) for sign in (-1, 1))
+    supplied, others = (sum(value for name, value in terms.items() if (name in SUPPLIED) == wanted)
+                        for wanted in (True, False))
     return others - supplied
 
 

@@ -57,14 +57,8 @@ def _polyhedron(shape):
     return f"<RoundedPolyhedron: {len(shape.vertices)} vertices, {extent} m, radius {shape.radius:.4g} m>"
 
 
-def _engine_of_joints(engine):
-    return f"<JointEngine: {len(engine.joints)} joints, {len(engine.breaks)} springs broken>"
-
-
-def _break(entry):
-    return f"<JointBreak: {entry.time:.4g} s, joint {entry.joint}, spring {entry.spring}, {entry.cause}>"
-
-
-LINES = {"TimberJoint": _joint, "RoundedPolyhedron": _polyhedron, "JointEngine": _engine_of_joints,
-         "JointBreak": _break}
+LINES = {"TimberJoint": _joint, "RoundedPolyhedron": _polyhedron,
+         "JointEngine": lambda one: f"<JointEngine: {len(one.joints)} joints, {len(one.breaks)} springs broken>",
+         "JointBreak": lambda entry: (f"<JointBreak: {entry.time:.4g} s, joint {entry.joint}, spring {entry.spring},"
+                                      f" {entry.cause}>")}
 """Class -> its line, where attributes alone do not say enough."""

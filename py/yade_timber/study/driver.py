@@ -112,7 +112,8 @@ def _run_all(tasks, scripts, jobs, report):
 def _stop(processes):
     """Interrupt the runs and wait until they have saved their checkpoints."""
     for process in processes:
-        process.terminate()
+        if process.child is not None:
+            process.child.terminate()
     deadline = time.monotonic() + SAVE_TIME
     while any(not process.has_ended() for process in processes) and time.monotonic() < deadline:
         time.sleep(POLL)
@@ -140,10 +141,6 @@ class _Process:
     def has_ended(self):
         return self.child is None or self.child.poll() is not None
 
-    def terminate(self):
-        if not self.has_ended():
-            self.child.terminate()
-
     def outcome(self):
         """Record how the run ended; returns one line."""
         if self.child is None:
@@ -161,13 +158,17 @@ class _Process:
     def _error(self):
         """Error message of the run, or None."""
         if self.child.returncode:
-            lines = (self.task.folder / LOG).read_text(errors="replace").split("\n")
-            last = next((line for line in reversed(lines) if line.strip()), f"exit status {self.child.returncode}")
-            return last.strip().removeprefix("error: ")
+            return last_error((self.task.folder / LOG).read_text(errors="replace"), self.child.returncode)
         if self.task.summary is None:
             return (f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
                     " Python")
         return None
+
+
+def last_error(text, status):
+    """Error message of a script that has ended with an exit status. text: what it printed"""
+    lines = [line.strip() for line in text.split("\n") if line.strip()]
+    return lines[-1].removeprefix("error: ") if lines else f"exit status {status}"
 
 
 def _signal(status):

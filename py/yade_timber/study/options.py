@@ -10,8 +10,8 @@ from ..base.atomic_write import make_folder
 from ..base.encoding import print_anything
 from ..base.errors import InputError, RunError
 from ..base.time_step import DEFAULT_DT
-from ..house import HouseError, load_house
-from ..motion import MotionRequest, RecordError
+from ..house import load_house
+from ..motion import MotionRequest
 
 
 class Parser(argparse.ArgumentParser):
@@ -60,22 +60,21 @@ positive = _number(float, sys.float_info.min, "a number > 0")
 non_negative = _number(float, 0, "a number >= 0")
 
 
-def house(text):
-    """A shipped house, or a house file without errors."""
-    try:
-        load_house(text)
-    except HouseError as problem:
-        raise argparse.ArgumentTypeError(str(problem)) from None
-    return text
+def _checked(check):
+    """Type of a text that `check` accepts without an InputError."""
+
+    def read(text):
+        try:
+            check(text)
+        except InputError as problem:
+            raise argparse.ArgumentTypeError(str(problem)) from None
+        return text
+
+    return read
 
 
-def record(text):
-    """A recorded ground motion without errors."""
-    try:
-        MotionRequest(record=text).motion(DEFAULT_DT)
-    except RecordError as problem:
-        raise argparse.ArgumentTypeError(str(problem)) from None
-    return text
+house = _checked(load_house)
+record = _checked(lambda text: MotionRequest(record=text).motion(DEFAULT_DT))
 
 
 def list_of(kind):

@@ -15,8 +15,7 @@ def run(script, options):
         return None
     (level,) = set(LEVELS) - {options.walls or data["law"]["wall_level"]}
     task = Task(script.stem, options.folder / f"walls_{level}", replace(options, walls=level, no_frames=True))
-    report = (lambda _line: None) if options.quiet else lambda line: print(line, flush=True)
-    summary = run_missing([task], script.resolve().parent, 1, report)[task]
+    summary = run_missing([task], script.resolve().parent, 1, options.say)[task]
     if summary is None:
         raise RunError(f"the run with walls of the level {level} has no results: {task.error or task.folder}")
     return OtherWalls(level=level, verdict=summary.verdict, peak_drift=summary.peak_drift)

@@ -8,7 +8,7 @@ from ..base.errors import RunError
 from ..recording.summary import Summary
 from ..run.options import RunOptions
 from ..text.english import sentence
-from .driver import command
+from .driver import command, last_error
 
 TIME = 3.0
 """Simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]"""
@@ -22,6 +22,5 @@ def check_own_weight(house, snow, scripts):
         done = subprocess.run([*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL,
                               capture_output=True, text=True)
         if done.returncode:
-            lines = [line for line in done.stderr.splitlines() if line.strip()]
-            raise RunError(lines[-1].removeprefix("error: ") if lines else f"exit status {done.returncode}")
+            raise RunError(last_error(done.stderr, done.returncode))
         return sentence(Summary.read(folder))

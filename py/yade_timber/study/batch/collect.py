@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of a batch in one CSV file, one row per run."""
 from ...base.atomic_write import write_text
-from ...base.json_types import encode
+from ...base.json_types import encode, leaves
 from ...base.table import csv_text
 from ...text.english import event
 from .tasks import task_of
@@ -14,10 +14,8 @@ RESULTS = {
     "collapse_time_s": "collapse_time_s",
     "tilt_time_s": "tilt_time_s",
     "tilt_direction": "tilt_direction",
-    **{f"peak_drift_{storey}_{direction}": f"peak_drift.storey{storey}.{direction}" for storey in (1, 2)
-       for direction in ("ns", "ew")},
-    **{f"residual_drift_{storey}_{direction}": f"residual_drift.storey{storey}.{direction}" for storey in (1, 2)
-       for direction in ("ns", "ew")},
+    **{f"{drift}_{storey}_{direction}": f"{drift}.storey{storey}.{direction}"
+       for drift in ("peak_drift", "residual_drift") for storey in (1, 2) for direction in ("ns", "ew")},
     "joints": "joints.total",
     "broken": "broken.total",
     "broken_column_beam": "broken.column_beam",
@@ -47,20 +45,13 @@ def write_runs(rows, folder):
 
 def _result(row, task, columns):
     summary = task.summary
-    table = encode(summary) or {}
+    table = dict(leaves(encode(summary) or {}))
     error = None if summary else task.error
     return {
         "run": row.name, "line": row.line, "description": row.description or None,
         "status": "failed" if error else "done" if summary else "unfinished",
         "error": error and f"{row.table.name}:{row.line}: {error}",
         **{column: row.cells.get(column) for column in columns}, "peak_drift": summary and summary.largest_drift()[0],
-        **{column: _at(table, path) for column, path in RESULTS.items()},
+        **{column: table.get(path) for column, path in RESULTS.items()},
         "events": "; ".join(f"{one.time_s:.2f} s {event(one)}" for one in (summary.events if summary else ())) or None
     }
-
-
-def _at(table, path):
-    """Value at 'a.b.c' of nested tables, None if there is none."""
-    for key in path.split("."):
-        table = table.get(key) if isinstance(table, dict) else None
-    return table

@@ -106,13 +106,10 @@ class Row:
     def name(self):
         """Name of the run and its folder: it follows from the content of the row, its house and its record."""
         label = self.description or Path(self.cells["house"]).stem
-        digests = [_record_digest(self.record), *self._then_digests()]
+        following = [] if self.then is None else [with_factor(entry)[0] for entry in self.then.split(";")]
+        digests = map(_record_digest, [self.record, *following])
         content = json.dumps([sorted(self.cells.items()), _house_text(self.house), *digests])
         return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
-
-    def _then_digests(self):
-        """Of the records that follow; none without a sequence."""
-        return [] if self.then is None else [_record_digest(with_factor(entry)[0]) for entry in self.then.split(";")]
 
 
 @lru_cache(maxsize=256)
@@ -139,17 +136,22 @@ def _record_digest(record):
 def read_table(path):
     """Rows of a table, in its order. Raises BatchError."""
     path = Path(path).absolute()
-    lines = _lines(path)
+    lines = _text_lines(path)
     if not lines:
         raise BatchError(f"{path}: empty; the first line names columns: house, {', '.join(list(COLUMNS)[1:4])}, ...")
-    (number, header), *body = lines
-    heads = [head.rstrip("!") for head in header]
+    (number, first), *body = lines
+    if ";" in first:
+        raise BatchError(f"{path.name}:{number}: columns are separated by semicolons; separate them by commas or"
+                         " blanks")
+    separate = _csv_cells if "," in first else str.split
+    heads = [head.rstrip("!") for head in separate(first)]
     _check_heads(heads, f"{path.name}:{number}")
     rows, above = [], {}
-    for number, cells in body:
+    for number, line in body:
+        cells = separate(line)
         if len(cells) != len(heads):
             raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns;"
-                             f" {_remedy(path, number)}")
+                             f" {_remedy(first, line)}")
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
@@ -160,16 +162,6 @@ def read_table(path):
             raise BatchError(f"{rows[-1].where('house')}: every run needs a house")
     _check_repeated(rows)
     return rows
-
-
-def _lines(path):
-    """[(line number, cells)] of the lines that are not empty."""
-    lines = _text_lines(path)
-    if lines and ";" in lines[0][1]:
-        raise BatchError(f"{path.name}:{lines[0][0]}: columns are separated by semicolons; separate them by commas or"
-                         " blanks")
-    separate = _csv_cells if lines and "," in lines[0][1] else str.split
-    return [(number, separate(line)) for number, line in lines]
 
 
 def _text_lines(path):
@@ -190,9 +182,8 @@ def _without_comment(line):
     return line
 
 
-def _remedy(path, number):
-    """Remedy for a line with too few or too many values."""
-    first, line = _text_lines(path)[0][1], dict(_text_lines(path))[number]
+def _remedy(first, line):
+    """Remedy for a line with too few or too many values. first: line of the table"""
     if "," in first:
         return ('the first line has commas, which separate the values here, too: write decimal points (1.5) and put a'
                 ' value with commas in quotes ("a,b")')

@@ -26,13 +26,12 @@ def complete(script, options):
     """
     if not script.is_file():
         raise RunError(f"--ensemble: {script}: no such script, which the runs start")
-    report = (lambda _line: None) if options.quiet else lambda line: print(line, flush=True)
     planned = tasks(script.stem, options)
-    summaries = run_missing(planned, script.resolve().parent, options.jobs, report)
+    summaries = run_missing(planned, script.resolve().parent, options.jobs, options.say)
     done = {k: summaries[task] for k, task in enumerate(planned, 1) if summaries[task] is not None}
     errors = {k: task.error or _reason(task) for k, task in enumerate(planned, 1) if k not in done}
     if len(done) >= FEWEST:
-        report(_write(options, planned, done, errors))
+        options.say(_write(options, planned, done, errors))
     if errors:
         number, error = next(iter(errors.items()))
         raise RunError(f"{len(errors)} of {len(planned)} runs have no results; run {number}: {error}")
@@ -47,14 +46,9 @@ def _reason(task):
 
 def _write(options, planned, done, errors):
     """Write results and pictures; returns the text for the terminal. Raises RunError."""
-    from ...pictures import report as report_page  # here: matplotlib takes 0.3 s
-
     with os_errors(lambda fault: f"{options.folder}: the results cannot be written ({fault}); repeat the command"):
         content = results.content(done, errors)
-        written = results.write(options.folder, content, done, planned)
-        if options.views:
-            written += all_pictures.write(options.folder)
-        if options.report:
-            written += report_page.write(options.folder)
+        written = [*results.write(options.folder, content, done, planned),
+                   *all_pictures.draw(options.folder, options.views, options.report)]
     shown = done[content["shown"]]
     return "\n".join([*results.lines(content, shown), "written: " + ", ".join(map(str, written))])

@@ -6,7 +6,7 @@ from numbers import Real
 import numpy as np
 from scipy import stats
 
-from ...base.json_types import encode
+from ...base.json_types import encode, leaves
 from ...recording.verdict import STATES
 
 CONFIDENCE = 0.95
@@ -18,13 +18,6 @@ NONE = "none"
 
 
 # --- of one summary ---------------------------------------------------------------------------------------------------
-
-
-def leaves(table, path=""):
-    """(path, value) of the entries of nested tables that are no tables: ('energy.dissipated.friction', 98605.2)."""
-    for key, value in table.items():
-        place = f"{path}.{key}".lstrip(".")
-        yield from leaves(value, place) if isinstance(value, dict) else [(place, value)]
 
 
 def numbers(summary):
@@ -52,22 +45,23 @@ def spread(values):
             **dict(zip(("lowest", "lower_quartile", "median", "upper_quartile", "highest"), quantiles))}
 
 
-def spreads(summaries):
-    """{path: spread} of every number that a summary has."""
+def _columns(summaries, entries):
+    """{path: values of all summaries that have it}. entries: function, summary -> {path: value}"""
     columns = {}
     for summary in summaries:
-        for place, value in numbers(summary).items():
+        for place, value in entries(summary).items():
             columns.setdefault(place, []).append(value)
-    return {place: spread(values) for place, values in columns.items()}
+    return columns
+
+
+def spreads(summaries):
+    """{path: spread} of every number that a summary has."""
+    return {place: spread(values) for place, values in _columns(summaries, numbers).items()}
 
 
 def counts(summaries):
     """{path: {text: number of runs}} of the flags and texts."""
-    columns = {}
-    for summary in summaries:
-        for place, text in words(summary).items():
-            columns.setdefault(place, Counter())[text] += 1
-    return {place: dict(texts) for place, texts in columns.items() if set(texts) != {NONE}}
+    return {place: dict(Counter(texts)) for place, texts in _columns(summaries, words).items() if set(texts) != {NONE}}
 
 
 def outcomes(summaries):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Strengthening measures: a brace or a wall in a free bay, double fittings in a group of joints, snow cleared."""
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...house import brace_parts, build_house, free_bays, free_wall_bays, load_house, wall_parts
 
@@ -16,16 +16,11 @@ GROUPS = ("bay", "wall")
 
 @dataclass(frozen=True)
 class Candidate:
-    """name: of its runs; text: for people; cells: columns of a batch table that differ from the house as it is."""
+    """name: of its runs; text: for people; changes: {column: text} of a batch table that differ from the house."""
 
     name: str
     text: str
-    cells: tuple = ()
-
-    @property
-    def changes(self):
-        """{column: text}"""
-        return dict(self.cells)
+    changes: dict = field(default_factory=dict)
 
 
 AS_IT_IS = Candidate("as_it_is", "house as it is")
@@ -44,7 +39,7 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     if "fitting" in kinds:
         chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
-        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", (("snow", "0"),)))
+        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", {"snow": "0"}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
 
 
@@ -52,7 +47,7 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", (("set", _doubled(name, group)),))
+    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", {"set": _doubled(name, group)})
             for name, group in groups.items()
             if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
 
@@ -65,7 +60,7 @@ def _doubled(name, group):
 
 def in_bays(model, names):
     """A measure for each brace or wall. names: in the order of free_bays"""
-    return [Candidate(name, bay_text(model, name), (("braces", name),)) for name in names]
+    return [Candidate(name, bay_text(model, name), {"braces": name}) for name in names]
 
 
 def in_walls(model, names):
@@ -73,7 +68,7 @@ def in_walls(model, names):
     lines = {}
     for name in names:
         lines.setdefault(bay_line(name), []).append(name)
-    return [Candidate(line, line_text(model, bays[0], len(bays)), (("braces", ";".join(bays)),))
+    return [Candidate(line, line_text(model, bays[0], len(bays)), {"braces": ";".join(bays)})
             for line, bays in lines.items()]
 
 

@@ -43,11 +43,8 @@ def rounds(motions, count):
 
 def cost(motions, count):
     """Number of runs of a ranking, those of the house as it is included."""
-    plan, before, total = rounds(motions, count), 0, motions
-    for done, entered in plan:
-        total += entered * (done - before)
-        before = done
-    return total
+    done, entered = zip(*rounds(motions, count))
+    return motions + int(np.dot(entered, np.diff(done, prepend=0)))
 
 
 def default_motions(count):
@@ -84,11 +81,9 @@ def is_lower(differences):
 
 def holm(values, count):
     """p values corrected for `count` tests by Holm's method, of which those that are not given have p = 1."""
-    order = np.argsort(values)
-    corrected, largest = np.ones(len(values)), 0.0
-    for rank, k in enumerate(order):
-        largest = max(largest, min(1.0, (count - rank) * values[k]))
-        corrected[k] = largest
+    order, corrected = np.argsort(values), np.empty(len(values))
+    scaled = (count - np.arange(len(values))) * np.sort(values)
+    corrected[order] = np.maximum.accumulate(np.minimum(scaled, 1.0))
     return corrected.tolist()
 
 
