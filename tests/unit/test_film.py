@@ -144,7 +144,7 @@ def test_webp_has_every_picture_and_holds_the_last(tmp_path):
     count = film.write(tmp_path / "x.webp", [run], "front", form, 1.0, 3.0)
     made = Image.open(tmp_path / "x.webp")
     assert count == made.n_frames == 20 and made.size == (320, 180)
-    for number, image in enumerate(film.images([run], "front", form, times)):
+    for number, image in enumerate(map(film.Pictures([run], "front", form).at, times)):
         made.seek(number)
         made.load()
         assert made.info["duration"] == 100 + 2000 * (number == 19)
