@@ -6,6 +6,7 @@ import json
 import frames_sample
 import numpy as np
 import pytest
+from summaries import sample_summary
 from yade_timber.base.json_types import encode
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
@@ -190,7 +191,7 @@ def drifts(peak, residual):
 )
 def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
-    text = sentence(Summary.sample(**{**STANDING, **changes}))
+    text = sentence(sample_summary(**{**STANDING, **changes}))
     assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
 
 
@@ -202,7 +203,7 @@ def test_wall_sheets_are_counted_apart():
     joints, counts = survey(run).count_all(), survey(run).count_broken(state, springs=7)
     assert (joints.total, joints.wall_sheets) == (2, 3)
     assert (counts.total, counts.wall_sheets, counts.wall_sheets_partly, counts.partly_broken) == (1, 1, 1, 0)
-    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(Summary.sample(joints=joints, broken=counts))
+    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(sample_summary(joints=joints, broken=counts))
     assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
@@ -211,7 +212,7 @@ def test_a_house_without_walls_has_no_wall_sheets():
     state = State(run.position[0], run.orientation[0], np.array([0, 4, 4, 0, 0, 0, 0, 0]))
     found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=8)}
     assert found["joints"] == JointCounts(total=8, column_beam=8, brace_beam=0) and "wall" not in str(encode(found))
-    assert "; 2 of 8 joints broken (1 more from the start)" in sentence(Summary.sample(**found))
+    assert "; 2 of 8 joints broken (1 more from the start)" in sentence(sample_summary(**found))
 
 
 @pytest.mark.parametrize("changes, state", [
@@ -280,4 +281,4 @@ def test_damage_by_the_own_weight_in_the_verdict():
     assert "before the shaking" not in sentence(fallen)
     assert f"; {event(early)}; " in sentence(fallen.changed(events=[*fallen.events, early]))
     assert "; damaged by its own weight and snow; " in sentence(fallen.changed(earthquake=False, snow=True, snow_mass_kg=1000))
-    assert "own weight" not in sentence(Summary.sample(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))
+    assert "own weight" not in sentence(sample_summary(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))
