@@ -10,7 +10,6 @@ from summaries import sample_summary
 from yade_timber.base.json_types import encode
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
-from yade_timber.recording.own_weight import start_of_shaking
 from yade_timber.recording.summary import Columns, JointCounts, Summary
 from yade_timber.recording.verdict import Structure, passed
 from yade_timber.recording.walls import count_apart
@@ -255,14 +254,14 @@ def test_a_summary_is_the_same_after_a_file(tmp_path):
 # --- own weight -------------------------------------------------------------------------------------------------------
 
 
-def test_start_of_shaking():
+def test_first_acceleration():
     """The sample's ground has 4 pi^2 0.2 sin(2 pi t) m/s2 after 1 s: 0.5 m/s2 at the second sample after it. Weak
     shaking does not count.
     """
     motion = frames_sample.motion()
-    assert start_of_shaking(motion) == pytest.approx(1.02, abs=1e-6)
+    assert motion.first(0.5) == pytest.approx(1.02, abs=1e-6)
     motion.acceleration[:] *= 0.05
-    assert start_of_shaking(motion) is None and start_of_shaking(None) is None
+    assert motion.first(0.5) is None
 
 
 @pytest.mark.parametrize("main, text", [

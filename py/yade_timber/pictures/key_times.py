@@ -91,7 +91,8 @@ def named(frames):
 
 def onset(motion):
     """Time at which the shaking begins [s]; the motion's start when it stays below ONSET."""
-    return float(motion.time[np.argmax(np.abs(motion.acceleration).max(1) >= ONSET)])
+    found = motion.first(ONSET)
+    return float(motion.start) if found is None else found
 
 
 def strongest_shaking(frames):

@@ -124,17 +124,15 @@ def residual(summary):
 
 
 def structures(summary):
-    """Verdicts on the structures other than the main one, unless they are undamaged."""
-    return ", ".join(structure(name, facts, summary) for name, facts in summary.others
-                     if facts.verdict != verdict.UNDAMAGED)
-
-
-def structure(name, facts, summary):
-    """Verdict on a structure other than the main one: 'entrance collapsed at 21.3 s'. facts: verdict.Structure"""
-    if facts.collapsed:
-        return f"{name} {facts.verdict}{at(summary.fall_time(name))}"
-    lean = " and leans" if facts.leans else ""
-    return f"{name} {facts.verdict}{lean} (peak drift {ratio(facts.peak_drift)})"
+    """Verdicts on the structures other than the main one, unless undamaged: 'entrance collapsed at 21.3 s'."""
+    parts = []
+    for name, facts in summary.others:
+        if facts.collapsed:
+            parts.append(f"{name} {facts.verdict}{at(summary.fall_time(name))}")
+        elif facts.verdict != verdict.UNDAMAGED:
+            lean = " and leans" if facts.leans else ""
+            parts.append(f"{name} {facts.verdict}{lean} (peak drift {ratio(facts.peak_drift)})")
+    return ", ".join(parts)
 
 
 def joints(summary):
