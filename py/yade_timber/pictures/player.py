@@ -24,7 +24,7 @@ from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaki
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
-from .key_times import first_shown, largest_drift, onset, strongest_shaking
+from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
 
@@ -156,11 +156,7 @@ def breaks(run):
 
 def main_event(run):
     """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
-    times_of_fall = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
-    falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
-             if event.kind == kind]
-    largest = [float(largest_drift(run))] if drifts(run) else []
-    return next((time for time in (*times_of_fall, *falls, *largest) if time is not None), None)
+    return next((float(time) for time, reason in named(run) if reason not in (STRONGEST, FIRST_DAMAGE)), None)
 
 
 def kinds(present):
