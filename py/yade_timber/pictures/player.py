@@ -24,6 +24,7 @@ from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaki
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
+from ..text.english import one_line
 from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
@@ -33,8 +34,6 @@ POSITION_STEP = 0.5e-3
 """Of positions of elements. [m]"""
 ORIENTATION_STEP = 1 / 32767
 """Of the components of quaternions. [-]"""
-LONGEST_TEXT = 400
-"""Letters of a name, title or event that are shown."""
 
 
 def make(runs, path):
@@ -67,10 +66,8 @@ def digest(text):
 
 
 def plain(text):
-    """A text from data on one line, of at most LONGEST_TEXT letters, that UTF-8 can hold."""
-    text = " ".join(str(text)[: 4 * LONGEST_TEXT].split())
-    text = text if len(text) <= LONGEST_TEXT else text[: LONGEST_TEXT - 1] + "…"
-    return text.encode("utf-8", "replace").decode()
+    """A text from data on one line that UTF-8 can hold."""
+    return one_line(text).encode("utf-8", "replace").decode()
 
 
 def packed(source, run):

@@ -9,6 +9,8 @@ CONVERGED = 1e-6
 """Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
+LONGEST_TEXT = 400
+"""Letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels."""
 ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
           "step": "time step"}
 """Words of pictures/provenance.py."""
@@ -282,3 +284,9 @@ def joint_place(kind, storey, side):
 def period_text(mode):
     """'0.31 s', or 'unstable'."""
     return "unstable" if mode.period_s is None else f"{mode.period_s:.2f} s"
+
+
+def one_line(text, most=LONGEST_TEXT):
+    """A text from data on one line, cut to a number of letters."""
+    line = " ".join(str(text)[: 4 * most].split())
+    return line if len(line) <= most else line[: most - 1] + "…"
