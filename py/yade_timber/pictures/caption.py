@@ -124,7 +124,6 @@ class Strip:
         return image
 
     def _draw_trace(self):
-        """Ground acceleration over the time of the run."""
         motion, pen = self.run.motion, ImageDraw.Draw(self.still)
         height, count = TRACE * self.pen.scale, 2 * (self.width - self.left)
         most = abs(motion.acceleration).max() or 1.0

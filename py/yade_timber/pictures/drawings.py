@@ -210,7 +210,6 @@ def frame_damage(ax, positions):
 
 
 def legend(figure, solids, model):
-    """Legend of the colours and symbols that occur."""
     symbol = partial(Line2D, [], [], linestyle="none", color="black")
     entries = kind_entries(solids)
     for size in sorted({max(e.section) for e in model.of_kind("column")}, reverse=True):

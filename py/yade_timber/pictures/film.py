@@ -149,7 +149,6 @@ def _write_mp4(path, images, form, _count):
 
 
 def _write_webp(path, images, form, count):
-    """Encode the images by Pillow."""
     durations = [round(1000 / form.rate)] * (count - 1) + [round(1000 * (HOLD + 1 / form.rate))]
     try:
         Reel(images, count).save(path, "webp", save_all=True, duration=durations, quality=form.quality, **WEBP)

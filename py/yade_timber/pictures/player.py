@@ -91,7 +91,8 @@ def info(run, largest):
         "title": plain(run.title),
         "result": (plain(english.sentence(run.summary)) if run.summary
                    else f"Not ended yet: the first {run.time[-1]:.1f} s"),
-        "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
+        "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
+                      "origin": plain(provenance(run, japanese))} if isinstance(run.summary, Summary) else None),
         "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
                       **uplift(largest, name)}
@@ -113,13 +114,6 @@ def info(run, largest):
         "main": main_event(run),
         "collapse": collapse_time(run.summary),
     }
-
-
-def japanese_texts(run):
-    """Title, result and origin of an ended run in Japanese."""
-    texts = {"title": japanese.title(run.summary), "result": japanese.result(run.summary),
-             "origin": provenance(run, japanese)}
-    return {name: plain(text) for name, text in texts.items()}
 
 
 def forces(largest, joint):
@@ -162,15 +156,10 @@ def kinds(present):
     return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
 
 
-def recorded(run):
-    """Events of a run that has ended."""
-    return run.summary.events if run.summary else []
-
-
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded(run))
-             if 0 <= event.time_s <= run.time[-1]]
+    recorded = run.summary.events if run.summary else []
+    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded) if 0 <= event.time_s <= run.time[-1]]
     shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
     return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
             for event in shown]
@@ -199,14 +188,8 @@ def passed_levels(run):
 
 def arrays(run):
     """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
-    return {**shapes(run.elements), **joints(run.joints), **series(run), **curves(run)}
-
-
-def shapes(elements):
-    faces = [face for body in elements.faces for face in body]
-    return {"vertices": (np.concatenate(elements.vertices), 1e-4),
-            "vertex_start": (frames.starts(elements.vertices), 1), "faces": (np.concatenate(faces), 1),
-            "face_start": (frames.starts(faces), 1), "element_start": (frames.starts(elements.faces), 1)}
+    shapes = {name: (values, 1e-4 if name == "vertices" else 1) for name, values in frames.shapes(run.elements).items()}
+    return {**shapes, **joints(run.joints), **series(run), **curves(run)}
 
 
 def joints(table):

@@ -148,7 +148,6 @@ def motion(frames, summary):
 
 
 def joints(results):
-    """Rows of the table of the joints most loaded."""
     units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
     return [{"joint": joint_name(row["joint"]), "state": row["state"],
              "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
@@ -198,7 +197,6 @@ def joint_name(name):
 
 
 def caveats(summary):
-    """Limits of the model that matter for this run."""
     per_area = summary.weight.per_floor_area_kn_m2
     light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
              " load weigh 2.5 to 3 kN per m².")

@@ -126,7 +126,6 @@ def result(frames):
 
 @default_style()
 def both_views(frames, frame, dpi):
-    """Figure with the two views of a frame."""
     start = solids(frames)
     shot = snapshot(frames, frame)
     boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
@@ -156,7 +155,6 @@ def both_views(frames, frame, dpi):
 
 
 def snapshot(frames, frame):
-    """Snapshot of a frame."""
     return Snapshot(solids(frames, frame), marks(frames, frame), panels(frames, frame))
 
 

@@ -227,7 +227,8 @@ def save(path, frames):
                            "ended": frames.summary is not None})
         if frames.summary is not None:
             file.attrs["summary"] = json.dumps(encode(frames.summary))
-        _save_elements(file.create_group("elements"), frames.elements)
+        plain = {name: values for name, values in vars(frames.elements).items() if name not in ("vertices", "faces")}
+        _save_group(file.create_group("elements"), plain | shapes(frames.elements))
         _save_group(file.create_group("joints"), vars(frames.joints))
         _save_group(file.create_group("frames"), _series(frames))
         _save_contacts(file.create_group("contacts"), frames.contacts)
@@ -259,14 +260,11 @@ def starts(lists):
     return np.cumsum([0, *map(len, lists)])
 
 
-def _save_elements(group, elements):
-    values = dict(vars(elements))
-    faces = [face for body in values.pop("faces") for face in body]
-    vertices = values.pop("vertices")
-    _save_group(group, values)
-    _save_group(group,
-                {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
-                 "face_start": starts(faces), "element_start": starts(elements.faces)})
+def shapes(elements):
+    """{'vertices', 'vertex_start', 'faces', 'face_start', 'element_start'}: arrays of Elements as in /elements."""
+    faces = [face for body in elements.faces for face in body]
+    return {"vertices": np.concatenate(elements.vertices), "vertex_start": starts(elements.vertices),
+            "faces": np.concatenate(faces), "face_start": starts(faces), "element_start": starts(elements.faces)}
 
 
 def _save_contacts(group, contacts):

@@ -138,7 +138,6 @@ def structures(summary):
 
 
 def joints(summary):
-    """Broken and partly broken joints and wall sheets."""
     partly = f", {summary.partly_broken} partly" if summary.partly_broken else ""
     before = summary.broken.damaged_at_start.total
     return broken_of(*summary.joints_and_sheets) + partly + (f" ({before} more from the start)" if before else "")
