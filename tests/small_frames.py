@@ -3,14 +3,14 @@
 the east and tips.
 """
 import numpy as np
+from summaries import sample_summary
 from yade_timber.recording.frames import Contacts, Elements, Frames, Joints, Motion
 from yade_timber.recording.history import History
-from yade_timber.recording.summary import Summary
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 COUNT = 61
-SUMMARY = Summary.sample(
+SUMMARY = sample_summary(
     model="T", tilt_time_s=1.5, tilt_direction="ew", collapsed=True, collapse_time_s=2.0, joints={"total": 3},
     broken={"total": 1, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.0, "ew": 0.5}})
 

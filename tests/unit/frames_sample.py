@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
 import numpy as np
+from summaries import sample_summary
 from yade_timber.recording import frames
 from yade_timber.recording.events import Collapse, Event, FirstBreak, Tilt
 from yade_timber.recording.history import History
-from yade_timber.recording.summary import Summary
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 FALL = 2.0
@@ -75,7 +75,7 @@ def motion():
 
 def summary(name):
     events = [Event(2.1, FirstBreak("column_beam", "1", "south", "tension", 5900.0)), Event(2.3, Tilt("ns")), Event(2.9, Collapse())]
-    return Summary.sample(
+    return sample_summary(
         model=name, earthquake=True, events=events, broken={"total": 7, "damaged_at_start": {"total": 1}}, joints={"total": 8}, tilt_time_s=2.3,
         tilt_direction="ns", collapsed=True, collapse_time_s=2.9, peak_drift={"storey1": {"ns": 1.3, "ew": 0.39}})
 

@@ -12,9 +12,9 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
 from yade_timber.recording.events import Event, StructureFallen, Tilt
-from yade_timber.recording.summary import Summary
 from yade_timber.study.batch import BatchError, read_table, write_runs
 from yade_timber.study.batch.collect import RESULTS
 from yade_timber.study.batch.tasks import task_of
@@ -150,7 +150,7 @@ def result(rows, folder, summary, errors=()):
         (folder / row.name).mkdir()
         (folder / row.name / "run.json").write_text(json.dumps({"status": "failed", "error": error}))
     (folder / rows[0].name).mkdir()
-    Summary.sample(**summary, made_from=made_from(task_of(rows[0], folder).options)).write(folder / rows[0].name)
+    sample_summary(**summary, made_from=made_from(task_of(rows[0], folder).options)).write(folder / rows[0].name)
     write_runs(rows, folder)
     with open(folder / "runs.csv", newline="") as file:
         return list(csv.DictReader(file))

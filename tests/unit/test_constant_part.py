@@ -14,6 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+from summaries import sample_summary
 from yade_timber.motion import (
     GAL,
     GroundMotion,
@@ -26,7 +27,6 @@ from yade_timber.motion import (
     trim,
 )
 from yade_timber.motion.record import STANDARD_GRAVITY
-from yade_timber.recording.summary import Summary
 from yade_timber.recording.town import summary as town_summary
 from yade_timber.text.english import record, sentence
 
@@ -138,10 +138,10 @@ def test_a_motion_of_python():
 
 def test_the_note_is_in_the_sentences():
     note = "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"
-    noted = Summary.sample(record={"note": note})
+    noted = sample_summary(record={"note": note})
     assert record(noted) == f"the record's {note}"
     assert sentence(town_summary("x", {"lot": noted})).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
-    assert record(Summary.sample(record={"source": "a"})) == record(Summary.sample()) == ""
+    assert record(sample_summary(record={"source": "a"})) == record(sample_summary()) == ""
 
 
 def test_show_record_says_so(tmp_path):

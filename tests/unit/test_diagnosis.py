@@ -11,9 +11,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+from summaries import sample_summary
 from yade_timber.house import build_house, comparison, diagnose, load_house
 from yade_timber.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement
-from yade_timber.recording.summary import Summary
 
 
 @cache
@@ -96,7 +96,7 @@ def test_headline_is_the_weakest_of_all_structures():
 def run_of(iw, collapsed, peak_gal=None, snow=0.0, broken=0):
     record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
     diagnosis = {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken}
-    return Summary.sample(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow, diagnosis=diagnosis)
+    return sample_summary(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow, diagnosis=diagnosis)
 
 
 def test_disagreement():

@@ -5,8 +5,8 @@ import os
 import sys
 
 import pytest
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
-from yade_timber.recording.summary import Summary
 from yade_timber.run import identity
 from yade_timber.run.identity import made_from
 from yade_timber.run.options import RunOptions
@@ -21,10 +21,10 @@ def fake_script(folder, body):
 
 
 WRITES = """import sys
-from yade_timber.recording.summary import Summary
+from summaries import sample_summary
 from yade_timber.run import cli, identity
 options = cli.read_house(sys.argv)
-Summary.sample(scenario=' '.join(sys.argv), made_from=identity.made_from(options)).write(options.folder)
+sample_summary(scenario=' '.join(sys.argv), made_from=identity.made_from(options)).write(options.folder)
 """
 
 
@@ -36,7 +36,7 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     scripts = fake_script(tmp_path, "import sys\nif '--seed=7' in sys.argv: sys.exit('error: no')\n" + WRITES)
     tasks = [Task("run", tmp_path / name, RunOptions(house="A", **given)) for name, given in (("a", {"dt": 2e-4}), ("b", {"seed": 7}), ("c", {}))]
     tasks[2].folder.mkdir()
-    old = Summary.sample(made_from=made_from(RunOptions(house="A")))
+    old = sample_summary(made_from=made_from(RunOptions(house="A")))
     old.write(tasks[2].folder)
     said = []
     done = run_missing(tasks, scripts, 2, said.append)

@@ -6,10 +6,10 @@ import json
 import frames_sample
 import numpy as np
 import pytest
+from summaries import sample_summary
 from yade_timber.base.json_types import encode
 from yade_timber.recording.damage import DamageSurvey, Level, State
 from yade_timber.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
-from yade_timber.recording.own_weight import start_of_shaking
 from yade_timber.recording.summary import Columns, JointCounts, Summary
 from yade_timber.recording.verdict import Structure, passed
 from yade_timber.recording.walls import count_apart
@@ -190,7 +190,7 @@ def drifts(peak, residual):
 )
 def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
-    text = sentence(Summary.sample(**{**STANDING, **changes}))
+    text = sentence(sample_summary(**{**STANDING, **changes}))
     assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
 
 
@@ -202,7 +202,7 @@ def test_wall_sheets_are_counted_apart():
     joints, counts = survey(run).count_all(), survey(run).count_broken(state, springs=7)
     assert (joints.total, joints.wall_sheets) == (2, 3)
     assert (counts.total, counts.wall_sheets, counts.wall_sheets_partly, counts.partly_broken) == (1, 1, 1, 0)
-    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(Summary.sample(joints=joints, broken=counts))
+    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(sample_summary(joints=joints, broken=counts))
     assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
@@ -211,7 +211,7 @@ def test_a_house_without_walls_has_no_wall_sheets():
     state = State(run.position[0], run.orientation[0], np.array([0, 4, 4, 0, 0, 0, 0, 0]))
     found = {"joints": survey(run).count_all(), "broken": survey(run).count_broken(state, springs=8)}
     assert found["joints"] == JointCounts(total=8, column_beam=8, brace_beam=0) and "wall" not in str(encode(found))
-    assert "; 2 of 8 joints broken (1 more from the start)" in sentence(Summary.sample(**found))
+    assert "; 2 of 8 joints broken (1 more from the start)" in sentence(sample_summary(**found))
 
 
 @pytest.mark.parametrize("changes, state", [
@@ -254,14 +254,14 @@ def test_a_summary_is_the_same_after_a_file(tmp_path):
 # --- own weight -------------------------------------------------------------------------------------------------------
 
 
-def test_start_of_shaking():
+def test_first_acceleration():
     """The sample's ground has 4 pi^2 0.2 sin(2 pi t) m/s2 after 1 s: 0.5 m/s2 at the second sample after it. Weak
     shaking does not count.
     """
     motion = frames_sample.motion()
-    assert start_of_shaking(motion) == pytest.approx(1.02, abs=1e-6)
+    assert motion.first(0.5) == pytest.approx(1.02, abs=1e-6)
     motion.acceleration[:] *= 0.05
-    assert start_of_shaking(motion) is None and start_of_shaking(None) is None
+    assert motion.first(0.5) is None
 
 
 @pytest.mark.parametrize("main, text", [
@@ -280,4 +280,4 @@ def test_damage_by_the_own_weight_in_the_verdict():
     assert "before the shaking" not in sentence(fallen)
     assert f"; {event(early)}; " in sentence(fallen.changed(events=[*fallen.events, early]))
     assert "; damaged by its own weight and snow; " in sentence(fallen.changed(earthquake=False, snow=True, snow_mass_kg=1000))
-    assert "own weight" not in sentence(Summary.sample(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))
+    assert "own weight" not in sentence(sample_summary(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))

@@ -13,11 +13,11 @@ import in_process
 import numpy as np
 import pytest
 from PIL import Image
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
 from yade_timber.house import build_house, load_house
 from yade_timber.pictures import camera, caption, film, fonts, key_times, provenance, stage
 from yade_timber.recording import frames
-from yade_timber.recording.summary import Summary
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "make_film.py"
 SMALL = film.Format(width=320, height=180, rate=10)
@@ -144,7 +144,7 @@ def test_webp_has_every_picture_and_holds_the_last(tmp_path):
     count = film.write(tmp_path / "x.webp", [run], "front", form, 1.0, 3.0)
     made = Image.open(tmp_path / "x.webp")
     assert count == made.n_frames == 20 and made.size == (320, 180)
-    for number, image in enumerate(film.images([run], "front", form, times)):
+    for number, image in enumerate(map(film.Pictures([run], "front", form).at, times)):
         made.seek(number)
         made.load()
         assert made.info["duration"] == 100 + 2000 * (number == 19)
@@ -194,7 +194,7 @@ def test_script(tmp_path):
 
 def test_origin_names_record_peak_step_and_versions():
     run = frames_sample.run()
-    run.summary = Summary.sample(dt=2.5e-4, record={"source": "kobe.csv", "scale": 0.5}, versions={"yade": "2023.02a"})
+    run.summary = sample_summary(dt=2.5e-4, record={"source": "kobe.csv", "scale": 0.5}, versions={"yade": "2023.02a"})
     run.version = "9.9"
     text = provenance.provenance(run)
     peak = np.abs(run.motion.acceleration).max() * 100

@@ -15,10 +15,10 @@ from pathlib import Path
 import frames_sample
 import numpy as np
 import pytest
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
 from yade_timber.pictures import key_times, player
 from yade_timber.recording.events import Collapse, ColumnsLost, Event, OwnWeight, SnowFallen, StructureFallen, Tilt
-from yade_timber.recording.summary import Summary
 from yade_timber.recording.verdict import Structure
 from yade_timber.text import japanese
 from yade_timber.pictures.packing import pack
@@ -197,7 +197,7 @@ def test_the_japanese_result_judges_all_structures():
     porch.
     """
     others = {"entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01), "porch": Structure(peak_drift=1e-3)}
-    found = Summary.sample(
+    found = sample_summary(
         joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.05, "ew": 0.01}},
         structures=others, events=[Event(2.6, StructureFallen("entrance"))])
     assert japanese.result(found) == (
@@ -206,7 +206,7 @@ def test_the_japanese_result_judges_all_structures():
 
 
 def test_the_japanese_result_has_all_warnings():
-    found = Summary.sample(
+    found = sample_summary(
         peak_drift={"storey1": {"ns": 0.3, "ew": 0.01}}, residual_drift={"storey1": {"ns": 0.2, "ew": 0.01}}, columns={"total": 90, "fallen": 1, "loose": 3},
         still_moving=True, final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True, record={"onset_s": 18.8}, duration_s=15.0,
         structures={"entrance": Structure(broken=2, peak_drift=5e-4)},

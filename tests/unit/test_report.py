@@ -11,6 +11,7 @@ import frames_sample
 import numpy as np
 import pytest
 from markupsafe import escape
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
 from yade_timber.pictures import figures, quantities, report, report_pictures
 from yade_timber.recording import peaks
@@ -163,7 +164,7 @@ def test_ten_lines(folder):
 
 def test_main_mode_moves_most_of_the_mass():
     shares = [Mode(share, "ns", {"ns": share, "ew": 0.0}, {}) for share in (0.1, 0.7, 0.3)]
-    found = Summary.sample(quantities={"modes": {"before": ModesAt(1.0, shares)}})
+    found = sample_summary(quantities={"modes": {"before": ModesAt(1.0, shares)}})
     assert found.main_mode("before", "ns").period_s == 0.7 and found.main_mode("before", "ew") is None and found.main_mode("after", "ns") is None
 
 
@@ -254,7 +255,7 @@ def test_report_of_a_collapse():
             for k, name in enumerate(run.joints.name)]
     run.broken[:] = 0
     run.broken[run.time > 2.35, 3] = 4
-    results = quantities.Results(Summary.sample(quantities={"until_s": 2.5}), run.history, None, rows, [])
+    results = quantities.Results(sample_summary(quantities={"until_s": 2.5}), run.history, None, rows, [])
     failures = first_failures(run)
     first, second = report.failed_joints(run, results, failures)
     assert first["time"] == "2.20" and first["cause"] == "tension" and second["time"] == "2.30" and second["cause"] == "shear"

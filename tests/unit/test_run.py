@@ -155,16 +155,6 @@ def test_energy_is_accounted_for(straight):
     assert energy["residual_fraction"] == pytest.approx(abs(energy["residual"]) / energy["input"])
 
 
-@pytest.mark.skipif(len(os.sched_getaffinity(0)) == 1, reason="one processor")
-def test_a_run_can_draw_in_copies_of_its_process(tmp_path):
-    """At its end YADE has only a thread of IPython that waits."""
-    script = tmp_path / "ask.py"
-    script.write_text("from yade_timber import host\nfrom yade_timber.pictures import copies\nfrom yade_timber.run import progress\n"
-                      "for thread in host.close_servers():\n    thread.join()\n"
-                      "progress.tqdm(total=1, disable=True)\nprint(copies.possible())\n")
-    assert subprocess.run([*YADE, str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60).stdout.splitlines()[-1] == "True"
-
-
 @pytest.mark.parametrize("study", ["paper_table", "robustness_study"])
 def test_studies_take_the_runs_that_they_make(straight, study):
     """A study, which needs no YADE, imports the same state of the package as its runs."""

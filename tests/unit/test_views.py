@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, snapshot, views
+from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, views
 from yade_timber.pictures.raster import Window
 from yade_timber.pictures.views import FRONT, SIDE, Solid
 from yade_timber.recording import frames as recorded
@@ -71,9 +71,9 @@ def test_silhouette_has_outer_outlines_only():
 
 def test_marks_sit_on_the_damaged_joints():
     made = frames()
-    found = {m.state: m.position for m in snapshot.marks(made, made.at(2.0))}
+    found = {m.state: m.position for m in sheets.marks(made, made.at(2.0))}
     assert set(found) == {"before", "broken", "partly"} and np.allclose(found["broken"], (0.5, 0, 1))
-    assert [m.state for m in snapshot.marks(made, 0)] == ["before"]
+    assert [m.state for m in sheets.marks(made, 0)] == ["before"]
 
 
 def test_snow_neither_hazes_the_house_nor_belongs_to_its_outline():

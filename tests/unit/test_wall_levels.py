@@ -5,8 +5,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from summaries import sample_summary
 from yade_timber.base.errors import RunError
-from yade_timber.recording.summary import OtherWalls, Summary, Walls
+from yade_timber.recording.summary import OtherWalls, Walls
 from yade_timber.run import cli
 from yade_timber.run.plan import planned
 from yade_timber.text.english import other_walls
@@ -32,8 +33,8 @@ def test_sentence_names_the_other_verdict_where_they_differ():
     texts = []
     for verdict in ("collapsed", "repairable"):
         walls = Walls("mean", OtherWalls("design", verdict, {}))
-        texts.append(other_walls(Summary.sample(peak_drift={"storey1": {"ns": 0.02, "ew": 0.0}}, walls=walls)))
-    assert [*texts, other_walls(Summary.sample())] == ["with walls of the level design collapsed", "", ""]
+        texts.append(other_walls(sample_summary(peak_drift={"storey1": {"ns": 0.02, "ew": 0.0}}, walls=walls)))
+    assert [*texts, other_walls(sample_summary())] == ["with walls of the level design collapsed", "", ""]
 
 
 def test_report_runs_both_levels(tmp_path):

@@ -94,10 +94,3 @@ def _arguments(kind, entries, path):
         elif part.default is MISSING:
             raise ValueError(f"{path}.{part.name}: missing")
     return arguments
-
-
-def default(kind):
-    """Value of a type with zeros, empty texts, lists and tables, None where that is permitted."""
-    if is_dataclass(kind):
-        return kind(**{part.name: default(hint) for part, hint in types(kind)})
-    return None if get_origin(kind) is UnionType else (get_origin(kind) or kind)()

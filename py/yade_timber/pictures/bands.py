@@ -20,7 +20,8 @@ LEGEND_HEIGHT = 0.42
 @default_style()
 def page(frames, histories, dpi):
     """Figure with the bands. frames: of the run that is shown; histories: {number: History} of all runs"""
-    time, shown = longest(histories.values()).time, frames.history
+    time = max((history.time for history in histories.values()), key=lambda time: time[-1])  # runs may end early
+    shown = frames.history
     drifts = shown.drifts()
     figure = new_figure(*A4, dpi)
     axes = list(figure.subplots(len(drifts), 1, sharex=True, squeeze=False)[:, 0])
@@ -40,11 +41,6 @@ def page(frames, histories, dpi):
     heading(figure, f"{frames.title}. {len(histories)} runs", result(frames))
     footer(figure, provenance(frames))
     return figure
-
-
-def longest(histories):
-    """The History with the latest end: runs may end at a collapse."""
-    return max(histories, key=lambda history: history.time[-1])
 
 
 def quantiles(histories, time, storey, direction):

@@ -42,26 +42,25 @@ def look(name, points, aspect):
             seen = (offset @ axis) / (away - offset @ toward)
             target = target + away * (seen.min() + seen.max()) / 2 * axis
     eye = target + away * toward
-    far = away + 200.0 + 5 * np.ptp(points, axis=0).max()
-    return Camera(eye, target, _matrix(eye, right, up, toward, tangent, aspect, (max(0.2, 0.05 * away), far)),
-                  0.5 / tangent)
+    near, far = max(0.2, 0.05 * away), away + 200.0 + 5 * np.ptp(points, axis=0).max()
+    lens = np.zeros((4, 4))
+    lens[0, 0], lens[1, 1] = 1 / (tangent * aspect), 1 / tangent
+    lens[2, 2:], lens[3, 2] = ((far + near) / (near - far), 2 * far * near / (near - far)), -1
+    return Camera(eye, target, lens @ _seen((right, up, toward), eye), 0.5 / tangent)
+
+
+def _seen(axes, origin):
+    """(4, 4) matrix from the world to three axes and an origin."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = -matrix[:3, :3] @ origin
+    return matrix
 
 
 def kept(start, end):
     """(P, 3) points that a camera shows: those of the start, and those of the end within NEAR of them."""
     low, high = start.min(0) - (NEAR, NEAR, 0), start.max(0) + (NEAR, NEAR, 0)
     return np.concatenate([start, np.clip(end[np.isfinite(end).all(1)], low, high)])
-
-
-def _matrix(eye, right, up, toward, tangent, aspect, depths):
-    near, far = depths
-    seen = np.eye(4)
-    seen[:3, :3] = right, up, toward
-    seen[:3, 3] = -seen[:3, :3] @ eye
-    lens = np.zeros((4, 4))
-    lens[0, 0], lens[1, 1] = 1 / (tangent * aspect), 1 / tangent
-    lens[2, 2:], lens[3, 2] = ((far + near) / (near - far), 2 * far * near / (near - far)), -1
-    return lens @ seen
 
 
 def sun(points):
@@ -72,7 +71,4 @@ def sun(points):
     right /= np.linalg.norm(right)
     axes = np.array([right, np.cross(light, right), -light])
     half = max(size[:2].max() / 2 + SHADED, size[2])
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes / half
-    matrix[:3, 3] = -matrix[:3, :3] @ middle
-    return matrix, light
+    return _seen(axes / half, middle), light

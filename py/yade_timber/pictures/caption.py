@@ -26,10 +26,10 @@ INK, SOFT, PAPER = (28, 36, 42), (70, 80, 88), (255, 254, 251)
 
 
 class Pen:
-    """Writes lines on sheets of paper (RGBA) of one width. scale: of the font sizes"""
+    """Writes lines on sheets of paper (RGBA) as wide as pictures of a size (width, height). [pixel]"""
 
-    def __init__(self, width, scale):
-        self.width, self.scale = width, scale
+    def __init__(self, size):
+        self.width, self.scale = size[0], min(size[1] / NORMAL, size[0] / 560)
 
     def sheet(self, height, opacity=255):
         return Image.new("RGBA", (self.width, max(1, round(height * self.scale))), PAPER + (opacity,))
@@ -61,7 +61,7 @@ class Caption:
 
     def __init__(self, run, size):
         self.run = run
-        self.pen = Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
+        self.pen = Pen(size)
         self.survey = DamageSurvey(run.elements, run.joints, [])
         self.drifts = run.history.largest_drift() if run.history and run.history.samples else None
         self.title, self.text, self.foot = self._line(drawable(run.title), TITLE, bold=True), None, None
@@ -100,7 +100,7 @@ class Strip:
     """Time, ground acceleration and origin (provenance.parts) of a run (Frames) below pictures of (width, height)."""
 
     def __init__(self, run, origin, size):
-        self.run, self.pen = run, Pen(size[0], min(size[1] / NORMAL, size[0] / 560))
+        self.run, self.pen = run, Pen(size)
         self.span = first_shown(run), float(run.time[-1])
         self.left = round(CLOCK * self.pen.scale)
         top, small = TRACE if run.motion else 1.5 * TEXT, max(SMALL, SMALLEST / self.pen.scale)
@@ -124,7 +124,6 @@ class Strip:
         return image
 
     def _draw_trace(self):
-        """Ground acceleration over the time of the run."""
         motion, pen = self.run.motion, ImageDraw.Draw(self.still)
         height, count = TRACE * self.pen.scale, 2 * (self.width - self.left)
         most = abs(motion.acceleration).max() or 1.0

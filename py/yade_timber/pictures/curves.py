@@ -74,7 +74,6 @@ def label(axis, text):
 
 
 def draw_motion(axis, motion):
-    """Ground acceleration."""
     for k, key, name in ((2, "ud", "up-down"), (0, "ew", "E-W"), (1, "ns", "N-S")):
         axis.plot(motion.time, motion.acceleration[:, k], color=colors.DIRECTIONS[key], lw=0.6, label=name)
     label(axis, "ground acceleration\n[m/s²]")

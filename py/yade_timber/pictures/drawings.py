@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Drawings of a house as built (paper, Figs. 5-8 and 10): in space, front, side, plan of the first storey."""
+from functools import partial
+
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
@@ -130,9 +132,9 @@ def draw_heights(ax, heights, scale):
 def draw_plan(ax, model):
     """First floor from above: grid lines, columns by section, braces, damaged joints. North is up."""
     columns = [e for e in model.of_kind("column") if e.storey == 1]
-    for name, axis in (("v", 0), ("h", 1)):
+    for axis, line in enumerate((ax.axvline, ax.axhline)):
         for position in sorted({round(float(e.solid.centroid[axis]), 3) for e in columns}):
-            (ax.axvline if name == "v" else ax.axhline)(position, color="#bbbbbb", lw=0.5, zorder=0)
+            line(position, color="#bbbbbb", lw=0.5, zorder=0)
     for element in model.of_kind("sill") or model.of_kind("foundation"):
         draw_outline(ax, element, facecolor="none", edgecolor="#999999", lw=0.5)
     for element in columns:
@@ -141,9 +143,9 @@ def draw_plan(ax, model):
     for element in model.of_kind("brace"):
         if element.storey == 1:
             ax.add_patch(wedge(element.vertices))
-    for joint in model.joints:
-        if joint.kind == WALL_COLUMN and joint.storey == 1:
-            draw_wall(ax, model, joint)
+    for panel in panels_as_built(model):
+        if panel.storey == 1:
+            draw_wall(ax, panel)
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
     for grid in model.grids.values():
@@ -170,13 +172,12 @@ def draw_outline(ax, element, **style):
     ax.add_patch(Rectangle(low, *(high - low), **style))
 
 
-def draw_wall(ax, model, joint):
+def draw_wall(ax, panel):
     """The sheathing of a bay seen from above: a filled band, or two lines where it has a window or a door."""
-    start, end = (model.element(name).solid.centroid[:2] for name in (joint.a, joint.b))
+    start, end = panel.corners[:2, :2]
     aside = WALL_WIDTH / 2 * np.array([start[1] - end[1], end[0] - start[0]]) / np.linalg.norm(end - start)
-    has_opening = any(f".{opening}." in joint.name for opening in ("window", "door"))
     ax.add_patch(Polygon([start + aside, end + aside, end - aside, start - aside], closed=True, edgecolor=WALL, lw=0.8,
-                         facecolor="white" if has_opening else WALL, zorder=1 if has_opening else 1.5))
+                         facecolor="white" if panel.opening else WALL, zorder=1 if panel.opening else 1.5))
 
 
 def finish_plan(ax, columns):
@@ -184,11 +185,11 @@ def finish_plan(ax, columns):
     centres = np.array([e.solid.centroid[:2] for e in columns if e.group == columns[0].group])
     low, high = centres.min(0), centres.max(0)
     positions = np.array([e.solid.centroid[:2] for e in columns])
-    ax.annotate("", (low[0], low[1] - 0.65), (high[0], low[1] - 0.65),
-                arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0))
+    for end in ((high[0], low[1]), (low[0], high[1])):
+        aside = np.where(low == end, 0.65, 0)
+        ax.annotate("", low - aside, end - aside,
+                    arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0))
     ax.annotate(f"{high[0] - low[0]:.2f} m", ((low[0] + high[0]) / 2, low[1] - 0.7), fontsize=7, ha="center", va="top")
-    ax.annotate("", (low[0] - 0.65, low[1]), (low[0] - 0.65, high[1]),
-                arrowprops=dict(arrowstyle="<->", lw=0.7, color=INK, shrinkA=0, shrinkB=0))
     ax.annotate(f"{high[1] - low[1]:.2f} m", (low[0] - 0.75, (low[1] + high[1]) / 2), fontsize=7, ha="right",
                 va="center", rotation=90)
     ax.set(xlim=(positions[:, 0].min() - 1.3, positions[:, 0].max() + 0.6),
@@ -209,21 +210,17 @@ def frame_damage(ax, positions):
 
 
 def legend(figure, solids, model):
-    """Legend of the colours and symbols that occur."""
-    sections = sorted({max(e.section) for e in model.of_kind("column")}, reverse=True)
+    symbol = partial(Line2D, [], [], linestyle="none", color="black")
     entries = kind_entries(solids)
-    for size in sections:
-        entries.append(Line2D([], [], linestyle="none", marker="s", markersize=6,
-                              markerfacecolor="black" if size >= THICK else "white", markeredgecolor="black",
+    for size in sorted({max(e.section) for e in model.of_kind("column")}, reverse=True):
+        entries.append(symbol(marker="s", markersize=6, markerfacecolor="black" if size >= THICK else "white",
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
-        entries.append(Line2D([], [], linestyle="none", marker=">", markersize=7, color=colors.BLUE,
-                              label="brace (plan; thin end: foot)"))
+        entries.append(symbol(marker=">", markersize=7, color=colors.BLUE, label="brace (plan; thin end: foot)"))
     if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
-        entries.append(Line2D([], [], linestyle="none", marker="o", markersize=4, markerfacecolor="white",
-                              markeredgecolor="black", label="joint broken before the start"))
+        entries.append(symbol(marker="o", markersize=4, markerfacecolor="white", label="joint broken before the start"))
     columns = -(-len(entries) // 2) if len(entries) > 8 else len(entries)
     figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=8, handletextpad=0.5,
                   columnspacing=1.4)

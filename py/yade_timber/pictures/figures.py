@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ..base.atomic_write import written_whole
+from ..text.english import LONGEST_TEXT, one_line
 from . import fonts
 from .style import default_style
 
@@ -28,8 +29,6 @@ FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
 """Of the line at the bottom: font size [pt], letters per inch, height of its baseline [inch]."""
 POINT_LETTERS = 140.0
 """Letters per inch of usual text, times its font size. [pt/inch]"""
-LONGEST_TEXT = 400
-"""Letters of a text from data that are drawn; Agg cannot draw a line of 32768 pixels."""
 REPLACEMENT = "\ufffd"
 PNG_LEVEL = 1
 """Of zlib: Pillow's fastest."""
@@ -72,9 +71,7 @@ def drawable(text, most=LONGEST_TEXT):
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
-    line = " ".join(str(text)[: 4 * most].split())
-    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in line)
-    line = line if len(line) <= most else line[: most - 1] + "…"
+    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in one_line(text, most))
     return line.replace("$", r"\$")
 
 

@@ -8,7 +8,6 @@ processor (SwiftShader), a picture of 1280 x 800 takes seconds; here one of 1920
 import subprocess
 import threading
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from PIL import Image
@@ -16,7 +15,7 @@ from PIL import Image
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
 from ..recording.summary import collapse_time
-from . import camera, copies
+from . import camera
 from .caption import Caption, Strip
 from .key_times import first_shown, last_change
 from .provenance import parts
@@ -65,7 +64,7 @@ def write(path, runs, view="space", form=Format(), begin=None, end=None):
     times = picture_times(runs, form, begin, end)
     with written_whole(path) as part:
         write_film = _write_mp4 if path.suffix.lower() == ".mp4" else _write_webp
-        write_film(part, partial(images, runs, view, form, times), form, len(times))
+        write_film(part, map(Pictures(runs, view, form).at, times), form, len(times))
     return len(times)
 
 
@@ -80,11 +79,6 @@ def picture_times(runs, form, begin, end):
         raise RunError(f"a film of more than {LONGEST} pictures: choose a shorter time, a higher speed or fewer"
                        " pictures per second")
     return times[:-1]
-
-
-def images(runs, view, form, times):
-    """Images (of Pillow) at times [s], one after the other; each may reuse the memory of the one before."""
-    yield from map(Pictures(runs, view, form).at, times)
 
 
 class Pictures:
@@ -105,7 +99,7 @@ class Pictures:
         self.captions = [Caption(run, size) for run in runs]
 
     def at(self, time):
-        """Image (of Pillow) at a time [s]."""
+        """Image (of Pillow) at a time [s]; it reuses the memory of the one before."""
         for number, (stage, caption) in enumerate(zip(self.stages, self.captions)):
             part = stage.picture(min(time, stage.frames.time[-1]))
             caption.on(part, time)
@@ -121,7 +115,7 @@ def corners(run, frame=None):
     return np.concatenate([bodies[k] for k in run.shown])
 
 
-def _write_mp4(path, make, form, _count):
+def _write_mp4(path, images, form, _count):
     """Pass the images to ffmpeg, which encodes them in another process; the last one is repeated."""
     source = ("-f", "rawvideo", "-pix_fmt", "rgb0", "-s", f"{form.width}x{form.height}", "-r", f"{form.rate:g}", "-i",
               "-")
@@ -136,7 +130,7 @@ def _write_mp4(path, make, form, _count):
     listener = threading.Thread(target=lambda: said.append(process.stderr.read()))
     listener.start()
     try:
-        for image in make():
+        for image in images:
             process.stdin.write(image.tobytes("raw", "RGBX"))
         for _ in range(round(HOLD * form.rate)):
             process.stdin.write(image.tobytes("raw", "RGBX"))
@@ -154,12 +148,10 @@ def _write_mp4(path, make, form, _count):
         raise RunError(f"ffmpeg: {words or f'exit status {status}'}")
 
 
-def _write_webp(path, make, form, count):
-    """Encode the images by Pillow, while a copy of this process draws the next."""
+def _write_webp(path, images, form, count):
     durations = [round(1000 / form.rate)] * (count - 1) + [round(1000 * (HOLD + 1 / form.rate))]
     try:
-        with copies.ahead(make) as images:
-            Reel(images, count).save(path, "webp", save_all=True, duration=durations, quality=form.quality, **WEBP)
+        Reel(images, count).save(path, "webp", save_all=True, duration=durations, quality=form.quality, **WEBP)
     except (KeyError, ValueError) as problem:  # Pillow without WebP; a size that WebP does not have
         raise RunError(f"Pillow cannot write this film as WebP ({problem})") from None
 

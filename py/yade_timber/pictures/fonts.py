@@ -40,7 +40,6 @@ def letters(family):
 
 @default_style()
 def file(family, bold=False):
-    """Path of a font file."""
     return font_manager.findfont(font_manager.FontProperties(family=family, weight="bold" if bold else "normal"))
 
 

@@ -18,6 +18,8 @@ ONSET = 0.1
 """Ground acceleration at which the shaking begins. [m/s2]"""
 AT_REST = 1e-3
 """Before the shaking a house with smaller storey drifts is at rest. [-]"""
+STRONGEST, FIRST_DAMAGE = "strongest shaking", "first damage"
+"""Captions."""
 LEAD = 1.0
 """Time shown before the shaking. [s]"""
 
@@ -79,19 +81,20 @@ def named(frames):
         if time is not None:
             yield time, reason
     if frames.motion:
-        yield strongest_shaking(frames), "strongest shaking"
+        yield strongest_shaking(frames), STRONGEST
     for kind in ("structure_fallen", "snow_fallen"):
         yield from [(event.time_s, short(event)) for event in (summary.events if summary else ())
                     if event.kind == kind][:1]
     if frames.breaks is not None and len(frames.breaks["time"]):
-        yield frames.breaks["time"][0], "first damage"
-    if frames.history and frames.history.samples and not summary.collapsed:
-        yield largest_drift(frames), "largest drift"
+        yield frames.breaks["time"][0], FIRST_DAMAGE
+    if frames.history and frames.history.samples and not (summary and summary.collapsed):
+        yield frames.history.time[np.argmax(frames.history.largest_drift())], "largest drift"
 
 
 def onset(motion):
     """Time at which the shaking begins [s]; the motion's start when it stays below ONSET."""
-    return float(motion.time[np.argmax(np.abs(motion.acceleration).max(1) >= ONSET)])
+    found = motion.first(ONSET)
+    return float(motion.start) if found is None else found
 
 
 def strongest_shaking(frames):
@@ -100,11 +103,6 @@ def strongest_shaking(frames):
     within = (motion.time >= frames.time[0]) & (motion.time <= frames.time[-1])
     strength = np.where(within, np.hypot(*motion.acceleration[:, :2].T), -1)
     return motion.time[np.argmax(strength)]
-
-
-def largest_drift(frames):
-    """Time of the largest storey drift. [s]"""
-    return frames.history.time[np.argmax(frames.history.largest_drift())]
 
 
 def first_shown(frames):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheathed walls in the front and side views: whole, partly broken, broken."""
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from matplotlib.patches import Polygon
@@ -24,13 +24,30 @@ NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken
 
 @dataclass
 class Panel:
-    """The wall of a bay. corners (4, 3) world [m]; storey: from 1; sides: as 'north'; state: a key of STYLES."""
+    """The wall of a bay.
+
+    corners  (4, 3) world, the ends of the axes of the bay's columns [m]
+    storey   from 1
+    sides    as 'north'
+    name     of the joint of a sheet
+    broken   of the joints of all its sheets
+    """
 
     corners: np.ndarray
     storey: int
     sides: tuple
-    state: str
-    opening: str = ""
+    name: str
+    broken: list = field(default_factory=list)
+
+    @property
+    def state(self):
+        """A key of STYLES."""
+        return state(self.broken)
+
+    @property
+    def opening(self):
+        """A key of OPENINGS, or ''."""
+        return next((name for name in OPENINGS if f".{name}." in self.name), "")
 
     def opening_corners(self):
         """(4, 3) corners of its opening. [m]"""
@@ -41,62 +58,35 @@ class Panel:
                          for u, v in at])
 
 
-@dataclass
-class Sheet:
-    """One sheet. ends: ((3,) foot, (3,) head) of both columns' axes [m]; name: of its joint; broken: of its joints."""
-
-    bay: tuple
-    ends: list
-    sides: tuple
-    name: str
-    storey: int
-    broken: list
-
-
 def panels(frames, frame):
-    """Panels of all walls in a frame; their corners are the ends of the axes of the bays' columns."""
-    joints, broken = frames.joints, frames.joint_states(frame) != "whole"
-    sheets = []
+    """Panels of all walls in a frame."""
+    joints, broken, bays = frames.joints, frames.joint_states(frame) != "whole", {}
     for halves in wall_sheets(joints):
         k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)
         bay = joints.a[k], joints.b[k]
-        ends = [axis_ends(frames.corners_at_start(column), frames.corners(frame, column)) for column in bay]
-        storey = int(frames.elements.storey[joints.a[k]])
-        sheets.append(Sheet(bay, ends, tuple(joints.side[k].split("+")), joints.name[k], storey, list(broken[halves])))
-    return of_sheets(sheets)
+        corners = bay_corners((frames.corners_at_start(column), frames.corners(frame, column)) for column in bay)
+        panel = Panel(corners, int(frames.elements.storey[bay[0]]), tuple(joints.side[k].split("+")), joints.name[k])
+        bays.setdefault(bay, panel).broken += list(broken[halves])
+    return list(bays.values())
 
 
 def panels_as_built(model):
     """Panels of all walls of a HouseModel."""
-    sheets = []
+    bays = {}
     for joint in model.joints:
         if joint.kind == WALL_COLUMN:
-            ends = [axis_ends(vertices, vertices)
-                    for vertices in (model.element(name).vertices for name in (joint.a, joint.b))]
-            sheets.append(Sheet((joint.a, joint.b), ends, tuple(joint.side), joint.name, model.element(joint.a).storey,
-                                [joint.broken]))
-    return of_sheets(sheets)
+            columns = model.element(joint.a), model.element(joint.b)
+            corners = bay_corners((column.vertices, column.vertices) for column in columns)
+            panel = Panel(corners, columns[0].storey, tuple(joint.side), joint.name)
+            bays.setdefault((joint.a, joint.b), panel).broken.append(joint.broken)
+    return list(bays.values())
 
 
-def of_sheets(sheets):
-    """One Panel for each bay, of all its sheets."""
-    bays = {}
-    for sheet in sheets:
-        bays.setdefault(sheet.bay, []).append(sheet)
-    walls = []
-    for layers in bays.values():
-        (foot, head), (other_foot, other_head) = layers[0].ends
-        broken = [half for sheet in layers for half in sheet.broken]
-        opening = next((name for name in OPENINGS if f".{name}." in layers[0].name), "")
-        corners = np.array([foot, other_foot, other_head, head])
-        walls.append(Panel(corners, layers[0].storey, layers[0].sides, state(broken), opening))
-    return walls
-
-
-def axis_ends(start, corners):
-    """((3,) foot, (3,) head) of a column's axis. start, corners: (n, 3) before the first step and now [m]."""
-    height = start[:, 2]
-    return corners[height < height.mean()].mean(0), corners[height > height.mean()].mean(0)
+def bay_corners(columns):
+    """(4, 3) ends of the axes of a bay's columns. columns: of each, corners (n, 3) before the first step and now [m]"""
+    (foot, head), (other_foot, other_head) = ((now[z < z.mean()].mean(0), now[z > z.mean()].mean(0))
+                                              for z, now in ((start[:, 2], now) for start, now in columns))
+    return np.array([foot, other_foot, other_head, head])
 
 
 def draw_panels(ax, view, shown):

@@ -24,7 +24,8 @@ from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaki
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
-from .key_times import first_shown, largest_drift, onset, strongest_shaking
+from ..text.english import one_line
+from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
 
@@ -33,8 +34,6 @@ POSITION_STEP = 0.5e-3
 """Of positions of elements. [m]"""
 ORIENTATION_STEP = 1 / 32767
 """Of the components of quaternions. [-]"""
-LONGEST_TEXT = 400
-"""Letters of a name, title or event that are shown."""
 
 
 def make(runs, path):
@@ -67,10 +66,8 @@ def digest(text):
 
 
 def plain(text):
-    """A text from data on one line, of at most LONGEST_TEXT letters, that UTF-8 can hold."""
-    text = " ".join(str(text)[: 4 * LONGEST_TEXT].split())
-    text = text if len(text) <= LONGEST_TEXT else text[: LONGEST_TEXT - 1] + "…"
-    return text.encode("utf-8", "replace").decode()
+    """A text from data on one line that UTF-8 can hold."""
+    return one_line(text).encode("utf-8", "replace").decode()
 
 
 def packed(source, run):
@@ -94,7 +91,8 @@ def info(run, largest):
         "title": plain(run.title),
         "result": (plain(english.sentence(run.summary)) if run.summary
                    else f"Not ended yet: the first {run.time[-1]:.1f} s"),
-        "japanese": japanese_texts(run) if isinstance(run.summary, Summary) else None,
+        "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
+                      "origin": plain(provenance(run, japanese))} if isinstance(run.summary, Summary) else None),
         "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
                       **uplift(largest, name)}
@@ -116,13 +114,6 @@ def info(run, largest):
         "main": main_event(run),
         "collapse": collapse_time(run.summary),
     }
-
-
-def japanese_texts(run):
-    """Title, result and origin of an ended run in Japanese."""
-    texts = {"title": japanese.title(run.summary), "result": japanese.result(run.summary),
-             "origin": provenance(run, japanese)}
-    return {name: plain(text) for name, text in texts.items()}
 
 
 def forces(largest, joint):
@@ -156,11 +147,7 @@ def breaks(run):
 
 def main_event(run):
     """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
-    times_of_fall = [run.summary.collapse_time_s, run.summary.tilt_time_s] if run.summary else []
-    falls = [event.time_s for kind in ("structure_fallen", "snow_fallen") for event in recorded(run)
-             if event.kind == kind]
-    largest = [float(largest_drift(run))] if drifts(run) else []
-    return next((time for time in (*times_of_fall, *falls, *largest) if time is not None), None)
+    return next((float(time) for time, reason in named(run) if reason not in (STRONGEST, FIRST_DAMAGE)), None)
 
 
 def kinds(present):
@@ -169,15 +156,10 @@ def kinds(present):
     return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
 
 
-def recorded(run):
-    """Events of a run that has ended."""
-    return run.summary.events if run.summary else []
-
-
 def events(run):
     """[{time [s], text, japanese}] of the events within the run, in the order of time."""
-    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded(run))
-             if 0 <= event.time_s <= run.time[-1]]
+    recorded = run.summary.events if run.summary else []
+    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded) if 0 <= event.time_s <= run.time[-1]]
     shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
     return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
             for event in shown]
@@ -206,14 +188,8 @@ def passed_levels(run):
 
 def arrays(run):
     """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
-    return {**shapes(run.elements), **joints(run.joints), **series(run), **curves(run)}
-
-
-def shapes(elements):
-    faces = [face for body in elements.faces for face in body]
-    return {"vertices": (np.concatenate(elements.vertices), 1e-4),
-            "vertex_start": (frames.starts(elements.vertices), 1), "faces": (np.concatenate(faces), 1),
-            "face_start": (frames.starts(faces), 1), "element_start": (frames.starts(elements.faces), 1)}
+    shapes = {name: (values, 1e-4 if name == "vertices" else 1) for name, values in frames.shapes(run.elements).items()}
+    return {**shapes, **joints(run.joints), **series(run), **curves(run)}
 
 
 def joints(table):

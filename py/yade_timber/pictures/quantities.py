@@ -125,7 +125,6 @@ def draw_accelerations(axis, results):
 
 
 def draw_joints(axis, results):
-    """The joints with the largest utilisation."""
     rows = results.joints[:SHOWN_JOINTS]
     fills = [STATES.get(row["state"], colors.GREY) for row in rows]
     axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=fills, height=0.7, alpha=0.5)
@@ -179,7 +178,6 @@ def draw_modes(axis, results):
 
 
 def draw_energy(axis, results):
-    """Dissipated energy by its cause."""
     energy = results.summary.energy
     terms = [term for term in DISSIPATED if energy.dissipated[term.name]]
     values = [energy.dissipated[term.name] / 1e3 for term in terms]

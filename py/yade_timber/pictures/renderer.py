@@ -31,21 +31,12 @@ def once_per_thread(make):
     return kept
 
 
-_started = []
-
-
-def used():
-    """Whether this process has an OpenGL context: its threads would be missing in a copy of the process."""
-    return bool(_started)
-
-
 @once_per_thread
 def context():
     """The OpenGL context of this thread. Raises RunError when there is none."""
     try:
         import moderngl
 
-        _started.append(True)
         return moderngl.create_context(standalone=True, backend="egl", require=330)
     except Exception as problem:  # moderngl raises Exception itself
         raise RunError(f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}):"

@@ -16,12 +16,12 @@ from ..base.errors import RunError
 from ..base.gravity import weight_of
 from ..base.html import html
 from ..base.options import words
-from ..motion import jma_intensity, pga, pgv
+from ..motion import GroundMotion, jma_intensity, pga, pgv
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.failures import first_failures
 from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
-from ..text.lines import lines
+from ..text.lines import before, lines
 from . import REPORT, fonts, quantities, report_pictures
 from .panels import panels
 from .style import default_style
@@ -73,7 +73,7 @@ def page(frames, results):
         plans=picture(report_pictures.plans(frames, failures)),
         motion=motion(frames, summary),
         spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
-        until=before(summary.quantities.until_s),
+        until=before(summary.quantities),
         storeys=storeys(summary),
         shots=picture(*report_pictures.shots(frames)),
         lines=lines(summary),
@@ -117,11 +117,6 @@ def house(frames, summary, failures):
     return f"{legend}. {numbers}. {weight(summary.weight)}{natural} {index}"
 
 
-def before(time):
-    """', before 4.28 s', or nothing without a time."""
-    return "" if time is None else f", before {time:.2f} s"
-
-
 def storeys(summary):
     """Rows of the table of the storeys: weight above and shear."""
     return [
@@ -143,7 +138,7 @@ def motion(frames, summary):
     """Record, peaks and intensity of the ground motion; None without an earthquake."""
     if frames.motion is None:
         return None
-    applied = report_pictures.ground_motion(frames)
+    applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
     peaks = ", ".join(f"{name} {pga(applied, key):.0f}"
                       for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
     has_intensity = applied.duration >= 0.3 and applied.acceleration.any()
@@ -153,7 +148,6 @@ def motion(frames, summary):
 
 
 def joints(results):
-    """Rows of the table of the joints most loaded."""
     units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
     return [{"joint": joint_name(row["joint"]), "state": row["state"],
              "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
@@ -162,23 +156,21 @@ def joints(results):
 
 def failed_joints(frames, results, failures):
     """Rows of the table of the first failures of a house that has collapsed."""
-    by_name = {row["joint"]: row for row in results.joints}
-    return [failed_joint(failure, frames.joints, by_name) for failure in failures]
-
-
-def failed_joint(failure, joint, by_name):
-    """Row of a Failure. joint: Joints of the frames; by_name: {joint: row of joints.csv}"""
-    number = failure.joint
-    row, storey = by_name[joint.name[number]], joint.storey[number]
-    return {
-        "time": f"{failure.time:.2f}",
-        "joint": joint_name(row["joint"]),
-        "place": f"{joint.kind[number].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
-                 f" {joint.side[number].replace('+', ', ')}",
-        "cause": failure.cause,
-        "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
-        "forces": [f"{float(row[column]) / 1e3:.1f}" for column in ("pull [N]", "shear [N]", "strength [N]")],
-    }
+    by_name, joint = {row["joint"]: row for row in results.joints}, frames.joints
+    rows = []
+    for failure in failures:
+        number = failure.joint
+        row, storey = by_name[joint.name[number]], joint.storey[number]
+        rows.append({
+            "time": f"{failure.time:.2f}",
+            "joint": joint_name(row["joint"]),
+            "place": f"{joint.kind[number].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
+                     f" {joint.side[number].replace('+', ', ')}",
+            "cause": failure.cause,
+            "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
+            "forces": [f"{float(row[column]) / 1e3:.1f}" for column in ("pull [N]", "shear [N]", "strength [N]")],
+        })
+    return rows
 
 
 def others(frames, results):
@@ -205,7 +197,6 @@ def joint_name(name):
 
 
 def caveats(summary):
-    """Limits of the model that matter for this run."""
     per_area = summary.weight.per_floor_area_kn_m2
     light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
              " load weigh 2.5 to 3 kN per m².")

@@ -5,7 +5,7 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.transforms import Bbox
 
 from ..base import colors
-from ..motion import GAL, GroundMotion, response_spectrum
+from ..motion import GAL, response_spectrum
 from ..recording.history import DIRECTIONS
 from ..text.english import direction_name
 from .figures import heading_height, new_figure
@@ -90,11 +90,6 @@ def wedge(corners):
     along = (head - foot) / max(np.linalg.norm(head - foot), 1e-9)
     aside = 0.11 * np.array([-along[1], along[0]])
     return Polygon([foot, head + aside, head - aside], closed=True, facecolor=colors.BLUE, edgecolor="none", zorder=2)
-
-
-def ground_motion(frames):
-    """GroundMotion of the run as applied, from its recorded motion."""
-    return GroundMotion(frames.motion.dt, np.asarray(frames.motion.acceleration))
 
 
 @default_style()

@@ -2,15 +2,18 @@
 """Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
 
+from ..base import colors
+from ..base.joint_kinds import WALL_KINDS
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
                       new_figure)
+from .panels import panels
 from .provenance import provenance
 from .raster import Window, even_density, front_of
-from .snapshot import snapshot, solids
 from .style import default_style
-from .views import VIEWS, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar, silhouette
+from .views import (VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar,
+                    silhouette)
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,6 @@ def result(frames):
 
 @default_style()
 def both_views(frames, frame, dpi):
-    """Figure with the two views of a frame."""
     start = solids(frames)
     shot = snapshot(frames, frame)
     boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
@@ -147,3 +149,24 @@ def both_views(frames, frame, dpi):
     legend(figure, start, shot.states, 10)
     footer(figure, provenance(frames))
     return figure
+
+
+# --- recorded frames as plain data ------------------------------------------------------------------------------------
+
+
+def snapshot(frames, frame):
+    return Snapshot(solids(frames, frame), marks(frames, frame), panels(frames, frame))
+
+
+def solids(frames, frame=None):
+    """Solid of every element in a frame, or (None) before the first step."""
+    e = frames.elements
+    parts = zip(e.kind, frames.all_corners(frame), e.faces)
+    return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
+
+
+def marks(frames, frame):
+    """Mark of every broken or partly broken joint in a frame, without those of walls, which are panels."""
+    positions, kinds = frames.joint_places(frame), frames.joints.kind
+    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame))
+            if state != "whole" and kinds[j] not in WALL_KINDS]

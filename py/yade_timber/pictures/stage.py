@@ -61,7 +61,8 @@ class Stage:
         vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
         vertices = np.where(np.isfinite(vertices), vertices, 0.0)
         self.bodies.put(vertices)
-        self._prepare(ground_at(self.frames.motion, time), self._shadow_bounds(vertices))
+        places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])  # of the shadows on the ground
+        self._prepare(ground_at(self.frames.motion, time), np.concatenate([places.min(0), places.max(0)]))
         self._draw_shadow()
         self.canvas.begin(HORIZON)
         self.bodies.render_faces()
@@ -88,13 +89,8 @@ class Stage:
         self.bodies.shadow.render()
         self.depth.use(0)
 
-    def _shadow_bounds(self, vertices):
-        """(4,) west, south, east and north end of the shadows on the ground [m]. vertices: (V, 3) of all bodies"""
-        places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])
-        return np.concatenate([places.min(0), places.max(0)])
-
     def _prepare(self, moved, shadows):
-        """Set the shaders for a displacement of the ground (3,) [m]. shadows: from `_shadow_bounds`"""
+        """Set the shaders for a displacement of the ground (3,) [m]. shadows: their west, south, east, north end [m]"""
         view, shift = self.camera, np.eye(4)
         shift[:3, 3] = moved
         ahead = view.target - view.eye

@@ -128,7 +128,6 @@ def silhouette(start, view):
 
 
 def draw_silhouette(ax, outlines, mark_size=MARK_SIZE):
-    """Dashed outlines of a silhouette."""
     for line in outlines:
         ax.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
 

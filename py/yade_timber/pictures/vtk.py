@@ -15,7 +15,7 @@ import numpy as np
 
 from ..base.errors import RunError
 from ..base.atomic_write import make_folder, write_text, written_from_memory
-from ..recording.frames import rotated
+from ..recording.frames import rotated, starts
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -32,10 +32,9 @@ def export(folder, frames, every=1):
     """Write the time series: every `every`-th frame and the last one, all contacts. Returns the .pvd files. OSError."""
     make_folder(folder)
     last = len(frames.time) - 1
-    chosen = sorted({*range(0, last + 1, every), last})
-    series = {"elements": (Elements(frames), [(frames.time[k], k) for k in chosen]),
-              "joints": (Joints(frames), [(frames.time[k], k) for k in chosen]),
-              "contacts": (Contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
+    chosen = [(frames.time[k], k) for k in sorted({*range(0, last + 1, every), last})]
+    series = {"elements": (elements(frames), chosen), "joints": (joints(frames), chosen),
+              "contacts": (contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
     return [write_series(folder, name, make, numbers) for name, (make, numbers) in series.items()]
 
 
@@ -46,125 +45,106 @@ def write_series(folder, name, make, numbers):
     collection = ElementTree.SubElement(root, "Collection")
     for index, (time, number) in enumerate(numbers):
         file = f"{name}/{name}_{index:04d}.vtp"
-        write_polydata(folder / file, make(number))
+        with written_from_memory(folder / file) as memory:
+            writer = vtkXMLPolyDataWriter()
+            writer.SetFileName(str(memory))
+            writer.SetInputData(make(number))
+            if not writer.Write():
+                raise OSError(f"{folder / file}: VTK could not write it")
         ElementTree.SubElement(collection, "DataSet", timestep=f"{time:.9g}", part="0", file=file)
     ElementTree.indent(root)
     write_text(folder / f"{name}.pvd", ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n")
     return folder / f"{name}.pvd"
 
 
-def write_polydata(path, data):
-    with written_from_memory(path) as memory:
-        writer = vtkXMLPolyDataWriter()
-        writer.SetFileName(str(memory))
-        writer.SetInputData(data)
-        if not writer.Write():
-            raise OSError(f"{path}: VTK could not write it")
+# --- contents of a file: functions that return a function of its number -----------------------------------------------
 
 
-# --- contents of a file -----------------------------------------------------------------------------------------------
+def elements(frames):
+    """Polygons of all elements in a frame."""
+    e, start = frames.elements, np.concatenate(frames.all_corners())
+    first = starts(e.vertices)
+    owner = np.repeat(np.arange(len(e.name)), [len(faces) for faces in e.faces])
+    names, code = coded(e.kind)
+    data = vtkPolyData()
+    data.SetPolys(cells([np.array(face) + first[k] for k, faces in enumerate(e.faces) for face in faces]))
+    data.GetFieldData().AddArray(names)
+
+    def of_frame(frame):
+        add(data.GetCellData(), element=owner, kind=code[owner], storey=e.storey[owner], fixed=e.fixed[owner])
+        points = np.concatenate(frames.all_corners(frame))
+        return put_points(data, points, displacement=points - start)
+
+    return of_frame
 
 
-class Elements:
-    """Polygons of all elements in a frame; called with its number."""
+def joints(frames):
+    """Both ends of all joints in a frame, and lines between them."""
+    j, e = frames.joints, frames.elements
+    positions = e.position[j.a] + rotated(e.orientation[j.a], j.anchor)
+    anchor_b = rotated(e.orientation[j.b] * (1, -1, -1, -1), positions - e.position[j.b])
+    numbers = np.arange(len(j.name))
+    names, code = coded(j.kind)
+    data = vtkPolyData()
+    data.SetVerts(cells(np.arange(2 * len(numbers)).reshape(-1, 1)))
+    data.SetLines(cells(np.arange(2 * len(numbers)).reshape(2, -1).T))
+    data.GetFieldData().AddArray(names)
 
-    def __init__(self, frames):
-        e = self.elements = frames.elements
-        self.frames = frames
-        self.start = np.concatenate(frames.all_corners())
-        first = np.cumsum([0, *map(len, e.vertices)])
-        self.cells = cells([np.array(face) + first[k] for k, faces in enumerate(e.faces) for face in faces])
-        owner = np.repeat(np.arange(len(e.name)), [len(faces) for faces in e.faces])
-        kinds = list(dict.fromkeys(e.kind))
-        code = np.array([kinds.index(kind) for kind in e.kind])
-        self.of_cells = {"element": owner, "kind": code[owner], "storey": e.storey[owner],
-                         "fixed": e.fixed[owner].astype("u1")}
-        self.names = strings("kind_names", kinds)
-
-    def __call__(self, frame):
-        points = np.concatenate(self.frames.all_corners(frame))
-        data = polydata(points, {"displacement": points - self.start})
-        data.SetPolys(self.cells)
-        for name, values in self.of_cells.items():
-            data.GetCellData().AddArray(array(name, values))
-        data.GetFieldData().AddArray(self.names)
-        return data
-
-
-class Joints:
-    """Both ends of all joints in a frame, and lines between them; called with its number."""
-
-    def __init__(self, frames):
-        self.frames, j, e = frames, frames.joints, frames.elements
-        positions = e.position[j.a] + rotated(e.orientation[j.a], j.anchor)
-        inverse = e.orientation[j.b] * (1, -1, -1, -1)
-        self.anchor_b = rotated(inverse, positions - e.position[j.b])
-        count = len(j.name)
-        self.points = cells(np.arange(2 * count).reshape(-1, 1))
-        self.lines = cells(np.arange(2 * count).reshape(2, -1).T)
-        kinds = list(dict.fromkeys(j.kind))
-        self.kind = np.array([kinds.index(kind) for kind in j.kind], int)
-        self.names = strings("kind_names", kinds)
-
-    def __call__(self, frame):
-        frames, b = self.frames, self.frames.joints.b
-        ends_b = frames.position[frame][b] + rotated(frames.orientation[frame][b], self.anchor_b)
+    def of_frame(frame):
+        ends_b = frames.position[frame][j.b] + rotated(frames.orientation[frame][j.b], anchor_b)
         state = np.array([STATES[name] for name in frames.joint_states(frame)], int)
-        values = {"joint": np.arange(len(state)), "kind": self.kind, "load": frames.load[frame], "state": state}
-        data = polydata(np.concatenate([frames.joint_places(frame), ends_b]),
-                        {name: np.tile(value, 2) for name, value in values.items()})
-        data.SetVerts(self.points)
-        data.SetLines(self.lines)
-        data.GetFieldData().AddArray(self.names)
-        return data
+        values = {"joint": numbers, "kind": code, "load": frames.load[frame], "state": state}
+        return put_points(data, np.concatenate([frames.joint_places(frame), ends_b]),
+                          **{name: np.tile(value, 2) for name, value in values.items()})
+
+    return of_frame
 
 
-class Contacts:
-    """Contact points with their forces; called with the number of the time."""
+def contacts(frames):
+    """Contact points with their forces at a time."""
+    c = frames.contacts
 
-    def __init__(self, frames):
-        self.contacts = frames.contacts
-
-    def __call__(self, number):
-        c = self.contacts
-        data = polydata(c.position[number], {"force": c.force[number], "elements": c.pair[number]})
+    def of_time(number):
+        data = put_points(vtkPolyData(), c.position[number], force=c.force[number], elements=c.pair[number])
         data.SetVerts(cells(np.arange(len(c.position[number])).reshape(-1, 1)))
         return data
+
+    return of_time
 
 
 # --- numpy to VTK -----------------------------------------------------------------------------------------------------
 
 
-def polydata(points, of_points):
-    """vtkPolyData with points (n, 3) and arrays of their values, no cells yet."""
-    data, coordinates = vtkPolyData(), vtkPoints()
+def put_points(data, points, **values):
+    """The vtkPolyData with other points (n, 3) and arrays of their values."""
+    coordinates = vtkPoints()
     coordinates.SetData(numpy_to_vtk(np.ascontiguousarray(points, np.float32), deep=True))
     data.SetPoints(coordinates)
-    for name, values in of_points.items():
-        data.GetPointData().AddArray(array(name, values))
+    add(data.GetPointData(), **values)
     return data
 
 
-def array(name, values):
-    values = np.asarray(values)
-    kind = np.float32 if values.dtype.kind == "f" else np.int32
-    data = numpy_to_vtk(np.ascontiguousarray(values, kind), deep=True)
-    data.SetName(name)
-    return data
+def add(attributes, **arrays):
+    """Add arrays to the data of points or cells, in place of those of the same name."""
+    for name, values in arrays.items():
+        kind = np.float32 if values.dtype.kind == "f" else np.int32
+        data = numpy_to_vtk(np.ascontiguousarray(values, kind), deep=True)
+        data.SetName(name)
+        attributes.AddArray(data)
 
 
 def cells(lists):
     """vtkCellArray of lists of point numbers."""
     data = vtkCellArray()
-    starts, flat = np.cumsum([0, *map(len, lists)]), np.concatenate([np.empty(0, int), *lists])
-    data.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
-                 numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True))
+    arrays = starts(lists), np.concatenate([np.empty(0, int), *lists])
+    data.SetData(*(numpy_to_vtkIdTypeArray(array.astype(np.int64), deep=True) for array in arrays))
     return data
 
 
-def strings(name, values):
-    data = vtkStringArray()
-    data.SetName(name)
-    for value in values:
-        data.InsertNextValue(value)
-    return data
+def coded(kinds):
+    """(vtkStringArray of the kinds that occur, (n,) number of each one there)."""
+    names, data = list(dict.fromkeys(kinds)), vtkStringArray()
+    data.SetName("kind_names")
+    for name in names:
+        data.InsertNextValue(name)
+    return data, np.array([names.index(kind) for kind in kinds], int)

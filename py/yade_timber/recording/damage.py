@@ -52,6 +52,15 @@ class DamageSurvey:
     joints: Joints
     levels: list
 
+    def __post_init__(self):
+        e, j = self.elements, self.joints
+        self.structures = list(dict.fromkeys(level.structure for level in self.levels))
+        """Names of the structures, the main one first."""
+        self._of_walls, self._damaged = of_walls(j), np.asarray(j.damaged, bool)
+        self._columns = np.array([k for k, kind in enumerate(e.kind) if kind == "column"], int)
+        self._upright = _vertical(e.orientation[self._columns])
+        self._loose_at_start = self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
+
     # --- joints -------------------------------------------------------------------------------------------------------
 
     def count_joints(self, chosen=None):
@@ -65,20 +74,14 @@ class DamageSurvey:
         """JointCounts of all joints and wall sheets: the part `joints` of the summary."""
         return replace(self.count_joints(), wall_sheets=len(sheet_states(self.joints, self._of_walls)) or None)
 
-    @cached_property
-    def _of_walls(self):
-        return of_walls(self.joints)
-
     def _broken_joints(self, state):
         """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
-        damaged = np.asarray(self.joints.damaged, bool)
-        broken = ~damaged & (state.broken >= self.joints.springs)
-        return broken, ~damaged & ~broken & (state.broken > 0)
+        broken = ~self._damaged & (state.broken >= self.joints.springs)
+        return broken, ~self._damaged & ~broken & (state.broken > 0)
 
     def count_broken(self, state, springs):
         """The part `broken`. springs: number that broke. A joint of two sides counts for both."""
-        damaged, storey = np.asarray(self.joints.damaged, bool), np.array(self.joints.storey)
-        broken, partly = self._broken_joints(state)
+        (broken, partly), storey = self._broken_joints(state), np.array(self.joints.storey)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
         counted = broken & ~self._of_walls
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
@@ -92,27 +95,14 @@ class DamageSurvey:
             partly_broken=int(partly.sum()),
             wall_sheets_partly=sheets.count("partly") if sheets else None,
             springs=springs,
-            damaged_at_start=self.count_joints(damaged),
+            damaged_at_start=self.count_joints(self._damaged),
         )
-
-    @cached_property
-    def _structure_of_joints(self):
-        """(J,) name of each joint's structure: storeys of the main one are numbered, others are not divided."""
-        return np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
 
     # --- columns ------------------------------------------------------------------------------------------------------
 
-    @cached_property
-    def _columns(self):
-        return np.array([k for k, kind in enumerate(self.elements.kind) if kind == "column"], int)
-
-    @cached_property
-    def _vertical_at_start(self):
-        return _vertical(self.elements.orientation[self._columns])
-
     def fallen_columns(self, state):
         """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
-        return (_vertical(state.orientation[self._columns]) * self._vertical_at_start).sum(1) < math.cos(FALLEN_ANGLE)
+        return (_vertical(state.orientation[self._columns]) * self._upright).sum(1) < math.cos(FALLEN_ANGLE)
 
     def loose_columns(self, state):
         """(C,) bool for each column: no joint of it has a spring left."""
@@ -126,23 +116,12 @@ class DamageSurvey:
         loose = present & ~fallen & self.loose_columns(state)
         return Columns(total=int(present.sum()), fallen=int(fallen.sum()), loose=int(loose.sum()))
 
-    @cached_property
-    def _loose_at_start(self):
-        """(C,) bool for each column: its joints are all broken before the start."""
-        e, j = self.elements, self.joints
-        return self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
-
     def lost_columns(self, state):
         """(C,) bool for each column: it has fallen, or become loose, since the start."""
         present = ~np.isnan(state.position[self._columns, 0])
         return present & (self.fallen_columns(state) | self.loose_columns(state) & ~self._loose_at_start)
 
     # --- structures and snow ------------------------------------------------------------------------------------------
-
-    @cached_property
-    def structures(self):
-        """Names of the structures, the main one first."""
-        return list(dict.fromkeys(level.structure for level in self.levels))
 
     def _moves(self, state, structure):
         """[((3,) mean displacement of a level since the start, height of its storey [m])] from below."""
@@ -169,11 +148,12 @@ class DamageSurvey:
     def by_structure(self, state, peaks):
         """{name: verdict.Structure}, the main one first. peaks: {name: peak drift so far [-]}"""
         broken, partly = self._broken_joints(state)
+        owners = np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
         fallen = self.fallen_structures(state)
         return {name: Structure(peak_drift=peaks[name], residual_drift=self.drift(state, name),
-                                broken=int(broken[self._structure_of_joints == name].sum()),
-                                partly_broken=int(partly[self._structure_of_joints == name].sum()),
+                                broken=int(broken[owners == name].sum()),
+                                partly_broken=int(partly[owners == name].sum()),
                                 columns_lost=int(lost[groups == name].sum()), collapsed=name in fallen)
                 for name in self.structures}
 

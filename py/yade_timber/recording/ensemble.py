@@ -17,7 +17,6 @@ NAMES = (NAME, TABLE)
 
 
 def run_folder(folder, number):
-    """Folder of a run of the ensemble in `folder`."""
     return folder / RUNS / f"{number:03d}"
 
 

@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .frames import Frames
-
 MOST = 8
 """Number of failures."""
 
@@ -21,7 +19,7 @@ class Failure:
     direction: str
 
 
-def first_failures(frames: Frames, most=MOST):
+def first_failures(frames, most=MOST):
     """The joints whose first springs break first, in the order of time. Fewer where fewer break."""
     if frames.breaks is None:
         return []

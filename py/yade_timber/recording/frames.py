@@ -127,6 +127,11 @@ class Motion(_ShortRepr):
     def time(self):
         return self.start + self.dt * np.arange(len(self.acceleration))
 
+    def first(self, acceleration):
+        """Time at which the ground first has an acceleration [m/s2] in any direction, or None. [s]"""
+        reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
+        return float(self.time[reached[0]]) if len(reached) else None
+
 
 @dataclass(repr=False)
 class Frames:
@@ -218,8 +223,12 @@ def placed(vertices, position, orientation):
 def save(path, frames):
     """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
     with written_from_memory(path) as memory, open(memory, "w+b") as stream, h5py.File(stream, "w") as file:
-        _save_attributes(file, frames)
-        _save_elements(file.create_group("elements"), frames.elements)
+        file.attrs.update({"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
+                           "ended": frames.summary is not None})
+        if frames.summary is not None:
+            file.attrs["summary"] = json.dumps(encode(frames.summary))
+        plain = {name: values for name, values in vars(frames.elements).items() if name not in ("vertices", "faces")}
+        _save_group(file.create_group("elements"), plain | shapes(frames.elements))
         _save_group(file.create_group("joints"), vars(frames.joints))
         _save_group(file.create_group("frames"), _series(frames))
         _save_contacts(file.create_group("contacts"), frames.contacts)
@@ -231,14 +240,6 @@ def save(path, frames):
             _save_group(file.create_group("history"), frames.history._asdict())
         if frames.breaks is not None:
             _save_group(file.create_group("breaks"), frames.breaks)
-
-
-def _save_attributes(file, frames):
-    attributes = {"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
-             "ended": frames.summary is not None}
-    if frames.summary is not None:
-        attributes["summary"] = json.dumps(encode(frames.summary))
-    file.attrs.update(attributes)
 
 
 def _save_group(group, values):
@@ -259,14 +260,11 @@ def starts(lists):
     return np.cumsum([0, *map(len, lists)])
 
 
-def _save_elements(group, elements):
-    values = dict(vars(elements))
-    faces = [face for body in values.pop("faces") for face in body]
-    vertices = values.pop("vertices")
-    _save_group(group, values)
-    _save_group(group,
-                {"vertices": np.concatenate(vertices), "vertex_start": starts(vertices), "faces": np.concatenate(faces),
-                 "face_start": starts(faces), "element_start": starts(elements.faces)})
+def shapes(elements):
+    """{'vertices', 'vertex_start', 'faces', 'face_start', 'element_start'}: arrays of Elements as in /elements."""
+    faces = [face for body in elements.faces for face in body]
+    return {"vertices": np.concatenate(elements.vertices), "vertex_start": starts(elements.vertices),
+            "faces": np.concatenate(faces), "face_start": starts(faces), "element_start": starts(elements.faces)}
 
 
 def _save_contacts(group, contacts):
@@ -351,8 +349,8 @@ def _load(file):
                     **series)
     loaded.contacts = _load_contacts(file["contacts"])
     if "motion" in file:
-        loaded.motion = Motion(float(file["motion"].attrs["dt"]), float(file["motion"].attrs["start"]),
-                               **_values(file["motion"]))
+        numbers = {name: float(file["motion"].attrs[name]) for name in ("dt", "start")}
+        loaded.motion = Motion(**numbers, **_values(file["motion"]))
     if file.attrs["ended"]:
         loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summary of a run, the content of summary.json, and of a town. Meaning and units of all keys: docs/results.md."""
 import json
-from dataclasses import replace
 from pathlib import Path
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.input_file import require_regular
-from ..base.json_types import decode, default, encode, optional, others, table
+from ..base.json_types import decode, encode, optional, others, table
 from .events import Event, StructureFallen
 from .verdict import Structure
 
@@ -91,18 +90,6 @@ class Summary(Values):
     def changed(self, **changes):
         """A Summary with other values; tables are merged."""
         return decode(Summary, _merged(encode(self), encode(changes)), "summary")
-
-    @classmethod
-    def sample(cls, **changes):
-        """For tests: House A with these changes. Verdicts follow from them, the main structure from the totals."""
-        blank = replace(default(cls), record=default(Record) if changes.get("record") else None)
-        summary = blank.changed(**{"model": "A", **changes, "structures": {}})
-        main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
-        main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
-                 "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}
-        structures = {"main": main, **changes.get("structures", {})}
-        summary = summary.changed(structures=structures)
-        return summary.changed(verdict=changes.get("verdict", summary.main.verdict))
 
     @property
     def main(self):

@@ -13,7 +13,7 @@ from .. import host
 from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
 from ..plugin import compiled
-from ..recording import frames, own_weight
+from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
 from ..recording.summary import ModesAt
@@ -24,6 +24,8 @@ from .modal import modes_now
 
 SETTLED = 1.0
 """Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
+HARMFUL = 0.5
+"""Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
 BREAKS = ("time", "joint", "spring", "cause", "force")
 """Attributes of a JointBreak, columns of frames.h5's /breaks."""
 O = yw.Omega()
@@ -143,7 +145,8 @@ class Observer:
         self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
-        self.shaking = own_weight.start_of_shaking(describe_motion())
+        motion = describe_motion()
+        self.shaking = motion and motion.first(HARMFUL)
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `progress`."""

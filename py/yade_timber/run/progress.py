@@ -13,7 +13,7 @@ from ..text import english
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 """Shortest wall time between two states of the bar, on a terminal and in a log file. [s]"""
-tqdm.monitor_interval = 0  # no thread that refreshes bars: a process with one thread can be copied (pictures/copies.py)
+tqdm.monitor_interval = 0  # no thread that refreshes bars
 
 
 class Status:

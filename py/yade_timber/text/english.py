@@ -9,6 +9,8 @@ CONVERGED = 1e-6
 """Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
+LONGEST_TEXT = 400
+"""Letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels."""
 ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
           "step": "time step"}
 """Words of pictures/provenance.py."""
@@ -124,21 +126,18 @@ def residual(summary):
 
 
 def structures(summary):
-    """Verdicts on the structures other than the main one, unless they are undamaged."""
-    return ", ".join(structure(name, facts, summary) for name, facts in summary.others
-                     if facts.verdict != verdict.UNDAMAGED)
-
-
-def structure(name, facts, summary):
-    """Verdict on a structure other than the main one: 'entrance collapsed at 21.3 s'. facts: verdict.Structure"""
-    if facts.collapsed:
-        return f"{name} {facts.verdict}{at(summary.fall_time(name))}"
-    lean = " and leans" if facts.leans else ""
-    return f"{name} {facts.verdict}{lean} (peak drift {ratio(facts.peak_drift)})"
+    """Verdicts on the structures other than the main one, unless undamaged: 'entrance collapsed at 21.3 s'."""
+    parts = []
+    for name, facts in summary.others:
+        if facts.collapsed:
+            parts.append(f"{name} {facts.verdict}{at(summary.fall_time(name))}")
+        elif facts.verdict != verdict.UNDAMAGED:
+            lean = " and leans" if facts.leans else ""
+            parts.append(f"{name} {facts.verdict}{lean} (peak drift {ratio(facts.peak_drift)})")
+    return ", ".join(parts)
 
 
 def joints(summary):
-    """Broken and partly broken joints and wall sheets."""
     partly = f", {summary.partly_broken} partly" if summary.partly_broken else ""
     before = summary.broken.damaged_at_start.total
     return broken_of(*summary.joints_and_sheets) + partly + (f" ({before} more from the start)" if before else "")
@@ -284,3 +283,9 @@ def joint_place(kind, storey, side):
 def period_text(mode):
     """'0.31 s', or 'unstable'."""
     return "unstable" if mode.period_s is None else f"{mode.period_s:.2f} s"
+
+
+def one_line(text, most=LONGEST_TEXT):
+    """A text from data on one line, cut to a number of letters."""
+    line = " ".join(str(text)[: 4 * most].split())
+    return line if len(line) <= most else line[: most - 1] + "…"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Summaries and events in Japanese, for the player. Numbers and names are the same as in English."""
+"""Summaries and events in Japanese, for the player. Functions, numbers and names are the same as in English."""
 from ..recording.verdict import COLLAPSED, DAMAGE, UNDAMAGED, passed
 from .english import SMALL, ratio
 
@@ -38,14 +38,12 @@ def outcome(summary):
 
 
 def moving(summary):
-    """Amplitude of the motion that remains; empty at rest."""
     amplitude, _, direction = summary.largest_drift("final_amplitude")
     return (f"なお ±{below(amplitude)}（{direction_name(direction)}）で揺れている"
             if summary.still_moving and not summary.collapsed else "")
 
 
 def structures(summary):
-    """Verdicts on the structures other than the main one, unless they are undamaged."""
     for name, facts in summary.others:
         time = summary.fall_time(name)
         if facts.verdict == COLLAPSED:
@@ -55,7 +53,6 @@ def structures(summary):
 
 
 def joints(summary):
-    """Broken and partly broken joints and wall sheets."""
     (broken, total), (torn, sheets) = summary.joints_and_sheets
     walls = f"、壁面 {sheets} 面のうち {torn} 面" if sheets else ""
     partly, before = summary.partly_broken, summary.broken.damaged_at_start.total
@@ -64,7 +61,6 @@ def joints(summary):
 
 
 def columns(summary):
-    """Fallen and loose columns, and the time of the first loss; empty without."""
     counts, first = summary.columns, summary.first_time("columns_lost")
     lost = [f"{number} 本が{text}" for number, text in ((counts.fallen, "倒れた"), (counts.loose, "外れた")) if number]
     since = "" if first is None else f"（{first:.1f} 秒から）"
@@ -72,13 +68,11 @@ def columns(summary):
 
 
 def snow(summary):
-    """Time from which snow has fallen from the roofs; empty without."""
     first = summary.first_time("snow_fallen") if summary.snow else None
     return "" if first is None else f"雪は {first:.1f} 秒から落下"
 
 
 def early(summary):
-    """Remark on a run that ends before the strong shaking; empty for others."""
     onset = summary.missed_onset
     return "" if onset is None else f"強い揺れ（{onset:.1f} 秒）の前で計算を終了"
 
@@ -101,7 +95,6 @@ def place_in_ensemble(place):
 
 
 def event(one):
-    """Clause on an Event; of a town with its lot."""
     text = PHRASES[one.kind](one.facts)
     return text if one.lot is None else f"{one.lot}：{text}"
 

@@ -60,8 +60,12 @@ def forces(quantities):
     sustained, peak = quantities.base_shear.sustained, quantities.base_shear.peak
     shears = ", ".join(f"{direction_name(axis)} {force / 1e3:.0f} kN ({force / weight:.2f} of the weight)"
                        for axis, force in sustained.items())
-    before = "" if quantities.until_s is None else f" before {quantities.until_s:.2f} s"
-    return f"Largest base shear{before}, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
+    return f"Largest base shear{before(quantities)}, mean over 0.1 s: {shears}; peak {max(peak.values()) / 1e3:.0f} kN."
+
+
+def before(quantities):
+    """' before 4.28 s' of a house that has collapsed, else empty."""
+    return "" if quantities.until_s is None else f" before {quantities.until_s:.2f} s"
 
 
 def accelerations(quantities):

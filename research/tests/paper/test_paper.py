@@ -11,9 +11,9 @@ import os
 from pathlib import Path
 
 import pytest
+from summaries import sample_summary
 from timber_research import SCRIPTS, claims
 from yade_timber.base.json_types import encode
-from yade_timber.recording.summary import Summary
 from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task, run_missing
 
@@ -36,7 +36,7 @@ def runs():
 
 @pytest.fixture(scope="module")
 def golden(runs):
-    return {name: Summary.sample(**run) for name, run in json.loads(GOLDEN.read_text())["runs"].items()}
+    return {name: sample_summary(**run) for name, run in json.loads(GOLDEN.read_text())["runs"].items()}
 
 
 def write(found):

@@ -9,8 +9,8 @@ import runpy
 from pathlib import Path
 
 import pytest
+from summaries import sample_summary
 from timber_research import claims, comparison, report
-from yade_timber.recording.summary import Summary
 from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task
 
@@ -20,7 +20,7 @@ def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0
     drift = {"ns": sway_ns, "ew": sway_ew}
     place = {"1": {"west": {"total": sum(west), "column_beam": west[0], "brace_beam": west[1]}}}
     sides = dict.fromkeys(("north", "south", "east", "west"), 0)
-    return Summary.sample(
+    return sample_summary(
         model=model, snow=snow, record={"onset_s": 18.5}, peak_drift={"storey1": drift, "storey2": drift},
         residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}},
         broken={"springs": springs, "total": springs // 4, "by_place": place, "by_side": sides},

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from summaries import sample_summary
 import yaml
 from timber_research import design
 from timber_research.claims import CLAIMS, RUNS
@@ -16,7 +17,6 @@ from timber_research.screening.effects import EMPTY, INTERACTION, MAIN, Effect, 
 from timber_research.screening.responses import COUNT as NUMBER
 from timber_research.screening.responses import LOG, RESPONSES, SHARE
 from yade_timber.house import build_house, load_house
-from yade_timber.recording.summary import Summary
 from yade_timber.run.options import RunOptions
 from yade_timber.study.batch import read_table
 from yade_timber.study.batch.tasks import task_of
@@ -131,7 +131,7 @@ def summary(ns=0.02, ew=0.01, lean=0.01, springs=0, collapsed=False, west=(0, 0)
     """A Summary with the entries that responses use."""
     places = {side: {"total": sum(west), "column_beam": west[0], "brace_beam": west[1]} for side in ("north", "west")}
     times = {"collapse_time_s": 9.0, "leans_from_s": 5.0, "tilt_time_s": 6.0, "tilt_direction": "ns"} if collapsed else {}
-    return Summary.sample(
+    return sample_summary(
         record={"onset_s": 4.0}, peak_drift={"storey1": {"ns": ns, "ew": ew}, "storey2": {"ns": 0.0, "ew": None}},
         residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean / 2, "ew": 0.0}}, joints={"total": 100},
         broken={"springs": springs, "total": springs // 4, "by_place": {"1": places}}, columns={"total": 90, "fallen": lost},

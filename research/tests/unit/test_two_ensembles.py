@@ -7,14 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy import stats
+from summaries import sample_summary
 from timber_research import SCRIPTS, two_ensembles
-from yade_timber.recording.summary import Summary
 
 
 def summary(verdict="unsafe", drift=0.1, falls=None):
     """What the tests read of a run with a largest drift [-]; falls: collapse time [s]"""
     drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
-    return Summary.sample(
+    return sample_summary(
         verdict=verdict, collapsed=falls is not None, collapse_time_s=falls, peak_drift=drifts, residual_drift=drifts, broken={"springs": 3})
 
 
