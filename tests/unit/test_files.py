@@ -4,10 +4,12 @@
 import os
 import socket
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.base.atomic_write import make_folder, remove, remove_parts, write_text, written_whole
+from yade_timber.base.atomic_write import make_folder, remove, remove_parts, write_text, written_from_memory, written_whole
 from yade_timber.base.errors import RunError
 from yade_timber.base.lock import is_locked, locked
 from yade_timber.base.input_file import require_regular
@@ -58,31 +60,59 @@ def test_a_link_to_nowhere(tmp_path):
 
 
 @pytest.mark.parametrize("link", [False, True])
-def test_only_regular_files_are_written(tmp_path, link):
-    """A device, here a terminal, a pipe, a socket and a folder stay, also behind a link."""
+def test_a_device_stays(tmp_path, link):
+    """A terminal of our own: in its folder no file can be made, so a fault cannot replace it."""
     master, slave = os.openpty()
-    os.mkfifo(tmp_path / "pipe")
-    with socket.socket(socket.AF_UNIX) as server:
-        server.bind(str(tmp_path / "socket"))
-        for path in (Path(os.ttyname(slave)), tmp_path / "pipe", tmp_path / "socket", tmp_path):
-            before, place = path.stat(), tmp_path / "link" if link else path
-            if link:
-                place.symlink_to(path)
-            for change in (lambda: write_text(place, "x"), lambda: remove(place)):
-                with pytest.raises(OSError, match="is a folder" if path == tmp_path else "is no regular file"):
-                    change()
-            assert stat.S_IFMT(path.stat().st_mode) == stat.S_IFMT(before.st_mode) and place.is_symlink() == link
-            if link:
-                place.unlink()
+    device = Path(os.ttyname(slave))
+    if link:
+        (tmp_path / "a.txt").symlink_to(device)
+        device = tmp_path / "a.txt"
+    write_text(device, "x")
+    assert os.read(master, 9) == b"x"
+    remove(device)
+    assert stat.S_ISCHR(device.stat().st_mode) and device.is_symlink() == link
     os.close(master)
     os.close(slave)
-    assert names(tmp_path) == ["pipe", "socket"]
 
 
-def test_a_missing_folder(tmp_path):
-    with pytest.raises(OSError):
-        write_text(tmp_path / "no" / "folder", "x")
-    assert names(tmp_path) == []
+@pytest.mark.parametrize("writer", [written_whole, written_from_memory])
+def test_a_pipe_with_a_reader(tmp_path, writer):
+    """The reader gets the whole content, or nothing when the writer fails."""
+    os.mkfifo(tmp_path / "a.txt")
+    with open(os.open(tmp_path / "a.txt", os.O_RDONLY | os.O_NONBLOCK), "rb") as reader:
+        with writer(tmp_path / "a.txt") as part:
+            part.write_text("whole")
+        assert reader.read() == b"whole"
+        with pytest.raises(ZeroDivisionError), writer(tmp_path / "a.txt") as part:
+            part.write_text("half")
+            1 / 0
+        assert reader.read() == b"" and names(tmp_path) == ["a.txt"]
+
+
+def test_a_pipe_without_a_reader_does_not_wait(tmp_path):
+    os.mkfifo(tmp_path / "a.txt")
+    with pytest.raises(OSError, match="nothing reads"):
+        write_text(tmp_path / "a.txt", "x")
+    assert (tmp_path / "a.txt").is_fifo()
+
+
+def test_what_cannot_be_written(tmp_path):
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(str(tmp_path / "socket"))
+        for path in (tmp_path, tmp_path / "socket", Path("/"), tmp_path / "no" / "folder"):
+            with pytest.raises(OSError):
+                write_text(path, "x")
+    assert names(tmp_path) == ["socket"] and (tmp_path / "socket").is_socket()
+
+
+@pytest.mark.parametrize("path", ["/dev/stdout", "{file}"])
+def test_standard_output(tmp_path, path):
+    """What it holds already, and what follows, stays."""
+    script = f"print('before'); from yade_timber.base.atomic_write import write_text; write_text({path.format(file=tmp_path / 'log')!r}, 'x\\n'); print('after')"
+    with open(tmp_path / "log", "w") as log:
+        subprocess.run([sys.executable, "-c", script], stdout=log, check=True)
+    assert (tmp_path / "log").read_text() == "before\nx\nafter\n"
+    assert subprocess.run([sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")], stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
 
 
 def test_folders_are_made_in_folders_only(tmp_path):

@@ -3,7 +3,6 @@
 import errno
 import os
 import stat
-from os.path import exists, isdir as is_folder, isfile as is_file  # noqa: F401  (no errors, unlike Path.is_file)
 from pathlib import Path
 
 from .errors import RunError
@@ -21,6 +20,28 @@ def shown(value):
     except RecursionError:
         return "a deeply nested value"
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 20]}... ({len(text)} characters)"
+
+
+def is_file(path):
+    """True for a regular file; False for anything else, paths that the system refuses included."""
+    return _is(Path.is_file, path)
+
+
+def is_folder(path):
+    """True for a folder; False for anything else, paths that the system refuses included."""
+    return _is(Path.is_dir, path)
+
+
+def exists(path):
+    """True for anything at that path; False for paths that the system refuses."""
+    return _is(Path.exists, path)
+
+
+def _is(kind, path):
+    try:
+        return kind(Path(path))
+    except (OSError, ValueError):
+        return False
 
 
 def read_bytes(path, limit):
