@@ -32,6 +32,7 @@ endif()
 
 # The uninstalled package: links to the sources beside the built module, so that tests see both as they are now.
 file(GLOB package_entries CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/py/yade_timber/*)
+list(FILTER package_entries EXCLUDE REGEX __pycache__)
 file(MAKE_DIRECTORY ${package_dir})
 foreach(entry IN LISTS package_entries)
   get_filename_component(name ${entry} NAME)
