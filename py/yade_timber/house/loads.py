@@ -62,7 +62,7 @@ def bay_length(low, high):
 
 def storey_height(structure, storey):
     """From the foot of a storey's columns to that of the next storey, or to the roof. [m]"""
-    layer = structure.layer_of_storey(storey)
+    layer = structure.storeys[storey]
     above = structure.layers[structure.layers.index(layer) + 1:]
     top = next((other.z0 for other in above if other.kind in ("columns", "roof")), above[-1].z1 if above else layer.z1)
     return top - layer.z0

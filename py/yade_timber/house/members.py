@@ -4,9 +4,14 @@ import numpy as np
 
 from .errors import HouseError
 from .limits import MAX_LINES
-from .structure import ACROSS, require_few
+from .structure import ACROSS, in_storey, require_few
 
 DIRECTION = {"x": "EW", "y": "NS"}
+
+
+def line_name(along, at):
+    """'EW.y0' of the line along x at y node 0."""
+    return f"{DIRECTION[along]}.{ACROSS[along]}{at:g}"
 
 
 def lay_strips(structure, layer, kind):
@@ -16,7 +21,7 @@ def lay_strips(structure, layer, kind):
     for line in lines:
         for number, (start, end) in enumerate(_pieces(structure, line, lines, table["width"]), 1):
             piece = f".{number}" if line["cut"] else ""
-            name = f"{kind}{layer.storey or ''}.{DIRECTION[line['along']]}.{ACROSS[line['along']]}{line['at']:g}{piece}"
+            name = f"{kind}{layer.storey or ''}.{line_name(line['along'], line['at'])}{piece}"
             elements.append(_strip(structure, layer, kind, name, line, start, end))
     return elements
 
@@ -95,14 +100,12 @@ def lay_columns(structure, layer):
 def column_plan(structure, storey):
     """{(x node, y node): (section [m], file:line)} of one storey; groups given by lines fill only free nodes."""
     plan = {}
-    for i, group in enumerate(structure.table["columns"]):
-        structure.check_storeys(group["storeys"], group.at("storeys"), f"columns[{i + 1}]")
-        if group["storeys"] and storey not in group["storeys"]:
-            continue
+    for group in in_storey(structure.table["columns"], storey):
         for x, y in _group_nodes(structure, group):
             if (x, y) not in plan:
                 plan[x, y] = (group["section"], group.where)
-                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
+                number = structure.table["columns"].index(group) + 1
+                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{number}]")
             elif group["lines"] is None:
                 raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey"
                                  f" {storey} (first in {plan[x, y][1]}); remove one of them")

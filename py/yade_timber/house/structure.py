@@ -41,7 +41,7 @@ class Layer:
 
 
 class Structure:
-    """Grid, position and layers of one structure; makes elements with its name, material and source line."""
+    """Grid, position, layers and {storey: its layer of columns}; makes elements with its name and source line."""
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
@@ -49,6 +49,7 @@ class Structure:
         origin = _origin(table, local, others, name)
         self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
         self.layers = _layers(table["stack"], name)
+        self.storeys = {layer.storey: layer for layer in self.layers if layer.kind == "columns"}
         self.element_count = 0
 
     def area(self, area=None, others=(), beyond=0.0):
@@ -93,19 +94,6 @@ class Structure:
                 raise HouseError(f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to"
                                  f" {self.axes[axis].last}")
 
-    def check_storeys(self, storeys, where, name):
-        """HouseError for a storey that the stack does not have. name: of the list that names it"""
-        for number in storeys:
-            if number not in self.storeys:
-                raise HouseError(f"{where}: {self.name}: {name}: no storey {number}; the stack has {self.storeys}")
-
-    def layer_of_storey(self, storey):
-        return next((layer for layer in self.layers if layer.kind == "columns" and layer.storey == storey), None)
-
-    @property
-    def storeys(self):
-        return [layer.storey for layer in self.layers if layer.kind == "columns"]
-
     def element(self, kind, name, vertices, table, where, **more):
         """Element '<structure>.<name>' of the material of `table`."""
         self.element_count += 1
@@ -125,6 +113,11 @@ class Structure:
         except ValueError as problem:
             raise HouseError(f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its"
                              " dimensions") from None
+
+
+def in_storey(lines, storey):
+    """Those of the tables with a list of storeys that are in a storey; an empty list stands for all."""
+    return [line for line in lines if not line["storeys"] or storey in line["storeys"]]
 
 
 def require_few(count, where, name):
