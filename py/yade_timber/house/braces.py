@@ -21,7 +21,7 @@ def _brace(structure, layer, place, where, plan):
     name = f"brace{layer.storey}.{line_name(along, at)}.{foot:g}-{head:g}"
     ends = _clear_bay(structure, layer.storey, place, where, plan)
     planes = _extruded(brace_planes(ends, (layer.z0, layer.z1), table["width"]), along,
-                       structure.axes[ACROSS[along]](at), table["thickness"])
+                       structure.position(ACROSS[along], at), table["thickness"])
     return structure.element("brace", name, structure.cut(name, planes, where), table, where, storey=layer.storey,
                              side=structure.sides(**{ACROSS[along]: at}), section=(table["width"], table["thickness"]))
 
@@ -38,8 +38,9 @@ def _clear_bay(structure, storey, place, where, plan):
     if foot == head or between:
         reason = f"a column stands between, at node {between[0]:g}" if between else "foot and head are the same column"
         raise HouseError(f"{bay}: {reason}; a brace runs between neighbouring columns")
-    axis, lean = structure.axes[along], np.sign(head - foot)
-    return axis(foot) + lean * on_line[foot] / 2, axis(head) - lean * on_line[head] / 2
+    lean = np.sign(head - foot)
+    return (structure.position(along, foot) + lean * on_line[foot] / 2,
+            structure.position(along, head) - lean * on_line[head] / 2)
 
 
 def brace_planes(ends, levels, width):

@@ -26,7 +26,8 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     """Build a described house. snow_depth [m]; wall_level: of rated walls, None: the file's. Raises HouseError."""
     data = description.data
     level = wall_level or data["law"]["wall_level"]
-    depth = _snow_depth(data, snow_depth)
+    depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
+    require_snow_depth(depth, "snow depth")
     structures = {}
     for name, table in data["structures"].items():
         structures[name] = Structure(name, table, data["materials"], structures)
@@ -72,13 +73,6 @@ def _require_storeys(structures):
     if not main.storeys:
         raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its"
                          " storey drifts are reported; put a structure with columns first")
-
-
-def _snow_depth(data, snow_depth):
-    if snow_depth is None:
-        return data["snow"]["depth"]
-    require_snow_depth(float(snow_depth), "snow depth")
-    return float(snow_depth)
 
 
 def _check_snow(data, elements, depth):
@@ -134,7 +128,7 @@ def _model(description, elements, joints, structures, depth):
     data = description.data
     levels = {s.name: {storey: (layer.z0, layer.z1) for storey, layer in s.storeys.items()}
               for s in structures.values()}
-    grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
+    grids = {s.name: s.grid for s in structures.values()}
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,

@@ -17,6 +17,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import Polyhedron, box
+from .structure import ACROSS, ENDS
 
 SEAT = 0.05
 """Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
@@ -112,7 +113,7 @@ def pitched_plan(structure, layer):
     size, cut = high - low, table.get("corner_cut", 0.0)
     if table["type"] == "gable":
         ridge = table["ridge"] or ("x" if size[0] > size[1] else "y")
-        sides = ("south", "north") if ridge == "x" else ("west", "east")
+        sides = ENDS[ACROSS[ridge]]
     else:
         sides = (table["falls"],) if table["type"] == "mono" else tuple(OUTWARD)
     run = min(np.abs(OUTWARD[side]) @ size for side in sides) / min(len(sides), 2)
