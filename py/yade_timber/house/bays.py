@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bays that can take a brace or a wall, between neighbouring columns on a line of beams; for `changed_house`."""
 from .members import DIRECTION, column_plan, nodes_on_line
-from .structure import ACROSS, Structure
+from .structure import ACROSS, Structure, in_storey
 
 
 def free_bays(description):
@@ -12,10 +12,10 @@ def free_bays(description):
     names = []
     for structure, storey in _storeys(description):
         taken = _braced(structure, storey) | _walled(structure, storey, only_open=True)
-        for line, at, low, high in _bays(structure, storey):
-            if (line["along"], at, low, high) not in taken:
+        for line, (*place, low, high) in _bays(structure, storey):
+            if (*place, low, high) not in taken:
                 foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
-                names.append(_name(structure, "brace", storey, (line["along"], at, foot, head)))
+                names.append(_name(structure, "brace", storey, (*place, foot, head)))
     return names
 
 
@@ -24,8 +24,8 @@ def free_wall_bays(description, kind):
     names = []
     for structure, storey in _storeys(description):
         walled = _walled(structure, storey)
-        bays = ((line["along"], at, low, high) for line, at, low, high in _bays(structure, storey))
-        names += [f"{_name(structure, 'wall', storey, bay)}.{kind}" for bay in bays if bay not in walled]
+        names += [f"{_name(structure, 'wall', storey, bay)}.{kind}" for _, bay in _bays(structure, storey)
+                  if bay not in walled]
     return names
 
 
@@ -39,14 +39,13 @@ def _storeys(description):
 
 
 def _bays(structure, storey):
-    """(line, node of the line, lower node, higher node) of the bays of a storey."""
+    """(line, (along, at, lower node, higher node)) of the bays of a storey."""
     plan = column_plan(structure, storey)
     for line in structure.table["lines"]:
         along = line["along"]
         for at in line["at"]:
             nodes = [node for node in nodes_on_line(plan, along, at) if line["from"] <= node <= line["to"]]
-            for low, high in zip(nodes, nodes[1:]):
-                yield line, at, low, high
+            yield from ((line, (along, at, low, high)) for low, high in zip(nodes, nodes[1:]))
 
 
 def _name(structure, kind, storey, bay):
@@ -56,21 +55,15 @@ def _name(structure, kind, storey, bay):
     return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
 
 
-def _in_storey(lines, storey):
-    return [line for line in lines if not line["storeys"] or storey in line["storeys"]]
-
-
 def _braced(structure, storey):
     """{(along, at, lower node, higher node)} of the bays that have a brace in this storey."""
-    lines = _in_storey(structure.table["braces"]["lines"], storey)
+    lines = in_storey(structure.table["braces"]["lines"], storey)
     return {(line["along"], at, min(run), max(run)) for line in lines for at in line["at"] for run in line["runs"]}
 
 
 def _walled(structure, storey, only_open=False):
     """{(along, at, lower node, higher node)} of the bays with walls in a storey. only_open: with a window or a door"""
-    walls = [line for line in _in_storey(structure.table["walls"], storey)
+    walls = [line for line in in_storey(structure.table["walls"], storey)
              if line["opening"] != "none" or not only_open]
-    lines = [(line["along"], at, line["from"], line["to"]) for line in walls for at in line["at"]]
-    bays = {(line["along"], at, low, high) for line, at, low, high in _bays(structure, storey)}
-    return {bay for bay in bays for along, at, first, last in lines
-            if bay[:2] == (along, at) and first <= bay[2] and bay[3] <= last}
+    return {bay for _, bay in _bays(structure, storey) for wall in walls
+            if bay[0] == wall["along"] and bay[1] in wall["at"] and wall["from"] <= bay[2] and bay[3] <= wall["to"]}

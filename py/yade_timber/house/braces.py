@@ -1,68 +1,46 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagonal braces: hexagonal prisms (8 faces) in the bay between two neighbouring columns. Lengths in m."""
-from dataclasses import dataclass
-
 import numpy as np
 
 from .errors import HouseError
-from .members import DIRECTION, column_plan, nodes_on_line, require_column
-from .structure import ACROSS
-
-
-@dataclass(frozen=True)
-class Diagonal:
-    """One brace on the grid line `along` x or y at node `at`, from a column's foot at `foot` to a head at `head`."""
-
-    along: str
-    at: float
-    foot: float
-    head: float
-    storey: int
-    where: str
-
-    @property
-    def name(self):
-        return f"brace{self.storey}.{DIRECTION[self.along]}.{ACROSS[self.along]}{self.at:g}.{self.foot:g}-{self.head:g}"
+from .members import column_plan, line_name, nodes_on_line, require_column
+from .structure import ACROSS, in_storey
 
 
 def lay_braces(structure, layer):
     """Braces of one storey. A run [foot, head] leans from the foot of one column to the head of another."""
-    plan, elements = column_plan(structure, layer.storey), []
-    for line in structure.table["braces"]["lines"]:
-        structure.check_storeys(line["storeys"], line.at("storeys"), "braces")
-        if line["storeys"] and layer.storey not in line["storeys"]:
-            continue
-        for at in line["at"]:
-            for i, (foot, head) in enumerate(line["runs"]):
-                diagonal = Diagonal(line["along"], at, foot, head, layer.storey, line["runs"].at(i))
-                elements.append(_brace(structure, layer, diagonal, plan))
-    return elements
+    table, plan = structure.table["braces"], column_plan(structure, layer.storey)
+    return [_brace(structure, layer, (line["along"], at, *run), line["runs"].at(i), plan)
+            for line in in_storey(table["lines"], layer.storey) for at in line["at"]
+            for i, run in enumerate(line["runs"])]
 
 
-def _brace(structure, layer, diagonal, plan):
-    table, across = structure.table["braces"], ACROSS[diagonal.along]
-    planes = brace_planes(_clear_bay(structure, diagonal, plan), (layer.z0, layer.z1), table["width"])
-    planes = _extruded(planes, diagonal.along, structure.axes[across](diagonal.at), table["thickness"])
-    vertices = structure.cut(diagonal.name, planes, diagonal.where)
-    return structure.element("brace", diagonal.name, vertices, table, diagonal.where, storey=layer.storey,
-                             side=structure.sides(**{across: diagonal.at}),
-                             section=(table["width"], table["thickness"]))
+def _brace(structure, layer, place, where, plan):
+    """place: direction of the grid line, its node, nodes of the columns at foot and head; where: file:line"""
+    table, (along, at, foot, head) = structure.table["braces"], place
+    name = f"brace{layer.storey}.{line_name(along, at)}.{foot:g}-{head:g}"
+    ends = _clear_bay(structure, layer.storey, place, where, plan)
+    planes = _extruded(brace_planes(ends, (layer.z0, layer.z1), table["width"]), along,
+                       structure.position(ACROSS[along], at), table["thickness"])
+    return structure.element("brace", name, structure.cut(name, planes, where), table, where, storey=layer.storey,
+                             side=structure.sides(**{ACROSS[along]: at}), section=(table["width"], table["thickness"]))
 
 
-def _clear_bay(structure, diagonal, plan):
+def _clear_bay(structure, storey, place, where, plan):
     """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
-    along, foot, head = diagonal.along, diagonal.foot, diagonal.head
-    on_line = nodes_on_line(plan, along, diagonal.at)
-    place = (f"{diagonal.where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node"
-             f" {diagonal.at:g}, storey {diagonal.storey}")
+    along, at, foot, head = place
+    on_line = nodes_on_line(plan, along, at)
+    bay = (f"{where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node {at:g}, storey"
+           f" {storey} has no bay")
     for node in (foot, head):
-        require_column(on_line, node, f"{place} has no bay")
+        require_column(on_line, node, bay)
     between = [n for n in on_line if min(foot, head) < n < max(foot, head)]
     if foot == head or between:
         reason = f"a column stands between, at node {between[0]:g}" if between else "foot and head are the same column"
-        raise HouseError(f"{place} has no bay: {reason}; a brace runs between neighbouring columns")
-    axis, lean = structure.axes[along], np.sign(head - foot)
-    return axis(foot) + lean * on_line[foot] / 2, axis(head) - lean * on_line[head] / 2
+        raise HouseError(f"{bay}: {reason}; a brace runs between neighbouring columns")
+    lean = np.sign(head - foot)
+    return (structure.position(along, foot) + lean * on_line[foot] / 2,
+            structure.position(along, head) - lean * on_line[head] / 2)
 
 
 def brace_planes(ends, levels, width):
@@ -78,7 +56,6 @@ def brace_planes(ends, levels, width):
 
 def _extruded(planes, along, centre, thickness):
     """Planes of the section given by `planes`, `thickness` [m] wide about `centre` [m] across the wall."""
-    lift = (lambda n: (n[0], 0, n[1])) if along == "x" else (lambda n: (0, n[0], n[1]))
-    across = (0, 1, 0) if along == "x" else (1, 0, 0)
-    sides = [(across, centre + thickness / 2), (tuple(-v for v in across), -centre + thickness / 2)]
-    return [(lift(normal), offset) for normal, offset in planes] + sides
+    across = 1 if along == "x" else 0
+    sides = [(sign * np.eye(3)[across], sign * centre + thickness / 2) for sign in (1, -1)]
+    return [(np.insert(np.asarray(normal, float), across, 0), offset) for normal, offset in planes] + sides

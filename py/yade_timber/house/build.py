@@ -26,7 +26,8 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     """Build a described house. snow_depth [m]; wall_level: of rated walls, None: the file's. Raises HouseError."""
     data = description.data
     level = wall_level or data["law"]["wall_level"]
-    depth = _snow_depth(data, snow_depth)
+    depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
+    require_snow_depth(depth, "snow depth")
     structures = {}
     for name, table in data["structures"].items():
         structures[name] = Structure(name, table, data["materials"], structures)
@@ -54,22 +55,24 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
 
 
 def _require_storeys(structures):
-    """HouseError for columns without a layer, and for a first structure without a storey: its drifts are reported."""
+    """HouseError for a storey that the stack does not have, and for a first structure without a storey: its drifts are
+    reported."""
     for name, structure in structures.items():
-        if structure.table["columns"] and not structure.storeys:
-            raise HouseError(f"{structure.table.at('columns')}: structures.{name}.columns: its stack has no layer of"
-                             " columns; add one or remove the columns")
+        table, storeys = structure.table, list(structure.storeys)
+        if table["columns"] and not storeys:
+            raise HouseError(f"{table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; add"
+                             " one or remove the columns")
+        for part, line in [*((f"columns[{i}]", group) for i, group in enumerate(table["columns"], 1)),
+                           *(("braces", line) for line in table["braces"]["lines"]),
+                           *(("walls", line) for line in table["walls"])]:
+            absent = [storey for storey in line["storeys"] if storey not in storeys]
+            if absent:
+                raise HouseError(f"{line.at('storeys')}: {name}: {part}: no storey {absent[0]}; the stack has"
+                                 f" {storeys}")
     name, main = next(iter(structures.items()))
     if not main.storeys:
         raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its"
                          " storey drifts are reported; put a structure with columns first")
-
-
-def _snow_depth(data, snow_depth):
-    if snow_depth is None:
-        return data["snow"]["depth"]
-    require_snow_depth(float(snow_depth), "snow depth")
-    return float(snow_depth)
 
 
 def _check_snow(data, elements, depth):
@@ -99,8 +102,7 @@ def _layer_elements(structure, layer, depth, snow_material):
 
 def _lean(elements, structures, plumb):
     """Construction tolerance: shear all above the lowest columns' feet by `drift`; faces stay flush."""
-    foot = min((structure.layer_of_storey(1).z0 for structure in structures.values() if 1 in structure.storeys),
-               default=0.0)
+    foot = min(structure.storeys[1].z0 for structure in structures.values() if structure.storeys)
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
     for element in elements:
         rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
@@ -124,9 +126,9 @@ def _ground(data, structures):
 
 def _model(description, elements, joints, structures, depth):
     data = description.data
-    levels = {s.name: {layer.storey: (layer.z0, layer.z1) for layer in s.layers if layer.kind == "columns"}
+    levels = {s.name: {storey: (layer.z0, layer.z1) for storey, layer in s.storeys.items()}
               for s in structures.values()}
-    grids = {s.name: {name: axis.positions for name, axis in s.axes.items()} for s in structures.values()}
+    grids = {s.name: s.grid for s in structures.values()}
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,

@@ -66,38 +66,32 @@ def house_path(name):
 
 
 def _check_references(data):
-    """Every referenced material, joint type and structure must exist."""
+    """Every referenced material, joint type, wall type and structure must exist."""
     if not data["structures"]:
         fail(data.at("structures"), "structures", "a house needs at least one structure")
-    for table, name in _material_users(data):
-        _require_known(table, "material", data["materials"], name, "material")
+    for name, known, noun, where, path in _references(data):
+        if name not in known:
+            fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
+
+
+def _references(data):
+    """(name, names that it may be, what it names, file:line, path of its key) of each reference."""
+    users = [(data["ground"], "ground"), (data["snow"], "snow")]
+    for name, structure in data["structures"].items():
+        users.append((structure["braces"], f"structures.{name}.braces"))
+        users += [(layer, f"structures.{name}.stack[{i}]") for i, layer in enumerate(structure["stack"], 1)]
+    for table, path in users:
+        yield table["material"], data["materials"], "material", table.at("material"), f"{path}.material"
     for name, rule in data["joints"].items():
-        _require_known(rule, "type", data["joint_types"], f"joints.{name}", "joint type")
+        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"joints.{name}.type"
     for name, structure in data["structures"].items():
-        for i, line in enumerate(structure["walls"]):
+        for i, line in enumerate(structure["walls"], 1):
             for wall in line["type"]:
-                if wall not in data["wall_types"]:
-                    fail(line.at("type"), f"structures.{name}.walls[{i + 1}].type",
-                         f"unknown wall type '{wall}', {nearest(wall, data['wall_types'])}")
-    for i, region in enumerate(data["damage"]["regions"]):
+                yield wall, data["wall_types"], "wall type", line.at("type"), f"structures.{name}.walls[{i}].type"
+    for i, region in enumerate(data["damage"]["regions"], 1):
         if region["structure"] is not None:
-            _require_known(region, "structure", data["structures"], f"damage.regions[{i + 1}]", "structure")
-    for i, pair in enumerate(data["friction"]):
-        for key in pair["between"]:
-            if key not in data["materials"]:
-                fail(pair.at("between"), f"friction[{i + 1}]",
-                     f"unknown material '{key}', {nearest(key, data['materials'])}")
-
-
-def _material_users(data):
-    yield data["ground"], "ground"
-    yield data["snow"], "snow"
-    for name, structure in data["structures"].items():
-        yield structure["braces"], f"structures.{name}.braces"
-        for i, layer in enumerate(structure["stack"]):
-            yield layer, f"structures.{name}.stack[{i + 1}]"
-
-
-def _require_known(table, key, names, path, noun):
-    if table[key] not in names:
-        fail(table.at(key), f"{path}.{key}", f"unknown {noun} '{table[key]}', {nearest(table[key], names)}")
+            yield (region["structure"], data["structures"], "structure", region.at("structure"),
+                   f"damage.regions[{i}].structure")
+    for i, pair in enumerate(data["friction"], 1):
+        for material in pair["between"]:
+            yield material, data["materials"], "material", pair.at("between"), f"friction[{i}]"

@@ -5,6 +5,7 @@ eKfl dK / Qr.
 Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources:
 diagnosis_tables.py.
 """
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +13,8 @@ import numpy as np
 from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN
 from . import diagnosis_tables as rules
-from .loads import upper_area
-from .weight import floor_area
+from .loads import bay_length, upper_area
+from .weight import column_axes, floor_area
 
 DIRECTIONS = {"ew": 0, "ns": 1}
 """Direction and the index of its axis."""
@@ -21,30 +22,14 @@ DIRECTIONS = {"ew": 0, "ns": 1}
 
 @dataclass(frozen=True)
 class RatedBay:
-    """A bay with braces or sheets without openings: its columns (elements) and the sum of its multipliers [-]."""
+    """A bay with braces or sheets without openings: its columns (elements), the sum of its multipliers [-], index of
+    its axis, effective wall length [m], centre (2,) [m]."""
 
-    low: object
-    high: object
+    columns: tuple
     multiplier: float
-
-    @property
-    def run(self):
-        """(2,) between the axes of the columns [m]."""
-        return (self.high.solid.centroid - self.low.solid.centroid)[:2]
-
-    @property
-    def axis(self):
-        return int(np.argmax(np.abs(self.run)))
-
-    @property
-    def quantity(self):
-        """Effective wall length. [m]"""
-        return self.multiplier * float(np.hypot(*self.run))
-
-    @property
-    def centre(self):
-        """(2,) [m]"""
-        return (self.low.solid.centroid + self.high.solid.centroid)[:2] / 2
+    axis: int
+    quantity: float
+    centre: np.ndarray
 
 
 def diagnose(model):
@@ -116,51 +101,34 @@ def _circumstances(summary):
 def _structure(model, group):
     storeys, bays = sorted(model.storey_levels[group]), _bays(model, group)
     roof = _roof_class(model, group)
+    required = _required(roof, len(storeys), model.snow_depth)
     return {"roof": roof,
-            "storeys": {str(storey): _storey(model, group, storey, _Rules(roof, len(storeys), model.snow_depth), bays)
-                        for storey in storeys},
+            "storeys": {str(storey): _storey(model, group, storey, required.get(storey), bays) for storey in storeys},
             "uplift": _uplift(model, group, bays)}
 
 
-@dataclass(frozen=True)
-class _Rules:
-    """Requirements on a structure: class of its roof, number of storeys, depth of snow [m]."""
-
-    roof: str
-    storeys: int
-    snow: float
-
-    def quantity(self, storey):
-        """[m of wall per m2 of floor], None beyond three storeys."""
-        rows = rules.WALL_QUANTITY["light" if self.roof == "light" else "heavy"].get(self.storeys)
-        return rows and rows[storey - 1] / 100
-
-    def strength(self, storey):
-        """Qr [kN/m2], None beyond three storeys."""
-        rows = rules.REQUIRED_STRENGTH[self.roof].get(self.storeys)
-        first, last = rules.SNOW_DEPTHS
-        snow = rules.SNOW_STRENGTH * min(self.snow, last) if self.snow >= first else 0.0
-        return rows and rows[storey - 1] + snow
+def _required(roof, storeys, snow):
+    """{storey: (wall quantity [m per m2 of floor], Qr [kN/m2])}, empty beyond three storeys. snow: depth [m]"""
+    quantities = rules.WALL_QUANTITY["light" if roof == "light" else "heavy"].get(storeys, ())
+    first, last = rules.SNOW_DEPTHS
+    addition = rules.SNOW_STRENGTH * min(snow, last) if snow >= first else 0.0
+    return {storey: (quantity / 100, strength + addition) for storey, (quantity, strength)
+            in enumerate(zip(quantities, rules.REQUIRED_STRENGTH[roof].get(storeys, ())), 1)}
 
 
 def _storey(model, group, storey, required, bays):
-    here, area = [bay for bay in bays if bay.low.storey == storey], floor_area(model, group, storey)
-    eccentricity = _eccentricities(here, _mass_centre(model, group, storey))
+    here, plan = [bay for bay in bays if bay.columns[0].storey == storey], column_axes(model, group, storey)
+    area, eccentricities = floor_area(model, group, storey), _eccentricities(here, _mass_centre(model, group, storey))
+    needed, qr = (value * area for value in required) if required and area > 0 else (None, None)
     return {"floor_area_m2": round(area, 3),
-            "directions": {
-                name: _direction(here, axis, area, eccentricity[name], (required, storey, _plan(model, group, storey)))
-                for name, axis in DIRECTIONS.items()
-            }}
+            "directions": {name: _direction(here, axis, eccentricities[axis], needed, qr, plan)
+                           for name, axis in DIRECTIONS.items()}}
 
 
-def _direction(bays, axis, area, eccentricity, place):
-    required, storey, plan = place
+def _direction(bays, axis, eccentricity, needed, qr, plan):
+    """needed: wall quantity [m], qr [kN]: None where the rules give none"""
     mine = [bay for bay in bays if bay.axis == axis]
     existing = sum((bay.quantity for bay in mine), 0.0)
-    if required.strength(storey) is None or area <= 0:
-        needed = qr = None
-    else:
-        needed, qr = required.quantity(storey) * area, required.strength(storey) * area
     qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * existing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
     factor = eccentricity_factor(eccentricity)
     quarters = None if needed is None else _quarters(mine, axis, plan, needed)
@@ -178,11 +146,9 @@ def _rounded(value):
 
 def eccentricity_factor(eccentricity):
     """eKfl. eccentricity: None without walls in either direction, which counts as the largest. [-]"""
-    if eccentricity is None:
-        eccentricity = rules.ECCENTRICITY_END
-    if eccentricity < rules.ECCENTRICITY_START:
-        return 1.0
-    return 0.5 if eccentricity >= rules.ECCENTRICITY_END else min(1.0, 1 / (3.33 * eccentricity + 0.5))
+    if eccentricity is None or eccentricity >= rules.ECCENTRICITY_END:
+        return 0.5
+    return 1.0 if eccentricity < rules.ECCENTRICITY_START else min(1.0, 1 / (3.33 * eccentricity + 0.5))
 
 
 def is_balanced(low, high, eccentricity):
@@ -203,7 +169,7 @@ def _quarters(bays, axis, plan, needed):
 
 
 def _eccentricities(bays, mass):
-    """{direction: Re}: distance of the centres of mass and rigidity over the elastic radius; None without walls.
+    """[Re of each axis]: distance of the centres of mass and rigidity over the elastic radius; None without walls.
 
     The rigidity of a bay is its wall quantity: bays of a storey have one height.
     """
@@ -212,12 +178,8 @@ def _eccentricities(bays, mass):
     centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
               for axis, mine in sides.items() if sums[axis] > 0}
     torsion = sum(bay.quantity * (bay.centre[1 - axis] - centre[axis]) ** 2 for axis in centre for bay in sides[axis])
-    return {name: _eccentricity(centre.get(axis), mass[1 - axis], torsion, sums[axis])
-            for name, axis in DIRECTIONS.items()}
-
-
-def _eccentricity(rigidity, mass, torsion, total):
-    return abs(mass - rigidity) / np.sqrt(torsion / total) if rigidity is not None and torsion > 0 else None
+    return [abs(mass[1 - axis] - centre[axis]) / np.sqrt(torsion / sums[axis]) if axis in centre and torsion > 0
+            else None for axis in (0, 1)]
 
 
 def _mass_centre(model, group, storey):
@@ -226,12 +188,6 @@ def _mass_centre(model, group, storey):
                and (e.storey > storey or (e.storey == storey and e.kind not in ("column", "brace")))]
     total = sum(e.mass for e in carried)
     return sum(e.mass * e.solid.centroid[:2] for e in carried) / total if total > 0 else np.zeros(2)
-
-
-def _plan(model, group, storey):
-    """(2, 2) lowest and highest axes of the columns of a storey. [m]"""
-    axes = np.array([c.solid.centroid[:2] for c in model.of_kind("column", group=group) if c.storey == storey])
-    return np.array([axes.min(0), axes.max(0)]) if len(axes) else np.zeros((2, 2))
 
 
 def _roof_class(model, group):
@@ -246,11 +202,15 @@ def _roof_class(model, group):
 
 def _bays(model, group):
     """Rated bays of a structure."""
-    sums, members = {}, {}
+    totals, bays = Counter(), []
     for low, high, multiplier in [*_sheets(model, group), *_braces(model, group)]:
-        key = tuple(sorted((low.name, high.name)))
-        sums[key], members[key] = sums.get(key, 0.0) + multiplier, (low, high)
-    return [RatedBay(*members[key], min(total, rules.LARGEST_MULTIPLIER)) for key, total in sums.items()]
+        totals[tuple(sorted((low, high), key=lambda column: column.name))] += multiplier
+    for columns, total in totals.items():
+        low, high = (column.solid.centroid[:2] for column in columns)
+        multiplier = min(total, rules.LARGEST_MULTIPLIER)
+        bays.append(RatedBay(columns, multiplier, int(np.argmax(np.abs(high - low))),
+                             multiplier * bay_length(*columns), (low + high) / 2))
+    return bays
 
 
 def _sheets(model, group):
@@ -265,8 +225,7 @@ def _braces(model, group):
     """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
     columns = model.of_kind("column", group=group)
     for brace in model.of_kind("brace", group=group):
-        ends = [brace.vertices[np.argmin(brace.vertices[:, 2])][:2],
-                brace.vertices[np.argmax(brace.vertices[:, 2])][:2]]
+        ends = [brace.vertices[pick(brace.vertices[:, 2])][:2] for pick in (np.argmin, np.argmax)]
         here = [column for column in columns if column.storey == brace.storey]
         foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
         if foot is not head:
@@ -317,7 +276,7 @@ def _difference(column, bays, axis):
     """A: difference of the multipliers on either side of a column. [-]"""
     sides = [0.0, 0.0]
     for bay in bays:
-        if bay.axis == axis and column in (bay.low, bay.high):
+        if bay.axis == axis and column in bay.columns:
             sides[int(bay.centre[axis] > column.solid.centroid[axis])] += bay.multiplier
     return abs(sides[1] - sides[0])
 

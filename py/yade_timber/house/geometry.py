@@ -189,20 +189,12 @@ def contact_polygon(a, b, tolerance):
         face_a, face_b = a.faces[i], b.faces[j]
         if np.abs(face_b.points @ face_a.normal - face_a.offset).max() > tolerance:
             continue
-        polygon, area = _face_overlap(face_a, face_b)
-        if area > 0 and (best is None or area > best[2]):
-            best = polygon, face_a.normal, area
+        origin, frame = face_a.points[0], face_a.axes
+        flat = clip_convex((face_a.points - origin) @ frame.T, ((face_b.points - origin) @ frame.T)[::-1])
+        area = polygon_area(flat)
+        if area > (best[2] if best else 0):
+            best = origin + flat @ frame, face_a.normal, area
     return best
-
-
-def _face_overlap(face_a, face_b):
-    """Common part of two coplanar faces: polygon (n, 3) and its area [m2]."""
-    frame = face_a.axes
-    origin = face_a.points[0]
-    flat_a, flat_b = (face_a.points - origin) @ frame.T, ((face_b.points - origin) @ frame.T)[::-1]
-    flat = clip_convex(flat_a, flat_b)
-    area = polygon_area(flat) if len(flat) > 2 else 0.0
-    return origin + flat @ frame, area
 
 
 def separation(a, b):

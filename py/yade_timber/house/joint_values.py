@@ -18,32 +18,20 @@ def check_joint_types(types):
                 fail(table.where, path, f"law slip needs '{key}'")
             if table["law"] == "brittle" and table[key] is not None:
                 fail(table.at(key), path, f"'{key}' belongs to law slip; add 'law: slip' or remove it")
-        if table["law"] == "slip":
-            _check_slip(table, path)
+        if table["law"] == "brittle":
+            continue
+        if table["kn"] != table["ks"]:
+            fail(table.at("ks"), f"{path}.ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
+        start, first, last = table["strength"] / table["kn"], table["softening_stretch"], table["ultimate_stretch"]
+        if not start < first < last:
+            fail(table.at("softening_stretch"), path, f"strength / kn = {start:g} m, softening_stretch {first:g} m and"
+                 f" ultimate_stretch {last:g} m must ascend")
 
 
-def _check_slip(table, path):
-    """Yield, softening and ultimate stretch must follow each other; the slip law is isotropic."""
-    if table["kn"] != table["ks"]:
-        fail(table.at("ks"), f"{path}.ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
-    start, first, last = table["strength"] / table["kn"], table["softening_stretch"], table["ultimate_stretch"]
-    if not start < first < last:
-        fail(table.at("softening_stretch"), path,
-             f"strength / kn = {start:g} m, softening_stretch {first:g} m and ultimate_stretch {last:g} m must ascend")
-
-
-def rules_by_kinds(rules):
-    """{(kind a, kind b, across): (name, rule)}; a is the brace, else the column, else the first kind of the rule."""
-    rules_of = {}
-    for name, rule in rules.items():
-        pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
-        for pair in pairs.values():
-            rules_of.setdefault((*sorted(pair, key=_rank), rule["across"]), []).append((name, rule))
-    return rules_of
-
-
-def _rank(kind):
-    return END_JOINED.index(kind) if kind in END_JOINED else len(END_JOINED)
+def kinds_of(rule):
+    """[(kind a, kind b)] of a rule; a is the brace, else the column, else the first kind of the rule."""
+    pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
+    return [tuple(sorted(pair, key=lambda kind: (*END_JOINED, kind).index(kind))) for pair in pairs.values()]
 
 
 def check_joint_rules(rules):
@@ -52,14 +40,13 @@ def check_joint_rules(rules):
         if rule["kind"] in WALL_KINDS:
             fail(rule.at("kind"), f"joints.{name}.kind",
                  f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
-    pairs = {}
-    for (a, b, across), entries in rules_by_kinds(rules).items():
-        pairs.setdefault((*sorted((a, b)), across), []).extend(entries)
-    for (a, b, _), entries in pairs.items():
-        if len(entries) > 1:
-            (first, _), (second, rule) = entries[:2]
-            fail(rule.where, f"joints.{second}",
-                 f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
+    names = {}
+    for name, rule in rules.items():
+        for a, b in map(sorted, kinds_of(rule)):
+            first = names.setdefault((a, b, rule["across"]), name)
+            if first != name:
+                fail(rule.where, f"joints.{name}",
+                     f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
 
 
 def joint_values(data, rule):

@@ -6,7 +6,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import contact_polygon, plane_axes, polygon_area
-from .joint_values import END_JOINED, joint_values, rules_by_kinds
+from .joint_values import END_JOINED, joint_values, kinds_of
 from .limits import MAX_PAIRS
 from .model import JointSpec
 
@@ -20,7 +20,7 @@ def find_joints(elements, description):
     Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip.
     """
     data = description.data
-    rules = {kinds: rule for kinds, [(_, rule)] in rules_by_kinds(data["joints"]).items()}
+    rules = {(*kinds, rule["across"]): rule for rule in data["joints"].values() for kinds in kinds_of(rule)}
     tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
     joints = []
     for a, b in near_pairs(elements, tolerance):

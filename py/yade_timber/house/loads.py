@@ -3,11 +3,13 @@
 
 A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
 """
+from itertools import product
+
 import numpy as np
 
 from ..base.gravity import mass_of
-from .geometry import plane_axes, polygon_area
-from .structure import ACROSS, HIGH_SIDE, LOW_SIDE
+from .geometry import polygon_area
+from .structure import ENDS
 
 
 def apply_loads(elements, structures, loads):
@@ -25,8 +27,7 @@ def apply_loads(elements, structures, loads):
 
 def upper_area(element):
     """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
-    return sum(abs(polygon_area(face.points @ np.array(plane_axes(face.normal)).T)) for face in element.solid.faces
-               if face.normal[2] > 1e-6)
+    return sum(abs(polygon_area(face.points @ face.axes.T)) for face in element.solid.faces if face.normal[2] > 1e-6)
 
 
 def _hang_walls(structure, members, load):
@@ -45,13 +46,11 @@ def outer_bays(members):
     """[(column, column)] of the bays in the outer walls: neighbouring columns of a storey on one side."""
     bays = []
     columns = [element for element in members if element.kind == "column"]
-    for axis in "xy":
-        along = 0 if ACROSS[axis] == "x" else 1
-        for side in (LOW_SIDE[axis], HIGH_SIDE[axis]):
-            for storey in sorted({column.storey for column in columns}):
-                row = [column for column in columns if side in column.side and column.storey == storey]
-                row.sort(key=lambda column: column.solid.centroid[along])
-                bays += zip(row, row[1:])
+    for axis, sides in ENDS.items():
+        for side, storey in product(sides, sorted({column.storey for column in columns})):
+            row = [column for column in columns if side in column.side and column.storey == storey]
+            row.sort(key=lambda column: column.solid.centroid["yx".index(axis)])
+            bays += zip(row, row[1:])
     return bays
 
 
@@ -62,7 +61,7 @@ def bay_length(low, high):
 
 def storey_height(structure, storey):
     """From the foot of a storey's columns to that of the next storey, or to the roof. [m]"""
-    layer = structure.layer_of_storey(storey)
+    layer = structure.storeys[storey]
     above = structure.layers[structure.layers.index(layer) + 1:]
     top = next((other.z0 for other in above if other.kind in ("columns", "roof")), above[-1].z1 if above else layer.z1)
     return top - layer.z0

@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Straight members: foundation strips, sills, beams, columns and floor slabs of one structure. Lengths in m."""
+from functools import partial
+
 import numpy as np
 
 from .errors import HouseError
+from .geometry import box
 from .limits import MAX_LINES
-from .structure import ACROSS, require_few
+from .structure import ACROSS, in_storey, require_few
 
 DIRECTION = {"x": "EW", "y": "NS"}
+
+
+def line_name(along, at):
+    """'EW.y0' of the line along x at y node 0."""
+    return f"{DIRECTION[along]}.{ACROSS[along]}{at:g}"
 
 
 def lay_strips(structure, layer, kind):
@@ -16,7 +24,7 @@ def lay_strips(structure, layer, kind):
     for line in lines:
         for number, (start, end) in enumerate(_pieces(structure, line, lines, table["width"]), 1):
             piece = f".{number}" if line["cut"] else ""
-            name = f"{kind}{layer.storey or ''}.{DIRECTION[line['along']]}.{ACROSS[line['along']]}{line['at']:g}{piece}"
+            name = f"{kind}{layer.storey or ''}.{line_name(line['along'], line['at'])}{piece}"
             elements.append(_strip(structure, layer, kind, name, line, start, end))
     return elements
 
@@ -40,16 +48,11 @@ def _single_lines(structure, lines):
 
 def _pieces(structure, line, lines, width):
     """Ends [m] of the pieces of a line: half a width beyond a free end's node, half a width before a crossed line."""
-    axis = structure.axes[line["along"]]
     crossings = sorted(other["at"] for other in lines if line["cut"] and _crosses(line, other))
     marks = sorted({line["from"], line["to"], *crossings})
-    half = width / 2
-    pieces = []
-    for start, end in zip(marks, marks[1:]):
-        low = axis(start) + (half if start in crossings else -half)
-        high = axis(end) + (-half if end in crossings else half)
-        pieces.append((low, high))
-    return pieces
+    half, position = width / 2, partial(structure.position, line["along"])
+    return [(position(start) + (half if start in crossings else -half),
+             position(end) + (-half if end in crossings else half)) for start, end in zip(marks, marks[1:])]
 
 
 def _crosses(line, other):
@@ -61,12 +64,12 @@ def _crosses(line, other):
 def _strip(structure, layer, kind, name, line, start, end):
     """Box along a line from `start` to `end` [m], centred on it."""
     across, width = ACROSS[line["along"]], layer.table["width"]
-    centre = structure.axes[across](line["at"])
+    centre = structure.position(across, line["at"])
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
-    return structure.block(kind, name, low, high, layer.table, line["where"], fixed=layer.table["fixed"],
-                           storey=layer.storey, side=structure.sides(**{across: line["at"]}),
-                           section=(width, layer.z1 - layer.z0))
+    return structure.element(kind, name, box(low, high), layer.table, line["where"], fixed=layer.table["fixed"],
+                             storey=layer.storey, side=structure.sides(**{across: line["at"]}),
+                             section=(width, layer.z1 - layer.z0))
 
 
 def lay_floors(structure, layer):
@@ -76,8 +79,8 @@ def lay_floors(structure, layer):
     for number, area in enumerate(areas, 1):
         low, high = structure.area(area, [other for other in areas if other is not area])
         name = f"floor{layer.storey}" + (f".{number}" if len(areas) > 1 else "")
-        elements.append(structure.block("floor", name, [*low, layer.z0], [*high, layer.z1], layer.table,
-                                        layer.table.where, storey=layer.storey))
+        elements.append(structure.element("floor", name, box([*low, layer.z0], [*high, layer.z1]), layer.table,
+                                          layer.table.where, storey=layer.storey))
     return elements
 
 
@@ -85,24 +88,23 @@ def lay_columns(structure, layer):
     """Square columns of one storey on their nodes, in the order of the column groups."""
     elements = []
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
-        centre, name = np.array([structure.axes["x"](x), structure.axes["y"](y)]), f"column{layer.storey}.x{x:g}y{y:g}"
-        low, high = [*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1]
-        elements.append(structure.block("column", name, low, high, layer.table, where, storey=layer.storey,
-                                        side=structure.sides(x=x, y=y), section=(section, section)))
+        centre = np.array([structure.position("x", x), structure.position("y", y)])
+        vertices = box([*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1])
+        elements.append(structure.element("column", f"column{layer.storey}.x{x:g}y{y:g}", vertices, layer.table, where,
+                                          storey=layer.storey, side=structure.sides(x=x, y=y),
+                                          section=(section, section)))
     return elements
 
 
 def column_plan(structure, storey):
     """{(x node, y node): (section [m], file:line)} of one storey; groups given by lines fill only free nodes."""
     plan = {}
-    for i, group in enumerate(structure.table["columns"]):
-        structure.check_storeys(group["storeys"], group.at("storeys"), f"columns[{i + 1}]")
-        if group["storeys"] and storey not in group["storeys"]:
-            continue
+    for group in in_storey(structure.table["columns"], storey):
         for x, y in _group_nodes(structure, group):
             if (x, y) not in plan:
                 plan[x, y] = (group["section"], group.where)
-                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{i + 1}]")
+                number = structure.table["columns"].index(group) + 1
+                require_few(len(plan), group.where, f"structures.{structure.name}.columns[{number}]")
             elif group["lines"] is None:
                 raise HouseError(f"{group.where}: {structure.name}: a second column at node x {x:g}, y {y:g} of storey"
                                  f" {storey} (first in {plan[x, y][1]}); remove one of them")

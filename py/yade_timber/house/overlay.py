@@ -68,10 +68,16 @@ def _set(data, text, where):
     key, sign, value = text.partition("=")
     if not sign:
         raise HouseError(f"{where}: {shown(text)}: write key=value")
-    steps, node = _steps(key, where), data
-    for step in steps[:-1]:
-        node = _entered(node, step, key, where)
-    _put(node, steps[-1], parse_value(value, where), key, where)
+    *steps, last = _steps(key, where)
+    node = data
+    for step in steps:  # a missing entry of a table becomes an empty table, checked later
+        node = node.setdefault(step, Table(where=where)) if _has_entry(node, step, key, where) else node[step]
+    parsed = parse_value(value, where)
+    if _has_entry(node, last, key, where):
+        node.entries[last] = where
+    else:
+        node.entries[last:last + 1] = [where]
+    node[last] = parsed
 
 
 def _steps(key, where):
@@ -88,29 +94,16 @@ def _steps(key, where):
     return steps
 
 
-def _entered(node, step, key, where):
-    """Entry `step` of a table or list; a missing entry of a table becomes an empty table, checked later."""
+def _has_entry(node, step, key, where):
+    """True for an entry of a table, False for an item of a list; HouseError where `step` is neither."""
     if isinstance(step, str) and isinstance(node, Table):
-        return node.setdefault(step, Table(where=where))
-    _require_item(node, step, key, where)
-    return node[step]
-
-
-def _put(node, step, value, key, where):
-    if isinstance(step, str) and isinstance(node, Table):
-        node.entries[step] = where
-    else:
-        _require_item(node, step, key, where)
-        node.entries[step:step + 1] = [where]
-    node[step] = value
-
-
-def _require_item(node, step, key, where):
+        return True
     if not isinstance(step, int) or not isinstance(node, Items):
         raise HouseError(f"{where}: {key}: there is no table or list at"
                          f" '{step if isinstance(step, str) else f'[{step + 1}]'}'")
     if not 0 <= step < len(node):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
+    return False
 
 
 # --- braces, walls and joints -----------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import Polyhedron, box
+from .structure import ACROSS, ENDS
 
 SEAT = 0.05
 """Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
@@ -27,88 +28,77 @@ OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Pitched roof: corners (2,) of the outline, eave level z, run from eave to ridge [m], rise over run."""
+    """Pitched roof: corners (2,) of the outline, eave level z, run from eave to ridge [m], rise over run, sides with an
+    eave, distance of a hip end's cuts from its corners [m], vertical thickness of the slabs [m], width of the soffit
+    that reaches over the plates [m]. A plane is its normal (3,) and its offset [m]."""
 
     low: np.ndarray
     high: np.ndarray
     eave: float
-    half: float
+    run: float
     slope: float
+    sides: tuple
+    cut: float
+    thickness: float
+    seat: float
 
     def distance(self, side):
         """(d, e): a point p of the plan lies e - d . p [m] inside the eave of `side`."""
         d = np.array(OUTWARD[side], float)
         return d, max(d @ self.low, d @ self.high)
 
-    def bottom(self, side, rise, drop):
-        """Plane of the slab's underside: rises by `rise` [-], lies `drop` [m] below the parallel plane at the eave."""
+    @property
+    def is_boxed(self):
+        """Whether a slab between parallel planes would end before the plates, in a roof wider than these."""
+        return self.thickness / self.slope < self.seat < self.run
+
+    def rising(self, side, rise, lift=0.0):
+        """Plane through the eave of `side`, moved up by `lift` [m]: rise * d . p + z <= eave + rise * e + lift."""
         d, e = self.distance(side)
-        return (*(-rise * d), -1.0), -(self.eave + rise * e - drop)
+        return (*(rise * d), 1.0), self.eave + rise * e + lift
+
+    def slab(self, side):
+        """Planes of a slab with a level face on the wall plates. Its underside is steeper where the eaves are boxed."""
+        rise, drop = self.slope, self.thickness
+        if self.is_boxed:
+            rise = (self.slope * self.run - self.thickness) / (self.run - self.seat)
+            drop = rise * self.seat
+        return [self.rising(side, self.slope), opposite(self.rising(side, rise, -drop)), ((0, 0, -1), -self.eave),
+                *self.outline(side)]
+
+    def snow(self, side, depth):
+        """Planes of snow of vertical depth [m]: the slab's outline, extruded upwards from its upper face."""
+        return [self.rising(side, self.slope, depth), opposite(self.rising(side, self.slope)), self.edge(side),
+                *self.outline(side)]
 
     def edge(self, side):
         """Vertical plane above the eave of `side`."""
         d, e = self.distance(side)
         return (*d, 0.0), e
 
-    def top(self, side):
-        """Plane of the slab's upper face: slope * d . p + z <= eave + slope * e."""
-        d, e = self.distance(side)
-        return (*(self.slope * d), 1.0), self.eave + self.slope * e
-
     def nearer(self, side, other):
         """Vertical plane between the points nearer to the eave of `side` and to that of `other`: a hip or the ridge."""
         (d, e), (d2, e2) = self.distance(side), self.distance(other)
         return (*(d2 - d), 0.0), e2 - e
 
-
-@dataclass(frozen=True, eq=False)
-class GablePlan(Plan):
-    """Two slopes; the ridge runs along `ridge`, 'x' or 'y'."""
-
-    ridge: str
-
-    @property
-    def sides(self):
-        return ("west", "east") if self.ridge == "y" else ("south", "north")
-
     def outline(self, side):
-        """Vertical planes of a slab except its own eave: the ridge and the two gables."""
-        gables = [self.edge(other) for other in OUTWARD if other not in self.sides]
-        return [self.nearer(side, next(other for other in self.sides if other != side)), *gables]
+        """Vertical planes of a slab except its own eave: ridge or hips, gables, and the three cuts of a hip end."""
+        (d, e), size = self.distance(side), self.high - self.low
+        across = np.abs(d[::-1])
+        hip_end = len(self.sides) == 4 and np.abs(d) @ size >= size.max() - 1e-9  # all four ends of a square plan
+        planes = [self.nearer(side, other) for other in self.sides
+                  if other != side and not (hip_end and d @ OUTWARD[other])]
+        planes += [self.edge(other) for other in OUTWARD if other not in self.sides]
+        if hip_end:
+            planes += [((*(-d), 0.0), self.run - self.cut - e), ((*across, 0.0), across @ self.high - self.cut),
+                       ((*(-across), 0.0), -(across @ self.low) - self.cut)]
+        return planes
 
 
-@dataclass(frozen=True, eq=False)
-class HipPlan(Plan):
-    """Four slopes. cut: distance of the hip ends' cuts from their corners [m]."""
-
-    cut: float
-    sides = tuple(OUTWARD)
-
-    def outline(self, side):
-        """Vertical planes of a slab except its own eave: hips, ridge, and the three corner cuts of a hip end."""
-        opposite = next(other for other in OUTWARD if OUTWARD[other] == tuple(-np.array(OUTWARD[side])))
-        length = np.abs(np.array(OUTWARD[side])) @ (self.high - self.low)
-        hip_end = length >= (self.high - self.low).max() - 1e-9  # across the ridge; all four of a square plan
-        planes = [self.nearer(side, other) for other in OUTWARD
-                  if other != side and not (hip_end and other == opposite)]
-        return planes + (self._corner_cuts(side) if hip_end else [])
-
-    def _corner_cuts(self, side):
-        d, e = self.distance(side)
-        t = np.abs(d[::-1])
-        apex = ((*(-d), 0.0), self.half - self.cut - e)
-        return [apex, ((*t, 0.0), t @ self.high - self.cut), ((*(-t), 0.0), -(t @ self.low) - self.cut)]
-
-
-@dataclass(frozen=True, eq=False)
-class MonoPlan(Plan):
-    """One slope, which falls to the only one of `sides`; half is its whole run."""
-
-    sides: tuple
-
-    def outline(self, _side):
-        """Vertical planes of the slab except its own eave."""
-        return [self.edge(other) for other in OUTWARD if other not in self.sides]
+def opposite(plane):
+    """The other side of a plane."""
+    normal, offset = plane
+    return tuple(-v for v in normal), -offset
 
 
 def outline(structure, layer):
@@ -117,119 +107,48 @@ def outline(structure, layer):
     return structure.area(layer.table["area"], areas, layer.table["eaves"])
 
 
-def gable_plan(structure, layer):
-    low, high = outline(structure, layer)
-    ridge = layer.table["ridge"] or ("x" if high[0] - low[0] > high[1] - low[1] else "y")
-    half = (high - low)[0 if ridge == "y" else 1] / 2
-    return GablePlan(low, high, layer.z0, half, slope(structure, layer, half), ridge)
-
-
-def hip_plan(structure, layer):
-    low, high = outline(structure, layer)
-    half, cut = (high - low).min() / 2, layer.table["corner_cut"]
-    plan = HipPlan(low, high, layer.z0, half, slope(structure, layer, half), cut)
-    if cut >= half / 2:
-        raise HouseError(f"{layer.table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the"
-                         f" roof's width ({half / 2:g} m), got {cut:g}")
-    return plan
-
-
-def mono_plan(structure, layer):
-    low, high = outline(structure, layer)
-    side = layer.table["falls"]
-    run = float(np.abs(OUTWARD[side]) @ (high - low))
-    return MonoPlan(low, high, layer.z0, run, slope(structure, layer, run), (side,))
-
-
-PLANS = {"hip": hip_plan, "gable": gable_plan, "mono": mono_plan}
-
-
-def slope(structure, layer, half):
-    """Rise over run, from `pitch` or `ridge_height`. Raises HouseError for a ridge below the eaves."""
-    table, pitch = layer.table, layer.table["pitch"]
-    if pitch is None:
+def pitched_plan(structure, layer):
+    """Plan of a roof that is not flat. Raises HouseError for a ridge below the eaves and for too large corner cuts."""
+    table, (low, high) = layer.table, outline(structure, layer)
+    size, cut = high - low, table.get("corner_cut", 0.0)
+    if table["type"] == "gable":
+        ridge = table["ridge"] or ("x" if size[0] > size[1] else "y")
+        sides = ENDS[ACROSS[ridge]]
+    else:
+        sides = (table["falls"],) if table["type"] == "mono" else tuple(OUTWARD)
+    run = min(np.abs(OUTWARD[side]) @ size for side in sides) / min(len(sides), 2)
+    slope = table["pitch"]
+    if slope is None:
         rise = table["ridge_height"] - layer.z0
         if rise <= 0:
             raise HouseError(f"{table.at('ridge_height')}: {structure.name}: "
                              f"the ridge ({table['ridge_height']:g} m) must lie above the eaves ({layer.z0:g} m)")
-        pitch = rise / half
-    return pitch
+        slope = rise / run
+    if cut >= run / 2:
+        raise HouseError(f"{table.at('corner_cut')}: {structure.name}: corner_cut must be below a quarter of the"
+                         f" roof's width ({run / 2:g} m), got {cut:g}")
+    return Plan(low, high, layer.z0, run, slope, sides, cut, table["thickness"] * np.hypot(1.0, slope),
+                table["eaves"] + structure.table["margin"] + SEAT)
 
 
-def vertical_thickness(layer, plan):
-    """Of a slab. [m]"""
-    return layer.table["thickness"] * np.hypot(1.0, plan.slope)
-
-
-def underside(structure, layer, plan):
-    """(rise, drop) of `Plan.bottom`: parallel to the upper face, or steeper where the eaves are boxed."""
-    drop = vertical_thickness(layer, plan)
-    seat = layer.table["eaves"] + structure.table["margin"] + SEAT
-    if not is_boxed(structure, layer, plan):
-        return plan.slope, drop
-    rise = (plan.slope * plan.half - drop) / (plan.half - seat)
-    return rise, rise * seat
-
-
-def is_boxed(structure, layer, plan):
-    """Whether a slab between parallel planes would end before the plates, in a roof wider than these."""
-    soffit, seat = vertical_thickness(layer, plan) / plan.slope, layer.table["eaves"] + structure.table["margin"] + SEAT
-    return soffit < seat < plan.half
-
-
-def pitched_roof(structure, layer):
-    """{side: vertices} of slabs with level faces on the wall plates; the thickness is measured across the slope."""
-    plan = PLANS[layer.table["type"]](structure, layer)
-    bottom = underside(structure, layer, plan)
-    slabs = {}
-    for side in plan.sides:
-        planes = [plan.top(side), plan.bottom(side, *bottom), ((0, 0, -1), -plan.eave), *plan.outline(side)]
-        slabs[side] = structure.cut(f"roof.{side}", planes, layer.table.where)
-    return slabs
-
-
-def slab_masses(structure, layer):
-    """{side: mass [kg]} of the hollow slabs of a roof with boxed eaves; empty for other roofs."""
-    if layer.table["type"] not in PLANS:
-        return {}
-    plan = PLANS[layer.table["type"]](structure, layer)
-    if not is_boxed(structure, layer, plan):
-        return {}
-    density = structure.materials[layer.table["material"]]["density"]
-    areas = {side: Polyhedron(vertices).volume for side, vertices in pitched_snow(structure, layer, 1.0).items()}
-    return {side: density * vertical_thickness(layer, plan) * area for side, area in areas.items()}
-
-
-def pitched_snow(structure, layer, depth):
-    """{side: vertices} of snow of vertical depth [m]: the slab's outline, extruded upwards from its upper face."""
-    plan = PLANS[layer.table["type"]](structure, layer)
-    bodies = {}
-    for side in plan.sides:
-        normal, offset = plan.top(side)
-        planes = [(normal, offset + depth), (tuple(-v for v in normal), -offset), plan.edge(side), *plan.outline(side)]
-        bodies[side] = structure.cut(f"snow.{side}", planes, layer.table.where)
-    return bodies
-
-
-def flat_roof(structure, layer):
-    low, high = outline(structure, layer)
-    return {"": box([*low, layer.z0], [*high, layer.z1])}
-
-
-def flat_snow(structure, layer, depth):
-    low, high = outline(structure, layer)
-    return {"": box([*low, layer.z1], [*high, layer.z1 + depth])}
-
-
-ROOFS = {**dict.fromkeys(PLANS, (pitched_roof, pitched_snow)), "flat": (flat_roof, flat_snow)}
+def bodies(structure, layer, depth=None):
+    """{side: vertices} of a roof's slabs, or of snow of vertical depth [m] on them."""
+    kind, z0, z1 = ("roof", layer.z0, layer.z1) if depth is None else ("snow", layer.z1, layer.z1 + depth)
+    if layer.table["type"] == "flat":
+        low, high = outline(structure, layer)
+        return {"": box([*low, z0], [*high, z1])}
+    plan = pitched_plan(structure, layer)
+    return {side: structure.cut(f"{kind}.{side}", plan.snow(side, depth) if depth else plan.slab(side),
+                                layer.table.where) for side in plan.sides}
 
 
 def lay_roof(structure, layer):
     """Roof elements, one per slab."""
-    slabs = ROOFS[layer.table["type"]][0](structure, layer)
-    elements = [_element(structure, layer, "roof", side, vertices, layer.table) for side, vertices in slabs.items()]
-    for element, mass in zip(elements, slab_masses(structure, layer).values()):
-        element.set_mass(mass)
+    elements = _elements(structure, layer, "roof", layer.table, bodies(structure, layer))
+    plan = None if layer.table["type"] == "flat" else pitched_plan(structure, layer)
+    if plan and plan.is_boxed:
+        for element, vertices in zip(elements, bodies(structure, layer, 1.0).values()):  # the volume is the plan's area
+            element.set_mass(element.density * plan.thickness * Polyhedron(vertices).volume)
     return elements
 
 
@@ -237,9 +156,7 @@ def lay_snow(structure, layer, depth, material):
     """Snow elements on this roof; none for `snow: false` or a depth [m] of zero."""
     if depth == 0 or not layer.table["snow"]:
         return []
-    bodies = ROOFS[layer.table["type"]][1](structure, layer, depth)
-    return [_element(structure, layer, "snow", side, vertices, {"material": material})
-            for side, vertices in bodies.items()]
+    return _elements(structure, layer, "snow", {"material": material}, bodies(structure, layer, depth))
 
 
 def carry_roofs(structure, elements, joints):
@@ -257,7 +174,7 @@ def _tie_slabs(structure, layer, joints):
     The ridge and each tie beam have the stiffness and strength of one fitting.
     """
     slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
-             for side in gable_plan(structure, layer).sides}
+             for side in pitched_plan(structure, layer).sides}
     for joint in joints:
         if {joint.a, joint.b} == slabs:
             joint.points[joint.points[:, 2] < joint.centre[2], 2] = layer.z0
@@ -279,7 +196,7 @@ def _posts(structure, layer, elements, joints):
               if e.kind == "beam" and e.group == structure.name and abs(e.solid.bounds[1][2] - layer.z0) < SEAT}
     eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)),
                 None)
-    high = _high_plates(mono_plan(structure, layer), plates.values()) if eave else []
+    high = _high_plates(pitched_plan(structure, layer), plates.values()) if eave else []
     if not high or {eave.a, eave.b} & {plate.name for plate in high}:
         raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on"
                          " posts over those of the wall opposite; add beams below both and a rule of `joints` between"
@@ -306,10 +223,11 @@ def _post_row(eave, slab, plate):
                    **_row(eave, max(x1 - x0, y1 - y0)))
 
 
-def _element(structure, layer, kind, side, vertices, table):
-    name = slab_name(structure, layer, kind, side)
-    return structure.element(kind, name, vertices, table, layer.table.where, storey=layer.storey,
-                             side=frozenset(filter(None, [side])))
+def _elements(structure, layer, kind, table, vertices_of):
+    """Elements from {side: vertices}. table: with their material"""
+    return [structure.element(kind, slab_name(structure, layer, kind, side), vertices, table, layer.table.where,
+                              storey=layer.storey, side=frozenset(filter(None, [side])))
+            for side, vertices in vertices_of.items()]
 
 
 def slab_name(structure, layer, kind, side):

@@ -47,9 +47,7 @@ class Number:
             value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
-        wrong_kind = (math.isnan(value) or (math.isinf(value) and not self.infinite)
-                      or (self.whole and value != int(value)))
-        if wrong_kind or not self._admits(value):
+        if not self._admits(value) or math.isinf(value) and not self.infinite or self.whole and value != int(value):
             kind = "a whole number" if self.whole else "a number"
             fail(where, name, f"must be {kind}{self._range()}, got {value!r}{self._other_units(value)}")
         return int(value) if self.whole else float(value)

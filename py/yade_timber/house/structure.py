@@ -5,28 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import HouseError
-from .geometry import box, halfspace_vertices
+from .geometry import halfspace_vertices
 from .layout import MAX_STOREYS, MIN_SPACING
 from .limits import MAX_ELEMENTS
 from .model import Element
 
 ACROSS = {"x": "y", "y": "x"}
-LOW_SIDE = {"x": "west", "y": "south"}
-HIGH_SIDE = {"x": "east", "y": "north"}
-
-
-@dataclass(frozen=True, eq=False)
-class Axis:
-    """Grid positions [m] along one axis, in the world frame; node n may be fractional (between two positions)."""
-
-    positions: np.ndarray
-
-    @property
-    def last(self):
-        return len(self.positions) - 1
-
-    def __call__(self, node):
-        return float(np.interp(node, np.arange(len(self.positions)), self.positions))
+ENDS = {"x": ("west", "east"), "y": ("south", "north")}
+"""Sides of a house at the lower and at the higher end of an axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,15 +27,24 @@ class Layer:
 
 
 class Structure:
-    """Grid, position and layers of one structure; makes elements with its name, material and source line."""
+    """Grid, layers and {storey: its layer of columns}; makes elements with its name and source line.
+
+    grid: {'x': positions [m] of the nodes in the world frame, 'y': ...}; a node may be fractional, between two of them
+    """
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
         local = {axis: _positions(table["grid"][axis], f"structures.{name}.grid.{axis}") for axis in "xy"}
         origin = _origin(table, local, others, name)
-        self.axes = {axis: Axis(origin[i] + local[axis]) for i, axis in enumerate("xy")}
+        self.grid = {axis: origin[i] + local[axis] for i, axis in enumerate("xy")}
+        self.last = {axis: len(self.grid[axis]) - 1 for axis in "xy"}
         self.layers = _layers(table["stack"], name)
+        self.storeys = {layer.storey: layer for layer in self.layers if layer.kind == "columns"}
         self.element_count = 0
+
+    def position(self, axis, node):
+        """Of a node along one axis. [m]"""
+        return float(np.interp(node, np.arange(self.last[axis] + 1), self.grid[axis]))
 
     def area(self, area=None, others=(), beyond=0.0):
         """(low, high) corners (2,) [m] of a rectangle of grid nodes (None: all), extended by margin and `beyond` [m].
@@ -62,13 +57,13 @@ class Structure:
         corners = []
         for edge, sign in ((0, -1), (1, 1)):
             reach = [0.0 if any(_abut(nodes, other, axis, edge) for other in others) else sign * out for axis in "xy"]
-            corners.append(np.array([self.axes[axis](nodes[axis][edge]) + r for axis, r in zip("xy", reach)]))
+            corners.append(np.array([self.position(axis, nodes[axis][edge]) + r for axis, r in zip("xy", reach)]))
         return corners
 
     def _span(self, area):
         """{'x': (low, high), 'y': (low, high)} nodes of an area (None: the whole grid)."""
         if area is None:
-            return {axis: (0, self.axes[axis].last) for axis in "xy"}
+            return {axis: (0, self.last[axis]) for axis in "xy"}
         for axis in "xy":
             self.check_nodes(axis, area[axis], area.at(axis))
             if min(area[axis]) == max(area[axis]):
@@ -78,33 +73,15 @@ class Structure:
 
     def sides(self, **nodes):
         """Walls on which a node (x=, y=) or a line (only one of them) lies."""
-        walls = set()
-        for axis, node in nodes.items():
-            if node == 0:
-                walls.add(LOW_SIDE[axis])
-            if node == self.axes[axis].last:
-                walls.add(HIGH_SIDE[axis])
-        return frozenset(walls)
+        return frozenset(wall for axis, node in nodes.items()
+                         for wall, end in zip(ENDS[axis], (0, self.last[axis])) if node == end)
 
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""
         for node in nodes:
-            if not 0 <= node <= self.axes[axis].last:
+            if not 0 <= node <= self.last[axis]:
                 raise HouseError(f"{where}: {self.name}: {axis} node {node:g} is outside the grid; give 0 to"
-                                 f" {self.axes[axis].last}")
-
-    def check_storeys(self, storeys, where, name):
-        """HouseError for a storey that the stack does not have. name: of the list that names it"""
-        for number in storeys:
-            if number not in self.storeys:
-                raise HouseError(f"{where}: {self.name}: {name}: no storey {number}; the stack has {self.storeys}")
-
-    def layer_of_storey(self, storey):
-        return next((layer for layer in self.layers if layer.kind == "columns" and layer.storey == storey), None)
-
-    @property
-    def storeys(self):
-        return [layer.storey for layer in self.layers if layer.kind == "columns"]
+                                 f" {self.last[axis]}")
 
     def element(self, kind, name, vertices, table, where, **more):
         """Element '<structure>.<name>' of the material of `table`."""
@@ -114,10 +91,6 @@ class Structure:
         return Element(f"{self.name}.{name}", kind, vertices, material, self.materials[material]["density"],
                        group=self.name, source=where, **more)
 
-    def block(self, kind, name, low, high, table, where, **more):
-        """Element that is a box from `low` to `high` (3,) [m]."""
-        return self.element(kind, name, box(low, high), table, where, **more)
-
     def cut(self, name, planes, where):
         """Vertices (n, 3) between `planes` (see `halfspace_vertices`) of a member; HouseError where nothing is left."""
         try:
@@ -125,6 +98,11 @@ class Structure:
         except ValueError as problem:
             raise HouseError(f"{where}: {self.name}.{name}: no volume is left between its faces ({problem}); change its"
                              " dimensions") from None
+
+
+def in_storey(lines, storey):
+    """Those of the tables with a list of storeys that are in a storey; an empty list stands for all."""
+    return [line for line in lines if not line["storeys"] or storey in line["storeys"]]
 
 
 def require_few(count, where, name):

@@ -17,7 +17,7 @@ import numpy as np
 from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
-from .members import DIRECTION, column_plan, nodes_on_line, require_column
+from .members import column_plan, line_name, nodes_on_line, require_column
 from .model import JointSpec
 from .structure import ACROSS
 from .wall_types import envelope
@@ -33,7 +33,7 @@ REACH = 1e-3
 
 @dataclass(frozen=True)
 class Bay:
-    """A bay with sheathing: its two columns (elements), line, storey, opening and source in the house file."""
+    """A bay with sheathing: its two columns (elements), walls of the house, opening and source in the house file."""
 
     name: str
     low: object
@@ -48,27 +48,9 @@ class Bay:
         return bay_length(self.low, self.high)
 
     @property
-    def height(self):
-        """Clear height of the columns. [m]"""
-        low, high = self.low.solid.bounds[:, 2]
-        return float(high - low)
-
-    @property
-    def centre(self):
-        """(3,) [m]"""
-        return (self.low.solid.centroid + self.high.solid.centroid) / 2
-
-    @property
     def share(self):
         """Of the strength of a wall without an opening. [-]"""
         return OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
-
-    def end(self, top):
-        """(3,) point just above the top or below the foot of the bay, midway between the columns. [m]"""
-        level = self.low.solid.bounds[1 if top else 0][2]
-        ends = [column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0)
-                for column in (self.low, self.high)]
-        return np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
 
 
 def sheathe(structure, elements, data, level):
@@ -88,12 +70,15 @@ def sheathe(structure, elements, data, level):
 
 def _bays(structure, line, by_name):
     """Bays of a line of the house file in all its storeys and positions."""
-    structure.check_storeys(line["storeys"], line.at("storeys"), "walls")
-    bays = []
+    along, bays = line["along"], []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
-            nodes = _nodes(structure, line, storey, at)
-            bays += [_bay(structure, line, (storey, at, low, high), by_name) for low, high in zip(nodes, nodes[1:])]
+            nodes, side = _nodes(structure, line, storey, at), structure.sides(**{ACROSS[along]: at})
+            places = [(node, at) if along == "x" else (at, node) for node in nodes]
+            columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
+            start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
+            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line.where)
+                     for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
 
 
@@ -110,27 +95,18 @@ def _nodes(structure, line, storey, at):
     return [node for node in on_line if line["from"] <= node <= line["to"]]
 
 
-def _bay(structure, line, place, by_name):
-    """place: (storey, node of the line, nodes of the two columns)."""
-    storey, at, *ends = place
-    along, across = line["along"], ACROSS[line["along"]]
-    nodes = [(node, at) if along == "x" else (at, node) for node in ends]
-    low, high = (by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in nodes)
-    name = f"{structure.name}.wall{storey}.{DIRECTION[along]}.{across}{at:g}.{ends[0]:g}-{ends[1]:g}"
-    return Bay(name, low, high, structure.sides(**{across: at}), line["opening"], line.where)
-
-
 def _joints(bay, name, members, data, level):
     """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams'."""
     label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
-    along = bay.high.solid.centroid - bay.low.solid.centroid
-    along[2] = 0.0
+    low, high = bay.low.solid, bay.high.solid
+    height = float(np.diff(low.bounds[:, 2])[0])
+    along = np.append((high.centroid - low.centroid)[:2], 0.0)
     below, above = (_member_at(bay, members, top) for top in (False, True))
     points = envelope(data["wall_types"][name], level)
-    beams, columns = _values(bay, points, bay.height, 1.0), _values(bay, points, bay.length, bay.height / bay.length)
-    common = dict(points=bay.centre[None], area=0.0, type=name, ks=0.0, per="spring", storey=bay.low.storey,
-                  side=bay.side, group=bay.low.group, law="slip", damping_ratio=data["law"]["joint_damping"],
-                  friction_share=data["wall_types"][name]["friction_share"])
+    beams, columns = _values(bay, points, height, 1.0), _values(bay, points, bay.length, height / bay.length)
+    common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
+                  storey=bay.low.storey, side=bay.side, group=bay.low.group, law="slip",
+                  damping_ratio=data["law"]["joint_damping"], friction_share=data["wall_types"][name]["friction_share"])
     return [
         JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams",
                   **beams, **common),
@@ -153,11 +129,12 @@ def _values(bay, points, lever, ratio):
 
 def _member_at(bay, members, top):
     """The element on which the columns of a bay stand, or which lies on them, midway between them."""
-    point = bay.end(top)
+    level = bay.low.solid.bounds[int(top)][2]
+    ends = [column.vertices[np.abs(column.vertices[:, 2] - level) < REACH].mean(0) for column in (bay.low, bay.high)]
+    point = np.mean(ends, axis=0) + [0, 0, REACH if top else -REACH]
     for element in members:
         low, high = element.solid.bounds
         if element.kind not in ("column", "brace", "snow") and (low <= point).all() and (point <= high).all():
             return element
-    word = "above" if top else "below"
-    raise HouseError(f"{bay.where}: {bay.name}: no beam, sill or floor {word} the wall near x {point[0]:.3f}, y"
-                     f" {point[1]:.3f}, z {point[2]:.3f} m; lay one there or remove the wall")
+    raise HouseError(f"{bay.where}: {bay.name}: no beam, sill or floor {'above' if top else 'below'} the wall near x"
+                     f" {point[0]:.3f}, y {point[1]:.3f}, z {point[2]:.3f} m; lay one there or remove the wall")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
+import numpy as np
+
 from ..base.gravity import weight_of
 
 HALVED = ("column", "brace")
@@ -27,11 +29,13 @@ def weigh(model):
 
 def floor_area(model, group, storey):
     """Area between the axes of the outer columns of a storey. [m2]"""
-    centres = [e.solid.centroid for e in model.of_kind("column", group=group) if e.storey == storey]
-    if not centres:
-        return 0.0
-    (x0, y0), (x1, y1) = (tuple(pick(c[k] for c in centres) for k in (0, 1)) for pick in (min, max))
-    return float((x1 - x0) * (y1 - y0))
+    return float(np.prod(np.ptp(column_axes(model, group, storey), axis=0)))
+
+
+def column_axes(model, group, storey):
+    """(2, 2) lowest and highest axes of the columns of a storey [m], zero without any."""
+    axes = np.array([c.solid.centroid[:2] for c in model.of_kind("column", group=group) if c.storey == storey])
+    return np.array([axes.min(0), axes.max(0)]) if len(axes) else np.zeros((2, 2))
 
 
 def _storeys(model, group):

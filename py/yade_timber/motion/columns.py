@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Columns of records in CSV: their names and units, time steps, channels."""
-from __future__ import annotations
-
 import numpy as np
 
 from .record import RecordError

@@ -3,8 +3,6 @@
 
 The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds.
 """
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

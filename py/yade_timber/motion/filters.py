@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The high-pass filter of baseline correction, velocities and displacements."""
-from __future__ import annotations
-
 import math
 
 import numpy as np

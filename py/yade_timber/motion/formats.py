@@ -7,8 +7,6 @@ Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), 
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
 Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows.
 """
-from __future__ import annotations
-
 import re
 
 from ..base.input_file import shown
@@ -26,32 +24,27 @@ _PEKNOLD = "points at equal spacing of"
 
 
 def sniff(lines):
-    """Name of the format of the lines, or None."""
+    """Reader of the format of the lines, or None."""
     head = "\n".join(lines[:AT2_HEADER_LINES])
     start = next((line for line in lines if line.strip(FILLING)), "").strip().strip('"')
     if knet.is_ascii(lines):
-        return "knet"
+        return knet.read_ascii
     if knet.is_csv(lines):
-        return "knet csv"
+        return knet.read_csv
     if start.upper().startswith("SITE CODE"):
-        return "jma"
+        return _jma
     if "NPTS" in head or _PEKNOLD in head.lower():
-        return "at2"
-    if _csv_columns(lines) is not None:
-        return "csv"
-    return None
+        return _at2
+    return _plain_csv if _csv_columns(lines) else None
 
 
 def parse(path, lines, units=None, stated=False):
     """Channels of a file. units: where it states none; stated: the caller states the directions. Raises RecordError."""
-    kind = sniff(lines)
-    if kind is None:
+    reader = sniff(lines)
+    if reader is None:
         raise RecordError(f"{path}: {other_text(lines)}; read are K-NET or KiK-net ASCII and CSV, PEER AT2, JMA CSV and"
                           " plain CSV")
-    if kind == "at2":
-        return _at2(path, lines, units, stated)
-    reader = {"knet": knet.read_ascii, "knet csv": knet.read_csv, "jma": _jma, "csv": _plain_csv}[kind]
-    return reader(path, lines, units)
+    return reader(path, lines, units, *([stated] if reader is _at2 else []))
 
 
 # --- PEER AT2 -----------------------------------------------------------------------------------
@@ -129,14 +122,14 @@ def _unit_in(line):
 
 def _refuse_other_quantity(path, header):
     for number, line in enumerate(header, 1):
-        for quantity in ("velocity", "displacement"):
-            if line.strip().lower().startswith(f"{quantity} time"):
-                raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
+        quantity, _, rest = line.strip().lower().partition(" ")
+        if quantity in ("velocity", "displacement") and rest.startswith("time"):
+            raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
 
 
 def _stated_unit(path, in_file, stated):
     """m/s2 per unit, from the units in the file and the caller's; refuses none and contradiction."""
-    units = list(in_file) + ([stated] if stated is not None else [])
+    units = [*in_file, *([] if stated is None else [stated])]
     if not units:
         raise RecordError(f"{path}: no unit stated; state it in the file or as units= (gal, m/s2 or g)")
     factors = {unit_factor(unit, path) for unit in units}
@@ -200,14 +193,17 @@ def _plain_csv(path, lines, units):
     """CSV with named columns: ns, ew, ud (one or more), optionally time [s] or [ms], and a stated unit."""
     header_index, names, units_of, delimiter = _csv_columns(lines)
     comments = _csv_comments(path, lines[:header_index])
-    in_file = [comments[key][0] for key in ("units", "unit") if key in comments] + [
-        units_of[name] for name in names if units_of[name] and name != "time"
-    ]
+    in_file = [comments[key][0] for key in ("units", "unit") if key in comments]
+    in_file += [units_of[name] for name in names if units_of[name] and name != "time"]
     factor = _stated_unit(path, in_file, units)
     first = header_index + 1
     rows = table(path, lines[first:], first + 1, len(names), delimiter)
-    step = equal_step(path, comments,
-                      _times(path, rows[:, names.index("time")], units_of["time"]) if "time" in names else None)
+    unit, times = units_of.get("time"), None
+    if unit not in _SECONDS:
+        raise RecordError(f"{path}: time in {shown(unit)}; s or ms")
+    if "time" in names:
+        times = rows[:, names.index("time")] * _SECONDS[unit]
+    step = equal_step(path, comments, times)
     if "samples" in comments:
         require_count(path, len(rows), whole(*comments["samples"]), "'# samples:'")
     return channels_of(path, names, rows * factor, step)
@@ -232,13 +228,6 @@ def _named_columns(index, line):
     names = [name for name, _ in cells]
     admissible = set(names) <= {*DIRECTIONS, "time"} and len(set(names)) == len(names)
     return (index, names, dict(cells), delimiter) if admissible and not set(names) <= {"time"} else None
-
-
-def _times(path, values, unit):
-    """A column of times in s."""
-    if unit not in _SECONDS:
-        raise RecordError(f"{path}: time in {shown(unit)}; s or ms")
-    return values * _SECONDS[unit]
 
 
 def _csv_comments(path, lines):

@@ -5,8 +5,6 @@ ASCII: "About K-NET ASCII format" (17 header lines, whole counts, scale factor).
 trigger delay: the first sample is 15 s earlier (DELAY). CSV: a header behind '#', each row of labels followed by a row
 of values, the names of the columns last.
 """
-from __future__ import annotations
-
 import re
 import warnings
 from datetime import timedelta
@@ -14,7 +12,7 @@ from datetime import timedelta
 import numpy as np
 
 from ..base.input_file import shown
-from .columns import channels_of, column_name, equal_step, uncommented
+from .columns import FILLING, channels_of, column_name, equal_step, uncommented
 from .networks import PLAIN_CSV
 from .record import GAL, RecordError, RecordWarning, unit_factor
 from .text import UP, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table
@@ -55,7 +53,10 @@ def read_ascii(path, lines, units):
                   PLAIN_CSV)
     values = (counts - counts.mean()) * _scale(*fields["Scale Factor"])
     if "Max" in fields:
-        _compare_peak(path, values, finite(*fields["Max"]))
+        peak, stated = np.abs(values).max() / GAL, finite(*fields["Max"])
+        if abs(peak - stated) > MAX_TOLERANCE * stated + 0.01:
+            warnings.warn(f"{path}: largest acceleration {peak:.3f} gal, the header says {stated:g} gal", RecordWarning,
+                          stacklevel=2)
     direction = fields["Dir."][0]
     recorded = clock(*fields["Record Time"]) if "Record Time" in fields else None
     begins = recorded and recorded - DELAY
@@ -86,13 +87,6 @@ def _scale(text, where):
     if not form:
         raise RecordError(f"{where}: {shown(text)}; it must be like 3920(gal)/6182761")
     return GAL * positive(gal, where) / positive(counts, where)
-
-
-def _compare_peak(path, values, stated_gal):
-    got = np.abs(values).max() / GAL
-    if abs(got - stated_gal) > MAX_TOLERANCE * stated_gal + 0.01:
-        warnings.warn(f"{path}: largest acceleration {got:.3f} gal, the header says {stated_gal:g} gal", RecordWarning,
-                      stacklevel=2)
 
 
 def _refuse_units(path, units):
@@ -170,6 +164,5 @@ def _surface_columns(columns):
 
 def _csv_begin(path, lines, last, clocks):
     """Date and time of the first row, None without a column of times."""
-    row, number = next(((line, k) for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(",; \t")),
-                       ("", 0))
-    return clock(row.split(",")[clocks[0]], f"{path}:{number}: Time") if clocks else None
+    number = next(k for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(FILLING))
+    return clock(lines[number - 1].split(",")[clocks[0]], f"{path}:{number}: Time") if clocks else None

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s and cm."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Formats of other networks and other kinds of files, which are not read: their names, and what to do instead."""
-from __future__ import annotations
-
 import struct
 
 PLAIN_CSV = ("a plain CSV: a line '# dt: 0.01' (time step in s), a line 'ns [gal],ew [gal],ud [gal]', then a row of"

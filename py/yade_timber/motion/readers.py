@@ -4,10 +4,9 @@
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
 from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
 """
-from __future__ import annotations
-
 import re
 import warnings
+from os.path import commonprefix
 from pathlib import Path
 
 import numpy as np
@@ -85,8 +84,10 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
     if peak > SURPRISING:
         warnings.warn(f"{record}: {peak / GAL:.0f} gal, more than any recorded motion; check the unit", RecordWarning,
                       stacklevel=2)
-    name, source = one_line(_common_name(paths)), one_line(_provenance(channels, directions))
-    return turned(GroundMotion(dt, acceleration, name, source, _beginning(channels)), angle)
+    stems = [path.stem for path in paths]
+    name = stems[0] if len(stems) == 1 else commonprefix(stems).rstrip("-_.") or stems[0]
+    source = one_line(_provenance(channels, directions))
+    return turned(GroundMotion(dt, acceleration, one_line(name), source, _beginning(channels)), angle)
 
 
 def find_files(record):
@@ -138,23 +139,19 @@ def _find_by_prefix(prefix):
 def _directions(channels, component):
     """Direction of every channel, from the caller or from the files."""
     if component is None:
-        directions = [channel.direction for channel in channels]
-    else:
-        names = str(component).split(",")
-        if len(names) != len(channels):
-            raise RecordError(f"component={component}: {len(names)} directions for {len(channels)} components")
-        directions = [_stated_direction(name) for name in names]
-    for channel, direction in zip(channels, directions):
-        if direction is None:
-            raise RecordError(f"{channel.path}: direction not stated; give it: --component ns, ew, ud or an azimuth")
-    return directions
-
-
-def _stated_direction(name):
-    direction = direction_of(name)
-    if direction is None:
-        raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to 360")
-    return direction
+        for channel in channels:
+            if channel.direction is None:
+                raise RecordError(f"{channel.path}: direction not stated; give it: --component ns, ew, ud or an"
+                                  " azimuth")
+        return [channel.direction for channel in channels]
+    names = str(component).split(",")
+    if len(names) != len(channels):
+        raise RecordError(f"component={component}: {len(names)} directions for {len(channels)} components")
+    for name in names:
+        if direction_of(name) is None:
+            raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to"
+                              " 360")
+    return list(map(direction_of, names))
 
 
 def _aligned(channels, trim_to_shortest):
@@ -188,7 +185,9 @@ def _to_house_axes(record, values, directions):
         raise RecordError(f"{record}: {len(level)} horizontal and {len(vertical)} vertical components; at most 2 and 1")
     acceleration = np.zeros((len(values), 3))
     if len(level) == 2:
-        _require_right_angle(record, directions[level[0]], directions[level[1]])
+        first, second = (directions[i] for i in level)
+        if abs((first - second) % 180.0 - 90.0) > RIGHT_ANGLE_TOLERANCE:
+            raise RecordError(f"{record}: horizontal azimuths {first:g} and {second:g} degrees; they must be 90 apart")
     for i in level:
         azimuth = np.radians(directions[i])
         acceleration[:, 0] += values[:, i] * round_off(np.sin(azimuth))
@@ -196,20 +195,6 @@ def _to_house_axes(record, values, directions):
     for i in vertical:
         acceleration[:, 2] = values[:, i] if directions[i] == UP else -values[:, i]
     return acceleration
-
-
-def _require_right_angle(record, first, second):
-    between = (first - second) % 180.0
-    if abs(between - 90.0) > RIGHT_ANGLE_TOLERANCE:
-        raise RecordError(f"{record}: horizontal azimuths {first:g} and {second:g} degrees; they must be 90 apart")
-
-
-def _common_name(paths):
-    if len(paths) == 1:
-        return paths[0].stem
-    stems = [path.stem for path in paths]
-    length = next((i for i, letters in enumerate(zip(*stems)) if len(set(letters)) > 1), min(map(len, stems)))
-    return stems[0][:length].rstrip("-_.") or stems[0]
 
 
 def _provenance(channels, directions):

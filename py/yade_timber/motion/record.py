@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A three-component ground acceleration in the axes of the house, and its units."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from datetime import datetime
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Request for a ground motion: source and processing as options."""
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -20,13 +21,8 @@ class MotionRequest:
     record: str = option(str, "recorded motion: file, prefix, or files with commas", "FILE", group="main")
     seed: int = option(int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0,
                        2**31)
-    component: str = option(
-        str,
-        ("direction of each of the record's files, where they do not state it: ns, ew, ud or azimuth, separated by"
-         " commas"),
-        "DIRECTIONS",
-        group="expert",
-    )
+    component: str = option(str, "direction of each of the record's files, where they do not state it: ns, ew, ud or"
+                            " azimuth, separated by commas", "DIRECTIONS", group="expert")
     units: str = option(str, "unit of the record where it states none: gal, m/s2 or g", "UNIT")
     shortest: bool = option(bool, "cut components of different length at the shortest one instead of refusing them",
                             group="expert")
@@ -41,11 +37,8 @@ class MotionRequest:
     pga: float = option(float, "scale all components to this peak of the larger horizontal one [gal]", "GAL", 1e-3, 1e5)
     intensity: float = option(float, "scale all components to this JMA intensity (not rounded)", "I", 0, 8)
     scale: float = option(float, "factor on the ground motion (default 1)", "X", 0, 1e6)
-    resample: bool = option(
-        bool,
-        "resample at the run's time step, band-limited, instead of linear interpolation between the record's samples",
-        group="expert",
-    )
+    resample: bool = option(bool, "resample at the run's time step, band-limited, instead of linear interpolation"
+                            " between the record's samples", group="expert")
     then: str = option(
         str, "records that follow, as a main shock after a foreshock: record or record@factor, separated by ; "
         "all other options apply to each of them, too", "RECORDS")
@@ -76,7 +69,10 @@ class MotionRequest:
 
     def motion(self, dt, measured=None):
         """GroundMotion before `scale`. dt [s]: for `resample`; measured: instead of a record. Raises RecordError."""
-        first = self._processed(self._source() if measured is None else turned(measured, self.azimuth or 0.0), dt)
+        if measured is None and self.seed is not None:
+            measured = synthetic_motion(self.seed)
+        first = self._processed(self._read(DEFAULT_RECORD if self.record is None else self.record) if measured is None
+                                else turned(measured, self.azimuth or 0.0), dt)
         if self.then is None:
             return first
         records, factors = zip(*following(self.then, "--then"))
@@ -88,22 +84,13 @@ class MotionRequest:
     def _processed(self, motion, dt):
         if self.start is not None or self.end is not None:
             motion = trim(motion, self.start or 0.0, self.end)
-        if self.detrend is not None:
-            motion = remove_polynomial(motion, self.detrend)
-        if self.highpass is not None:
-            motion = highpass(motion, self.highpass)
-        if self.pga is not None:
-            motion = scaled_to_pga(motion, self.pga, "level")
-        if self.intensity is not None:
-            motion = scaled_to_intensity(motion, self.intensity)
+        for change, value in ((remove_polynomial, self.detrend), (highpass, self.highpass),
+                              (partial(scaled_to_pga, component="level"), self.pga),
+                              (scaled_to_intensity, self.intensity)):
+            motion = motion if value is None else change(motion, value)
         self._require_possible(motion)
         warn_of_constant_part(motion)
         return resample(motion, dt)[0] if self.resample else motion
-
-    def _source(self):
-        if self.seed is not None:
-            return turned(synthetic_motion(self.seed), self.azimuth or 0.0)
-        return self._read(DEFAULT_RECORD if self.record is None else self.record)
 
     def _read(self, record):
         return read_unchecked(record, self.component, self.units, self.azimuth or 0.0, self.shortest)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sequences: several ground motions one after the other, as a foreshock and a main shock, with quiet between them."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
@@ -46,10 +44,9 @@ def joined(motions, scales, gap=DEFAULT_GAP):
         pieces.append(samples)
         start += len(samples) * step
     require_size(sum(map(len, pieces)), "the sequence")
-    name, source = " then ".join(motion.name for motion in motions), f"; then after {gap:g} s: ".join(
-        part.source for part in parts
-    )
-    return GroundMotion(step, np.vstack(pieces), name, source, motions[0].begins, tuple(parts))
+    return GroundMotion(step, np.vstack(pieces), " then ".join(motion.name for motion in motions),
+                        f"; then after {gap:g} s: ".join(part.source for part in parts), motions[0].begins,
+                        tuple(parts))
 
 
 def common_step(steps, where):

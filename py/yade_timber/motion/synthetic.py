@@ -15,8 +15,6 @@ It matches the published measures of that record (TARGETS), not its wave form. S
 
 A motion that does not converge is discarded and replaced by the next random stream of the same seed.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,7 +85,7 @@ def _pgv_h(motion):
 
 def _converge(random, seed):
     """One motion brought to the targets, or None."""
-    noise, pulses = _noise(random), _Pulses.drawn(random)
+    noise, pulses = _noise(random), _pulses(random)
     parameters = _Parameters()
     for _ in range(LOOPS):
         motion = _assemble(noise, pulses, parameters, seed)
@@ -118,7 +116,7 @@ def _corrected(parameters, got):
 def _assemble(noise, pulses, parameters, seed):
     """Noise and pulses with their peaks brought to the targets, at rest at the end."""
     acceleration = parameters.noise * noise
-    acceleration[:, :2] += pulses.acceleration(parameters)
+    acceleration[:, :2] += pulses(parameters)
     acceleration[:, 2] *= TARGETS["pga_ud"] * GAL / np.abs(acceleration[:, 2]).max()
     acceleration = _at_rest(acceleration)
     _fit_horizontal_peaks(acceleration[:, 0], acceleration[:, 1])
@@ -165,30 +163,20 @@ def _coloured(white, soil_frequency, soil_damping, low_cut):
 # --- pulses -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _Pulses:
-    """Random choices of the pulses: times [s], periods [s], phases [rad], signs of their NS parts."""
+def _pulses(random):
+    """Random pulses: function of _Parameters that gives their EW and NS accelerations. (n, 2) [m/s2]"""
+    times = random.uniform(19.2, 19.8) + np.array([0.0, random.uniform(2.4, 3.2), random.uniform(3.6, 5.0)])
+    periods = np.array([0.65, random.uniform(0.55, 0.78), random.uniform(1.7, 2.3)])
+    phases, signs = random.uniform(0.0, 2.0 * np.pi, 3), random.choice([-1.0, 1.0], 3)
 
-    times: np.ndarray
-    periods: np.ndarray
-    phases: np.ndarray
-    signs: np.ndarray
-
-    @classmethod
-    def drawn(cls, random):
-        first = random.uniform(19.2, 19.8)
-        return cls(times=first + np.array([0.0, random.uniform(2.4, 3.2), random.uniform(3.6, 5.0)]),
-                   periods=np.array([0.65, random.uniform(0.55, 0.78), random.uniform(1.7, 2.3)]),
-                   phases=random.uniform(0.0, 2.0 * np.pi, 3), signs=random.choice([-1.0, 1.0], 3))
-
-    def acceleration(self, parameters):
-        """EW and NS accelerations of the pulses. (n, 2) [m/s2]"""
-        shapes = zip(self.times, self.periods, self.phases, (parameters.cycles, 2.2, 2.2))
-        main, second, slow = (_pulse(*shape) for shape in shapes)
+    def accelerations(parameters):
+        main, second, slow = map(_pulse, times, periods, phases, (parameters.cycles, 2.2, 2.2))
         ew = main + 0.35 * second + 0.30 * slow
-        delayed = _pulse(self.times[0] + 0.16, self.periods[0], self.phases[0], parameters.cycles)
-        ns = self.signs[0] * parameters.share * delayed + self.signs[1] * 0.65 * second + self.signs[2] * 0.35 * slow
+        delayed = _pulse(times[0] + 0.16, periods[0], phases[0], parameters.cycles)
+        ns = signs[0] * parameters.share * delayed + signs[1] * 0.65 * second + signs[2] * 0.35 * slow
         return parameters.pulse * np.column_stack([ew, ns])
+
+    return accelerations
 
 
 def _pulse(centre, period, phase, cycles):

@@ -3,8 +3,6 @@
 
 String methods instead of regular expressions keep the time of a line proportional to its length.
 """
-from __future__ import annotations
-
 import re
 import warnings
 from dataclasses import dataclass, field
@@ -32,6 +30,9 @@ YEARS = range(1800, 2200)
 UP = "up"
 """Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
 DOWN = "down"
+NAMES = {0.0: "ns n north northsouth y", 90.0: "ew e east eastwest x", UP: "ud u up v ver vert vertical z",
+         DOWN: "dn dwn down"}
+"""{direction: names of components}."""
 
 
 @dataclass(frozen=True)
@@ -65,14 +66,13 @@ def read_lines(path):
         except UnicodeDecodeError:
             continue
         if "\0" not in text and text.strip():
-            return _checked_lines(path, text.rstrip("\x1a").splitlines())  # DOS's end of a file
-    raise RecordError(f"{path}: {other_binary(raw)}")
-
-
-def _checked_lines(path, lines):
-    long = next((i for i, line in enumerate(lines, 1) if len(line) > MAX_LINE), None)
-    if long is not None:
-        raise RecordError(f"{path}:{long}: a line of {len(lines[long - 1])} characters; at most {MAX_LINE}")
+            break
+    else:
+        raise RecordError(f"{path}: {other_binary(raw)}")
+    lines = text.rstrip("\x1a").splitlines()  # DOS's end of a file
+    for number, line in enumerate(lines, 1):
+        if len(line) > MAX_LINE:
+            raise RecordError(f"{path}:{number}: a line of {len(line)} characters; at most {MAX_LINE}")
     if len(lines) > 2 * MAX_SAMPLES:
         raise RecordError(f"{path}: {len(lines)} lines; at most {2 * MAX_SAMPLES}; cut the record")
     return lines
@@ -198,14 +198,6 @@ def clock(text, where):
 def direction_of(name):
     """Direction from a component's name ('090', 'N-S', 'UP', ...: towards north, east, up), or None."""
     key = "".join(c for c in name.lower() if c.isascii() and c.isalnum())
-    if key in ("ns", "n", "north", "northsouth", "y"):
-        return 0.0
-    if key in ("ew", "e", "east", "eastwest", "x"):
-        return 90.0
-    if key in ("ud", "u", "up", "v", "ver", "vert", "vertical", "z"):
-        return UP
-    if key in ("dn", "dwn", "down"):
-        return DOWN
     if key.isdecimal() and len(key) <= 3 and int(key) <= 360:
         return float(key)
-    return None
+    return next((direction for direction, names in NAMES.items() if key in names.split()), None)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Writes a ground motion as the plain CSV that `read_motion` reads."""
-from __future__ import annotations
-
 from pathlib import Path
 
 from ..base.atomic_write import write_text
@@ -16,13 +14,9 @@ def write_csv(motion, path, comments=()):
     path = Path(path)
     header = [*comments, "units: gal", f"dt: {motion.dt:.10g}", f"samples: {len(motion)}"]
     lines = [f"# {line}" for line in header] + ["ns,ew,ud"]
-    lines += [",".join(map(_number, (ns, ew, ud))) for ew, ns, ud in motion.acceleration / GAL]
+    rounded = (motion.acceleration[:, [1, 0, 2]] / GAL).tolist()
+    lines += [",".join(f"{round(value, DECIMALS) + 0.0}".removesuffix(".0") for value in row) for row in rounded]
     try:
         write_text(path, "\n".join(lines) + "\n")
     except OSError as error:
         raise RecordError(f"{path}: cannot be written ({error.strerror}); give a folder that exists") from None
-
-
-def _number(value):
-    text = f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
