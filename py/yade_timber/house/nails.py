@@ -12,8 +12,8 @@ gamma Ixy / Iy x along its height:
 over all boards, each with its own Ixy. The boards shear as well, by M / (G V) with their volume V. The wall's shear is
 M over its height H:
 
-    K = 1 / (1/(k Ixy) + 1/(G V)) / H      gamma_v = Mu / (H K)      gamma_u = gamma_v + (du - Pv/k) Zpxy / Ixy      mu
-    = gamma_u / gamma_v Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
+    K = 1 / (1/(k Ixy) + 1/(G V)) / H      gamma_v = Mu / (H K)      gamma_u = gamma_v + (du - Pv/k) Zpxy / Ixy
+    mu = gamma_u / gamma_v                 Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
 
 Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed
 calculation of walls with boards; the formulas follow from the mechanics above.
