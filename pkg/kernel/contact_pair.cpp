@@ -328,7 +328,7 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
 		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
 		             none = 0.;
-		const Vec shear = clipped<Number>(record.get(&PointRecord::shearForce), limit);
+		const Vec shear = clipped(Vec(record.get(&PointRecord::shearForce)), limit);
 		record.set(&PointRecord::shearForce, shear);
 		record.set(&PointRecord::dashpotForce, Vec(force - e * axes[0] - shear));
 

@@ -199,13 +199,14 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards)
 	return changed || sweepJoints(threshold);
 }
 
-/// Returns whether another sweep over the pairs is needed.
-bool ContactSolver::sweepJoints(double threshold)
+/// Returns whether another sweep over the pairs is needed. applied: share of the threshold from which on changes are
+/// applied [-]
+bool ContactSolver::sweepJoints(double threshold, double applied)
 {
 	bool changed = false;
 	for (ModalConstraint& joint : joints) {
 		const double limit = threshold * joint.thresholdShare;
-		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), limit * double(joint.count));
+		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), applied * limit * double(joint.count));
 		changed = activateNeighbours(joint, limit) || changed;
 	}
 	return changed;
@@ -307,11 +308,7 @@ void ContactSolver::stepAlong(ConjugateDirection& d)
 bool ContactSolver::sweepAll(double threshold)
 {
 	++sweepCount;
-	bool changed = false;
-	for (ModalConstraint& joint : joints) {
-		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
-		changed = changed || joint.squaredChange > threshold * joint.thresholdShare;
-	}
+	bool changed = sweepJoints(threshold, 0);
 	for (SolverPair& pair : pairs) {
 		solvePair(pair, true);
 		changed = changed || pair.squaredChange > threshold * double(pair.count);

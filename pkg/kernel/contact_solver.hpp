@@ -210,7 +210,7 @@ private:
 	/// Connection: SolverPair or ModalConstraint.
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards);
-	bool sweepJoints(double threshold);
+	bool sweepJoints(double threshold, double applied = 1);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
 	bool returnsTooMuch() const;

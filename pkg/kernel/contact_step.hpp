@@ -54,15 +54,6 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 template <class Number>
 Vec3Of<Number> explicitImpulse(const StepInput<Number>& p, const SolverBodies& bodies, double h);
 
-/// v, shortened to the length if it is longer.
-template <class Number> Vec3Of<Number> clipped(const Vec3Of<Number>& v, Number length)
-{
-	const Number square = v.squaredNorm();
-	return selectLazily(
-	        square > length * length, [&] { return Vec3Of<Number>(v * Number(length / sqrt(square))); },
-	        [&] { return v; });
-}
-
 namespace detail {
 
 	/// Coefficients of (2) in one direction of a point.
@@ -213,7 +204,7 @@ template <class Number> Vec3Of<Number> explicitImpulse(const StepInput<Number>& 
 	const Vec3Of<Number> shearForce = selectLazily(
 	        p.elasticShear.squaredNorm() > limit * limit, [&] { return p.elasticShear; },
 	        [&] { return Vec3Of<Number>(p.elasticShear - dashpotForce); });
-	return Number(h) * (normalForce * p.normal + clipped<Number>(shearForce, limit));
+	return Number(h) * (normalForce * p.normal + clipped(shearForce, limit));
 }
 
 } // namespace timber

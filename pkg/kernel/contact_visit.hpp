@@ -10,9 +10,7 @@ namespace timber {
 /// Normal impulse that returns the energy A_n: p_A of (5). base: b [m/s].
 inline double energyImpulse(const PointStep& c, double base)
 {
-	// p (sum + a p) = 2 A_n
-	const double sum = c.before[0] + base, root = std::sqrt(sum * sum + 8 * c.response() * c.energy);
-	return sum > 0 ? 4 * c.energy / (sum + root) : (root - sum) / (2 * c.response());
+	return largestShare(c.before[0] + base, c.response(), c.energy);
 }
 
 /// Normal impulse with which an impact ends: p_w of (6). base: b [m/s].
@@ -91,60 +89,42 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	return p;
 }
 
-/// Tangential impulse of a point, in the axes of its two tangents.
-struct Shear {
-	double t, u;
-
-	double dot(const Shear& o) const { return t * o.t + u * o.u; }
-	Shear operator*(double s) const { return { t * s, u * s }; }
-	Shear operator+(const Shear& o) const { return { t + o.t, u + o.u }; }
-};
-
-/// Work of a tangential impulse on the bodies, as far as it exceeds the account A_s of (5).
-struct ShearWork {
-	Shear velocity; ///< v + b [m/s]
-	double att, atu, auu; ///< R: velocity change by a unit impulse [1/kg]
+/// Rule (5) for the tangential impulse p of a point, in the axes of its tangents.
+struct ShearAccount {
+	Vec2 velocity; ///< v + b [m/s]
+	Mat2 response; ///< R: velocity change by a unit impulse [1/kg]
 	double account; ///< A_s [J]
 
-	Shear responseTo(const Shear& p) const { return { att * p.t + atu * p.u, atu * p.t + auu * p.u }; }
-	/// 2 (p (v + b + R p) / 2 - A_s) [J]
-	double excess(const Shear& p) const { return p.dot(velocity + responseTo(p)) - 2 * account; }
-	/// The impulse closest to p, which exceeds the account, that does not: p(l) = (1 + 2 l R)^-1 (p - l (v + b)) with
-	/// excess(p(l)) = 0, which falls with l and is convex. Newton's method does not pass the root.
-	Shear closestTo(const Shear& p) const
+	/// By how much p returns more than the account, times two. [J]
+	double excess(const Vec2& p) const { return p.dot(velocity + response * p) - 2 * account; }
+	/// p, shortened if it returns more. [N s]
+	Vec2 shortened(const Vec2& p) const
 	{
-		Shear q = p;
+		const double linear = p.dot(velocity), square = p.dot(response * p);
+		return linear + square > 2 * account ? Vec2(p * largestShare(linear, square, account)) : p;
+	}
+	/// The impulse closest to p, which returns too much, that does not: p(l) = (1 + 2 l R)^-1 (p - l (v + b)), whose
+	/// excess falls with l and is convex. Newton's method does not pass the root.
+	Vec2 closestTo(const Vec2& p) const
+	{
+		Vec2 q = p;
 		double l = 0;
 		for (int k = 0; k < projectionSteps; ++k) {
-			const double tt = 1 + 2 * l * att, tu = 2 * l * atu, uu = 1 + 2 * l * auu,
-			             det = tt * uu - tu * tu;
-			const auto solved = [&](const Shear& x) {
-				return Shear { (uu * x.t - tu * x.u) / det, (tt * x.u - tu * x.t) / det };
+			const Mat2 matrix = Mat2::Identity() + 2 * l * response;
+			const auto solved = [&](const Vec2& x) {
+				return Vec2(Vec2(matrix(1, 1) * x[0] - matrix(0, 1) * x[1],
+				                    matrix(0, 0) * x[1] - matrix(0, 1) * x[0])
+				        / matrix.determinant());
 			};
-			q = solved(p + velocity * -l);
+			q = solved(p - l * velocity);
 			const double more = excess(q);
-			if (more <= projectionTolerance * q.dot(responseTo(q))) break;
-			const Shear slope = velocity + responseTo(q) * 2;
+			if (more <= projectionTolerance * q.dot(response * q)) break;
+			const Vec2 slope = velocity + 2 * (response * q);
 			l += more / slope.dot(solved(slope));
 		}
-		return q * shareOf(q);
-	}
-	/// Share of p that returns the account.
-	double shareOf(const Shear& p) const
-	{
-		const double linear = p.dot(velocity), square = p.dot(responseTo(p));
-		if (linear + square <= 2 * account) return 1;
-		const double root = std::sqrt(linear * linear + 8 * square * account);
-		return linear > 0 ? 4 * account / (linear + root) : (root - linear) / (2 * square);
+		return shortened(q);
 	}
 };
-
-/// p, shortened to the length if it is longer.
-inline Shear clippedShear(const Shear& p, double length)
-{
-	const double square = p.dot(p);
-	return square > length * length ? p * (length / std::sqrt(square)) : p;
-}
 
 /// Tangential impulse within the limits (4) of friction and (5) of energy. p: by (2), in-out; before: impulse before
 /// the visit; u: velocity with that impulse and the new normal one [m/s].
@@ -152,14 +132,15 @@ inline Shear clippedShear(const Shear& p, double length)
         const PointStep& c, PointStep::Quad& p, const PointStep::Quad& before, const PointStep::Quad& u)
 {
 	const double limit = c.friction * p[0];
-	ShearWork work { { c.before[1] + u[1], c.before[2] + u[2] }, c.shearResponse[0], c.shearResponse[1],
-		c.shearResponse[2], c.shearEnergy };
-	work.velocity = work.velocity + work.responseTo({ before[1], before[2] }) * -1;
-	Shear shear = clippedShear({ p[1], p[2] }, limit);
-	// Both limits are convex and contain 0: shortening keeps (5)
-	if (work.excess(shear) > 0) shear = clippedShear(work.closestTo(shear), limit);
-	p[1] = shear.t;
-	p[2] = shear.u;
+	const PointStep::Quad& a = c.shearResponse;
+	ShearAccount limits { Vec2(c.before[1] + u[1], c.before[2] + u[2]), Mat2(), c.shearEnergy };
+	limits.response << a[0], a[1], a[1], a[2];
+	limits.velocity -= limits.response * Vec2(before[1], before[2]);
+	Vec2 shear = clipped(Vec2(p[1], p[2]), limit);
+	// No impulse moves two fixed bodies. Both limits are convex and contain 0: shortening keeps (5)
+	if (limits.excess(shear) > 0 && a[0] > 0) shear = clipped(limits.closestTo(shear), limit);
+	p[1] = shear[0];
+	p[2] = shear[1];
 }
 
 /// One visit. velocity: change of the pair's weighted velocities, in-out. Returns the squared change of the impulse.

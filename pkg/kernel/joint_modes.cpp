@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace timber {
 namespace {
@@ -149,7 +148,8 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 	c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
 	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(), x = ratio * phase, y = phase.square();
 	const Eigen::Array<double, 6, 1> g = (phase > stiffPhase).select(y.square() / (4 * y + 2), 0.);
-	c.thresholdShare = std::pow(std::max(stiffPhase, phase.maxCoeff()), -4);
+	const double stiffest = std::max(stiffPhase, phase[5]), square = stiffest * stiffest; // frequencies increase
+	c.thresholdShare = 1 / (square * square);
 	c.decay = x;
 	c.share = (x + g) / (1 + x + g);
 	c.shareBefore = (x - g) / (1 + x + g);
@@ -165,10 +165,7 @@ void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, do
 	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before); // (3)
 	const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
 	const double account = std::max(0., c.stored);
-	if (linear + square > 2 * account) { // (4)
-		const double root = std::sqrt(linear * linear + 8 * square * account);
-		q *= linear > 0 ? 4 * account / (linear + root) : (root - linear) / (2 * square);
-	}
+	if (linear + square > 2 * account) q *= largestShare(linear, square, account); // (4)
 	const Vec6 change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;

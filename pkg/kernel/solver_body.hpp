@@ -5,6 +5,22 @@
 
 namespace timber {
 
+/// v, shortened to the length if it is longer. Vector: of two or three Numbers.
+template <class Vector, class Number> Vector clipped(const Vector& v, Number length)
+{
+	const Number square = v.squaredNorm();
+	return selectLazily(
+	        square > length * length, [&] { return Vector(v * Number(length / sqrt(square))); }, [&] { return v; });
+}
+
+/// Largest factor s of an impulse whose work on the bodies, s (linear + s square) / 2, is at most the account. [-]
+/// linear, square: two parts of the work, one of them > 0; account: >= 0 [J].
+inline double largestShare(double linear, double square, double account)
+{
+	const double root = std::sqrt(linear * linear + 8 * square * account);
+	return linear > 0 ? 4 * account / (linear + root) : (root - linear) / (2 * square);
+}
+
 struct SolverBody {
 	Vec3 velocity, spin; ///< before the step [m/s, rad/s]
 	Vec3 newVelocity, newSpin; ///< in: after all forces except contacts and joint dashpots; out: after these, too

@@ -94,7 +94,7 @@ struct LoadedMass {
 		solveContacts(bodies, heap, h, sweeps);
 		velocity = bodies[1].newVelocity;
 		displacement += h * velocity;
-		shear = clipped<double>(shear, friction * (heap[0].impulse.z() / h));
+		shear = clipped(shear, friction * (heap[0].impulse.z() / h));
 		shear -= h * stiffness * Vec3(velocity.x(), velocity.y(), 0);
 	}
 };
@@ -216,9 +216,9 @@ TEST(Limits, SpringAndDashpotTogetherRespectCoulomb)
 		EXPECT_GT(points[0].impulse.x(), 0); // against the slide
 		EXPECT_LT(points[0].impulse.y(), 0);
 	}
-	EXPECT_EQ(clipped<double>({ 3, 4, 0 }, 0.5 * 20), Vec3(3, 4, 0));
-	EXPECT_LT((clipped<double>({ 3, 4, 0 }, 0.5 * 5) - Vec3(1.5, 2, 0)).norm(), rounding);
-	EXPECT_EQ(clipped<double>({ 3, 4, 0 }, 0.5 * 0), Vec3::Zero());
+	EXPECT_EQ(clipped(Vec3 { 3, 4, 0 }, 0.5 * 20), Vec3(3, 4, 0));
+	EXPECT_LT((clipped(Vec3 { 3, 4, 0 }, 0.5 * 5) - Vec3(1.5, 2, 0)).norm(), rounding);
+	EXPECT_EQ(clipped(Vec3 { 3, 4, 0 }, 0.5 * 0), Vec3::Zero());
 }
 
 TEST(Limits, AreRespectedInHeaps)

@@ -168,19 +168,32 @@ TEST(Visit, TangentialImpulseIsTheClosestAdmissibleOne)
 	for (int trial = 0; trial < 300; ++trial) {
 		const double att = logUniform(random, 0.1, 10), auu = logUniform(random, 0.1, 10),
 		             atu = uniform(random, -0.9, 0.9) * std::sqrt(att * auu);
-		const ShearWork work { { uniform(random, -1, 1), uniform(random, -1, 1) }, att, atu, auu,
+		ShearAccount limits { Vec2(uniform(random, -1, 1), uniform(random, -1, 1)), Mat2(),
 			oneOf(random, 2) ? 0 : logUniform(random, 1e-4, 0.1) };
-		const Shear wanted { uniform(random, -2, 2), uniform(random, -2, 2) };
-		if (work.excess(wanted) <= 0) continue;
-		const Shear p = work.closestTo(wanted);
-		EXPECT_LE(work.excess(p), 1e-12) << trial;
-		const auto distance = [&](const Shear& q) { return std::hypot(q.t - wanted.t, q.u - wanted.u); };
+		limits.response << att, atu, atu, auu;
+		const Vec2 wanted(uniform(random, -2, 2), uniform(random, -2, 2));
+		if (limits.excess(wanted) <= 0) continue;
+		const Vec2 p = limits.closestTo(wanted);
+		EXPECT_LE(limits.excess(p), 1e-12) << trial; // rounding of products of order 10
 		for (int k = 0; k < 3600; ++k) {
 			const double angle = 2 * M_PI * k / 3600;
-			const Shear ray { 100 * std::cos(angle), 100 * std::sin(angle) };
-			EXPECT_GE(distance(ray * work.shareOf(ray)), distance(p) * (1 - 1e-5)) << trial;
+			const Vec2 onBoundary = limits.shortened(100 * Vec2(std::cos(angle), std::sin(angle)));
+			// The excess that Newton's method leaves: projectionTolerance, ten times for the slope
+			EXPECT_GE((onBoundary - wanted).norm(), (p - wanted).norm() * (1 - 1e-5)) << trial;
 		}
 	}
+}
+
+/// No impulse moves two fixed bodies: (5) does not limit it.
+TEST(Visit, TangentialImpulseOfFixedBodies)
+{
+	PointStep c {};
+	c.friction = 0.5;
+	c.before = PointStep::Quad { 0, 1, 0, 0 };
+	PointStep::Quad p { 10, 2, 1, 0 };
+	limitShear(c, p, PointStep::Quad {}, c.before);
+	EXPECT_EQ(p[1], 2);
+	EXPECT_EQ(p[2], 1);
 }
 
 /// Visits of one point end at an impulse, also where the tangents have different responses and the account is empty.
@@ -207,7 +220,7 @@ TEST(Visit, RepeatedVisitsEnd)
 		c.friction = 0.5;
 		PairVector velocity {};
 		int visits = 0;
-		while (visits < 20000 && visitPoint(c, velocity) > 1e-18)
+		while (visits < 20000 && visitPoint(c, velocity) > 1e-18) // of impulses of order 1
 			++visits;
 		EXPECT_LT(visits, 20000) << trial;
 	}
