@@ -147,23 +147,6 @@ def test_one_process_a_folder(tmp_path):
     assert not is_locked(tmp_path)
 
 
-def test_a_copy_of_the_process_does_not_hold_the_lock(tmp_path):
-    """A drawer that outlives its killed process does not keep others out."""
-    ready, end = os.pipe(), os.pipe()
-    with locked(tmp_path) as free:
-        copy = os.fork()
-        if not copy:
-            os.write(ready[1], b"x")
-            os.read(end[0], 1)
-            os._exit(0)
-        os.read(ready[0], 1)
-    try:
-        assert free and not is_locked(tmp_path)
-    finally:
-        os.write(end[1], b"x")
-        os.waitpid(copy, 0)
-
-
 @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: None])
 def test_only_regular_files_are_read(tmp_path, make):
     make(tmp_path / "x")

@@ -9,8 +9,6 @@ from .atomic_write import make_folder
 from .errors import os_errors
 
 LOCK = ".lock"
-_descriptors = set()
-"""Open lock files of this process."""
 
 
 def prepare_folder(folder, option):
@@ -22,10 +20,9 @@ def prepare_folder(folder, option):
 
 @contextmanager
 def locked(folder):
-    """True while this process alone, without its copies (fork), has the folder; else False. Raises RunError."""
+    """True while this process alone has the folder; else False. Raises RunError."""
     with os_errors(lambda fault: f"{folder / LOCK}: cannot be opened: {fault}"):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-    _descriptors.add(descriptor)
     try:
         free = False
         with suppress(BlockingIOError):
@@ -33,18 +30,7 @@ def locked(folder):
             free = True
         yield free
     finally:
-        _descriptors.discard(descriptor)
         os.close(descriptor)
-
-
-def _close_in_copy():
-    """In a copy of the process, which would hold the lock for as long as it lives."""
-    for descriptor in _descriptors:
-        os.close(descriptor)
-    _descriptors.clear()
-
-
-os.register_at_fork(after_in_child=_close_in_copy)
 
 
 def is_locked(folder):

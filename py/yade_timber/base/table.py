@@ -1,7 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Text of CSV files."""
+"""CSV files."""
 import csv
 import io
+
+from .errors import RunError
+from .input_file import require_regular
+
+
+def read_csv(path):
+    """(header, list of rows), cells as text. Raises RunError."""
+    require_regular(path)
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+    except (OSError, ValueError, csv.Error) as problem:
+        raise RunError(f"{path}: cannot be read as a table: {problem}") from None
+    return header, rows
 
 
 def csv_text(header, rows):

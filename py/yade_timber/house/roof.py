@@ -138,7 +138,7 @@ def bodies(structure, layer, depth=None):
         low, high = outline(structure, layer)
         return {"": box([*low, z0], [*high, z1])}
     plan = pitched_plan(structure, layer)
-    return {side: structure.cut(f"{kind}.{side}", plan.snow(side, depth) if depth else plan.slab(side),
+    return {side: structure.cut(f"{kind}.{side}", plan.slab(side) if depth is None else plan.snow(side, depth),
                                 layer.table.where) for side in plan.sides}
 
 

@@ -116,6 +116,13 @@ def jma_filtered(motion):
     return np.fft.irfft(np.fft.rfft(motion.acceleration, axis=0) * gain[:, None], n, axis=0)
 
 
+def stated_intensity(motion):
+    """Official JMA intensity, None for a motion of zeros or of less than 0.3 s."""
+    if motion.duration < INTENSITY_DURATION or not motion.acceleration.any():
+        return None
+    return jma_intensity(motion).official
+
+
 def jma_intensity(motion):
     """JMA instrumental intensity of three components -> JmaIntensity. The record must last 0.3 s or more."""
     count = int(np.ceil(INTENSITY_DURATION / motion.dt - 1e-9))

@@ -85,7 +85,7 @@ class Caption:
         if fallen.any():
             return ", ".join([f"{fallen.sum()} of {len(fallen)} columns fallen", *parts])
         if self.drifts is not None:
-            drift = self.drifts[max(0, np.searchsorted(run.history.time, shown, side="right") - 1)]
+            drift = self.drifts[run.history.row_at(shown)]
             most = DRIFT_LINES[-1][0]
             parts.insert(0, f"storey drift {ratio(drift)}" if drift <= most else f"leaning by more than {ratio(most)}")
         return ", ".join(parts)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ..base.atomic_write import written_whole
-from ..text.english import LONGEST_TEXT, one_line
+from ..text.english import LONGEST_TEXT, cut_line
 from . import fonts
 from .style import default_style
 
@@ -71,7 +71,7 @@ def drawable(text, most=LONGEST_TEXT):
 
     Every name, title or message that comes from a file passes through here before it is drawn.
     """
-    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in one_line(text, most))
+    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in cut_line(text, most))
     return line.replace("$", r"\$")
 
 

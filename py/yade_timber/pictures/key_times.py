@@ -62,8 +62,7 @@ def state(frames, frame):
     if collapse is not None and time >= collapse:
         return "after the collapse"
     if frames.history and frames.history.samples:
-        row = max(0, np.searchsorted(frames.history.time, time, side="right") - 1)
-        return f"drift {ratio(frames.history.largest_drift()[row])}"
+        return f"drift {ratio(frames.history.largest_drift()[frames.history.row_at(time)])}"
     return counted(int((frames.joint_states(frame) == "broken").sum()), "broken joint")
 
 

@@ -24,7 +24,7 @@ from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaki
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
-from ..text.english import one_line
+from ..text.english import cut_line
 from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
 from .packing import pack, times
 from .provenance import provenance
@@ -67,7 +67,7 @@ def digest(text):
 
 def plain(text):
     """A text from data on one line that UTF-8 can hold."""
-    return one_line(text).encode("utf-8", "replace").decode()
+    return cut_line(text).encode("utf-8", "replace").decode()
 
 
 def packed(source, run):

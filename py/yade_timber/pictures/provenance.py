@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Origin of a run in one line: record, factor, PGA, intensity, place in an ensemble, time step, versions."""
-from ..motion import GroundMotion, jma_intensity, pga
+from ..motion import GroundMotion, pga
+from ..motion.measures import stated_intensity
 from ..text import english
-
-SHORTEST = 1.0
-"""Duration of a motion that has an intensity. [s]"""
 
 
 def provenance(frames, language=english):
@@ -32,6 +30,7 @@ def shaking(frames, words):
     source = f"{words['record']} {record.source}" if record and record.source else words["motion"]
     factor = f" x {record.scale:g}" if record else ""
     parts = [source + factor, f"PGA {pga(applied):.0f} gal"]
-    if applied.duration >= SHORTEST and pga(applied) > 0:
-        parts.append(f"{words['intensity']} {jma_intensity(applied).official:.1f}")
+    intensity = stated_intensity(applied)
+    if intensity is not None:
+        parts.append(f"{words['intensity']} {intensity:.1f}")
     return ", ".join(parts)

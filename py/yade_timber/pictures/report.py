@@ -16,7 +16,8 @@ from ..base.errors import RunError
 from ..base.gravity import weight_of
 from ..base.html import html
 from ..base.options import words
-from ..motion import GroundMotion, jma_intensity, pga, pgv
+from ..motion import GroundMotion, pga, pgv
+from ..motion.measures import stated_intensity
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.failures import first_failures
@@ -141,10 +142,10 @@ def motion(frames, summary):
     applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
     peaks = ", ".join(f"{name} {pga(applied, key):.0f}"
                       for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
-    has_intensity = applied.duration >= 0.3 and applied.acceleration.any()
-    intensity = f", JMA intensity {jma_intensity(applied).official:.1f}" if has_intensity else ""
+    intensity = stated_intensity(applied)
+    stated = "" if intensity is None else f", JMA intensity {intensity:.1f}"
     scale = f", times {summary.record.scale:g}" if summary.record.scale != 1 else ""
-    return f"{summary.record.source}{scale}: PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s{intensity}."
+    return f"{summary.record.source}{scale}: PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s{stated}."
 
 
 def joints(results):

@@ -53,6 +53,10 @@ class History(Series):
         """(F,) term of the energy balance. [J]"""
         return self.column(f"{term} [J]")
 
+    def row_at(self, time):
+        """Number of the last sample at or before a time [s], at least 0."""
+        return max(0, int(np.searchsorted(self.time, time, side="right")) - 1)
+
     @property
     def broken_joints(self):
         """(F,) number of joints without a spring left, those damaged before the start included. [-]"""

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run."""
-import csv
 import math
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from pathlib import Path
 
 from ..base.errors import RunError
-from ..base.input_file import exists, require_regular
+from ..base.input_file import exists
+from ..base.table import read_csv
 
 JOINTS, COLUMNS = "joints.csv", "columns.csv"
 
@@ -21,12 +22,8 @@ class Peaks:
 
 def rows(path):
     """List of {column: text} of a CSV file. Raises RunError."""
-    require_regular(path)
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-    except (OSError, ValueError, csv.Error) as problem:
-        raise RunError(f"{path}: cannot be read as a table: {problem}") from None
+    header, lines = read_csv(path)
+    return [dict(zip_longest(header, line)) for line in lines if line]
 
 
 def read(folder):

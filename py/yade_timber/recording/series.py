@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables of numbers over time: CSV files whose columns have names with units."""
-import csv
 from collections import namedtuple
 
 import numpy as np
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.input_file import require_regular
-from ..base.table import csv_text
+from ..base.table import csv_text, read_csv
 
 
 class Series(namedtuple("Table", "columns rows")):
@@ -27,12 +25,7 @@ class Series(namedtuple("Table", "columns rows")):
     @classmethod
     def read(cls, path):
         """Table of a CSV file. Raises RunError with file and line when it is none."""
-        require_regular(path)
-        try:
-            with open(path, newline="", encoding="utf-8") as file:
-                header, *lines = csv.reader(file)
-        except (OSError, ValueError, csv.Error) as problem:
-            raise RunError(f"{path}: cannot be read as a table: {problem}") from None
+        header, lines = read_csv(path)
         rows = []
         for number, line in enumerate(lines, 2):
             try:

@@ -33,9 +33,11 @@ def _scenario(options, motion, delay=0.0, last=0.0):
     duration = (options.duration if options.duration is not None else motion.duration + last if motion
                 else QUIET_DURATION)
     snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
-    return Scenario(options.title, options.house, motion, snow, 1.0 if options.scale is None else options.scale,
-                    delay if motion else 0.0, options.dt, duration, options.until_collapse, options.joint_damping,
-                    options.walls, options.disturb, {"skip_rest": 0} if options.every_step else {})
+    return Scenario(options.title, options.house, motion, snow_depth=snow,
+                    scale=1.0 if options.scale is None else options.scale, delay=delay if motion else 0.0,
+                    dt=options.dt, duration=duration, until_collapse=options.until_collapse,
+                    joint_damping=options.joint_damping, wall_level=options.walls, disturb=options.disturb,
+                    options={"skip_rest": 0} if options.every_step else {})
 
 
 def _lot(options, lot, motion, delay, last):

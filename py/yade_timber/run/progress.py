@@ -13,7 +13,6 @@ from ..text import english
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
 TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 """Shortest wall time between two states of the bar, on a terminal and in a log file. [s]"""
-tqdm.monitor_interval = 0  # no thread that refreshes bars
 
 
 class Status:
@@ -42,7 +41,8 @@ class Bar:
 
     def __init__(self, name, total, start, quiet, status=None):
         refresh = TERMINAL_REFRESH if sys.stderr.isatty() else LOG_REFRESH
-        self.bar = tqdm(total=total, initial=start, desc=name, bar_format=BAR, mininterval=refresh, disable=quiet)
+        self.bar = tqdm(total=total, initial=start, desc=name, bar_format=BAR, mininterval=refresh,
+                        maxinterval=LOG_REFRESH, disable=quiet)
         self.status = status
 
     def __enter__(self):

@@ -4,6 +4,8 @@
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the StructureMonitor.
 """
 from dataclasses import dataclass
+from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 import yade.wrapper as yw
@@ -74,6 +76,43 @@ def _shears(table, name):
 # --- joints and columns -----------------------------------------------------------------------------------------------
 
 
+class JointRow(NamedTuple):
+    """Row of joints.csv. per: 'point' or 'joint'; broken: number of springs"""
+
+    name: str
+    kind: str
+    storey: str
+    side: str
+    utilisation: float
+    pull: float
+    shear: float
+    opening: float
+    strength: float
+    per: str
+    broken: int
+    state: str
+
+
+class ColumnRow(NamedTuple):
+    """Row of columns.csv."""
+
+    name: str
+    structure: str
+    storey: int
+    east: float
+    north: float
+    uplift: float
+    pull: float
+    utilisation: float
+    state: str
+
+
+JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+                *("strength [N]", "strength of", "broken springs [-]", "state"))
+COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
+                 "state")
+
+
 def joint_peaks(observed):
     """Rows of joints.csv, the largest utilisation first. observed: Observer of the run"""
     model, (_, broken) = observed.model, observer.joint_loads()
@@ -83,15 +122,9 @@ def joint_peaks(observed):
         state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
                  else "whole")
         place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
-        rows.append((joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength), joint.per,
-                     int(springs), state))
-    return sorted(rows, key=lambda row: -row[4])
-
-
-JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
-                *("strength [N]", "strength of", "broken springs [-]", "state"))
-COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
-                 "state")
+        rows.append(JointRow(joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength),
+                             joint.per, int(springs), state))
+    return sorted(rows, key=lambda row: -row.utilisation)
 
 
 def column_feet(observed):
@@ -107,9 +140,9 @@ def column_feet(observed):
                                       survey.loose_columns(state)):
         uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
         x, y, _ = map(float, element.solid.centroid)
-        rows.append((element.name, element.group, element.storey, x, y, uplift, pull, load,
-                     "fallen" if fallen else "loose" if loose else "standing"))
-    return sorted(rows, key=lambda row: -row[5])
+        rows.append(ColumnRow(element.name, element.group, element.storey, x, y, uplift, pull, load,
+                              "fallen" if fallen else "loose" if loose else "standing"))
+    return sorted(rows, key=lambda row: -row.uplift)
 
 
 # --- summary and files ------------------------------------------------------------------------------------------------
@@ -117,7 +150,7 @@ def column_feet(observed):
 
 @dataclass(frozen=True)
 class Tables:
-    """Content of the files. storeys: Storeys; joints, columns: rows as JOINT_HEADER and COLUMN_HEADER"""
+    """Content of the files. storeys: Storeys; joints: JointRows; columns: ColumnRows"""
 
     storeys: quantities.Storeys
     joints: list
@@ -138,8 +171,8 @@ def tables(observed):
 
 def summarised(tables, observed):
     """Quantities of the summary. tables: Tables of the run; observed: Observer of the run"""
-    standing = [row for row in tables.columns if row[-1] == "standing"]
-    breakable = [row for row in tables.joints if np.isfinite(row[8])]
+    standing = [row for row in tables.columns if row.state == "standing"]
+    breakable = [row for row in tables.joints if np.isfinite(row.strength)]
     fall = observed.fall()
     collapsed = fall is not None
     return Quantities(
@@ -147,14 +180,14 @@ def summarised(tables, observed):
         modes=Modes(before=observed.modes,
                     after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
         **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys),
-        largest_utilisation=_largest(LargestUtilisation, tables.joints, 4, "joint", "value", 4),
-        largest_pull=_largest(LargestForce, breakable, 5, "joint", "force"),
-        largest_shear=_largest(LargestForce, breakable, 6, "joint", "force"),
-        largest_uplift=None if collapsed else _largest(LargestUplift, standing, 5, "column", "uplift_m"),
+        largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
+        largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),
+        largest_shear=_largest(LargestForce, breakable, "shear", "joint", "force"),
+        largest_uplift=None if collapsed else _largest(LargestUplift, standing, "uplift", "column", "uplift_m"),
     )
 
 
-def _largest(kind, rows, column, noun, value, digits=6):
-    """kind(noun: name, value: number) of the row with the largest number in a column, None without rows."""
-    row = max(rows, key=lambda row: row[column], default=None)
-    return row and kind(**{noun: row[0], value: round(float(row[column]), digits)})
+def _largest(kind, rows, quantity, noun, value, digits=6):
+    """kind(noun: name, value: number) of the row with the largest quantity, None without rows."""
+    row = max(rows, key=attrgetter(quantity), default=None)
+    return row and kind(**{noun: row.name, value: round(float(getattr(row, quantity)), digits)})

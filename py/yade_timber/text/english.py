@@ -285,7 +285,7 @@ def period_text(mode):
     return "unstable" if mode.period_s is None else f"{mode.period_s:.2f} s"
 
 
-def one_line(text, most=LONGEST_TEXT):
+def cut_line(text, most=LONGEST_TEXT):
     """A text from data on one line, cut to a number of letters."""
     line = " ".join(str(text)[: 4 * most].split())
     return line if len(line) <= most else line[: most - 1] + "…"
