@@ -161,7 +161,7 @@ constexpr int hardeningSteps = 40;
 constexpr double hardeningTolerance = 1e-6;
 
 /// Most iterations of Newton's method for the tangential impulse closest to one that returns too much [-], and the
-/// excess over p R p, twice the work of the impulse's own velocity, that ends them [-].
+/// excess over p S p, twice the work of the impulse's own velocity, that ends them [-].
 /// Four in the mean, 29 where the responses of the tangents differ by 1e6. The rest of the excess shortens the impulse.
 constexpr int projectionSteps = 30;
 constexpr double projectionTolerance = 1e-6;

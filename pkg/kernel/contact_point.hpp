@@ -35,7 +35,7 @@ struct PointStep {
 	PairVector rows[3]; ///< of J R
 	Quad before, velocity; ///< v, u0 [m/s]
 	Quad impulse; ///< p: warm start; after the sweeps the contact impulse on B in these axes [N s]
-	Quad factor, bias, mass; ///< f, b, M
+	Quad factor, bias, mass; ///< f, B, M
 	Quad column; ///< a_n, a_nt, a_nu: velocity change by a unit normal impulse [1/kg]
 	Quad shearResponse; ///< a_tt, a_tu, a_uu: by tangential impulses [1/kg]
 	double friction; ///< mu

@@ -14,13 +14,13 @@
 /// springs on one member are stable if N y (1/4 - beta) = N y / (8 y + 4) < 1: up to eight at any step.
 /// Let u be the current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then
 /// (1) is
-///     p = f p0 + b - M u                                                                        (2)
-///     M = D / (1 + a D),   f = a M,   b = (h e + Q v) / (1 + a D)
+///     p = f p0 + B - M u                                                                        (2)
+///     M = D / (1 + a D),   f = a M,   B = (h e + Q v) / (1 + a D)
 ///     D = theta h C + beta h2 K,   Q = beta h2 K - (1 - theta) h C
 /// The solver visits one point after the other. Let b = u_n - a p_n0 be its velocity without its own impulse. A visit
 /// solves (2) within the limits of the contact:
 ///     normal      p_n = max(0, min(p, p_A, p_w)),   p by (2) or (7)                             (3)
-///     tangential  p_s = f_s p_s0 + b_s - M_s (u_s + a_ns (p_n - p_n0)), shortened to mu p_n        (4)
+///     tangential  p_s = f_s p_s0 + B_s - M_s (u_s + a_ns (p_n - p_n0)), shortened to mu p_n        (4)
 /// A spring returns at most its account A, the work that the bodies have done on it as far as it is neither returned
 /// nor dissipated:
 ///     energy      p (v + v') / 2 <= A,   p_A (v + b + a p_A) / 2 = A_n                             (5)
@@ -56,14 +56,14 @@
 /// Accelerated sweeps. Where light members are pressed between heavy ones plain sweeps converge slowly, and a small
 /// change in the last one does not mean a small error: points may have returned more than (5) admits. A step that
 /// takes more than plainSweeps, or in which points have returned too much after slowSweeps or more, goes on with
-/// sweeps over all pairs and joints. A step along the conjugate direction d precedes each of them:
-///     x <- x' + gamma d,   d <- gamma d + (x' - x),   gamma = |x' - x|^2 / |x' - x|^2 of the sweep before    (9)
-/// with all impulses and velocities x before, x' after a sweep; gamma >= 1 starts anew with d = x' - x and no step
+/// sweeps over all pairs and joints. A step along the conjugate direction G precedes each of them:
+///     Z <- Z' + gamma G,   G <- gamma G + (Z' - Z),   gamma = |Z' - Z|^2 / |Z' - Z|^2 of the sweep before    (9)
+/// with all impulses and velocities Z before, Z' after a sweep; gamma >= 1 starts anew with G = Z' - Z and no step
 /// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),
 /// 893-901). They end after a sweep, so that (3) to (6) hold.
 ///
-/// Mass-weighted velocities: W = M^1/2 V for the velocities and spins V of a pair, M^-1 = R R^T (Cholesky). A row of J
-/// gives a component of the relative velocity at a point, u = J V. An impulse p changes u by (J R) (J R)^T p:
+/// Mass-weighted velocities: W = R^-1 V for the velocities and spins V of a pair, R R^T: the inverse of its mass matrix
+/// (Cholesky). A row of J gives a component of the relative velocity at a point, u = J V. An impulse p changes u by (J R) (J R)^T p:
 ///     u = u_0 + J R dW,   dW += (J R)^T p                                                       (8)
 /// with the component u_0 before the sweeps and the change dW of W since then. Each point has three rows: normal and
 /// two tangents.
@@ -74,7 +74,7 @@
 ///     a_ns       column         tangential velocity change by a unit normal impulse [1/kg]
 ///     A_n, A_s   energy         accounts of the springs (PointHistory) [J]
 ///     b          base           velocity of separation without the point's own impulse [m/s]
-///     b_n, b_s   bias           in (2): impulse of the elastic force and of the velocity before the step [N s]
+///     B_n, B_s   bias           in (2): impulse of the elastic force and of the velocity before the step [N s]
 ///     beta       -              Newmark's parameter [-]
 ///     c          hardening      c n_0^q: part of the normal force that hardens [N]
 ///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]

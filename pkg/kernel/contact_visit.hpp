@@ -92,7 +92,7 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 /// Rule (5) for the tangential impulse p of a point, in the axes of its tangents.
 struct ShearAccount {
 	Vec2 velocity; ///< v + b [m/s]
-	Mat2 response; ///< R: velocity change by a unit impulse [1/kg]
+	Mat2 response; ///< S: velocity change by a unit impulse [1/kg]
 	double account; ///< A_s [J]
 
 	/// By how much p returns more than the account, times two. [J]
@@ -103,7 +103,7 @@ struct ShearAccount {
 		const double linear = p.dot(velocity), square = p.dot(response * p);
 		return linear + square > 2 * account ? Vec2(p * largestShare(linear, square, account)) : p;
 	}
-	/// The impulse closest to p, which returns too much, that does not: p(l) = (1 + 2 l R)^-1 (p - l (v + b)), whose
+	/// The impulse closest to p, which returns too much, that does not: p(l) = (1 + 2 l S)^-1 (p - l (v + b)), whose
 	/// excess falls with l and is convex. Newton's method does not pass the root.
 	Vec2 closestTo(const Vec2& p) const
 	{
